@@ -20,7 +20,7 @@ constexpr std::array kValues = {
     Values{"FILE IN INPUT OUT output model markers static setup tasks forces rig nominal data report figures "
            "segments skeleton edits joints record certificate key",
            "FILE"},
-    Values{"out man-pages", "FOLDER"},
+    Values{"out man-pages geometry", "FOLDER"},
     Values{"rate cutoff half-gain resample", "HZ"},
     Values{"duration start end max-gap longest-gap", "S"},
     Values{"step", "MS"},

@@ -67,6 +67,12 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
                   "Which person of images that show several: the file's number, else the place in the frame "
                   "or file from 1")
       ->group("Images");
+  command
+      .add_option(
+          "--geometry", job.geometry,
+          "Folder with the meshes that the .osim names, for the page; looked into after the model's own "
+          "folder and Geometry/ there. Repeatable.")
+      ->group("Output");
   command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
   command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
       ->group("Markers");

@@ -31,6 +31,12 @@ void add_report(CLI::App& app, const CommonOptions& common, Run& run) {
                    "Axis that points up in the recording: x, y, z, -x, -y, -z, or auto to find it")
       ->type_name("AXIS")
       ->group("Input");
+  command
+      ->add_option(
+          "--geometry", job->geometry,
+          "Folder with the meshes that the .osim names, of joint angles; looked into after the model's "
+          "own folder and Geometry/ there. Repeatable.")
+      ->group("Input");
   command->callback([&common, job, &run] {
     run = [&common, job] { return run_job(common, "pages", *job, pipeline::run_report, print_written); };
   });

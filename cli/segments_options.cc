@@ -20,6 +20,10 @@ void print_segments(const CommonOptions& common, const pipeline::SegmentsOutcome
       fmt::format("{}: {}, {} and {} in {}.", outcome.title, counted(std::ssize(motion.angles), "angle"),
                   counted(std::ssize(motion.values), "value"), counted(motion.points.markers(), "point"),
                   counted(motion.time.frames, "frame")));
+  if (!outcome.loads.series.empty())
+    say(common, fmt::format("Joints: {} of forces, moments and powers, from {} on force plates.",
+                            counted(std::ssize(outcome.loads.series), "series", "series"),
+                            counted(std::ssize(outcome.loads.steps), "step")));
   for (const auto& [name, found] : outcome.cross_talk)
     if (!found.suspicious()) say(common, found.sentence(name));
   say_written(common, outcome);
@@ -68,6 +72,7 @@ int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job
   job.selection = measures.job.selection;
   job.keep_defects = measures.job.keep_defects;
   job.noise_sd_m = 1e-3 * measures.noise_mm;
+  job.refits = measures.job.refits;
   return run_job(common, "files", job, pipeline::run_segments, print_segments);
 }
 

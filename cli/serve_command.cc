@@ -11,9 +11,12 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/motion_arguments.h"
+#include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/live/live_source.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
 #include "server/http_server.h"
@@ -32,6 +35,8 @@ struct ServeArguments {
   std::uint16_t port = 0;
   bool no_open = false;
   std::filesystem::path model;             ///< of a live source, or of all recordings
+  pipeline::IkJob asked;                   ///< of all solutions: tasks, folders of meshes
+  std::vector<std::string> weights;        ///< of markers, NAME=W
   std::filesystem::path record;            ///< of a live source
   std::filesystem::path certificate, key;  ///< of TLS; empty: none
 
@@ -54,6 +59,10 @@ Status check_together(const ServeArguments& arguments) {
 /// What was given is there, and the model can be used.
 Status check_files(const ServeArguments& arguments) {
   if (auto s = server::check_given(arguments.given); !s) return s;
+  if (auto s = pipeline::check_geometry(arguments.asked.geometry); !s) return s;
+  if (!arguments.asked.tasks.empty())
+    if (const auto tasks = io::read_ik_tasks(arguments.asked.tasks); !tasks)
+      return std::unexpected(tasks.error());
   if (arguments.model.empty()) return {};
   const auto model = pipeline::read_model_input(arguments.model);
   return model ? Status() : std::unexpected(model.error());
@@ -118,7 +127,12 @@ int serve_live(server::HttpServer& http, server::Keys keys, LiveParts& parts,
 }
 
 /// Until a signal ends the program (watch_signals()), or an error comes.
-int serve(const CommonOptions& common, const ServeArguments& arguments) {
+int serve(const CommonOptions& common, ServeArguments& arguments) {
+  for (const auto& text : arguments.weights) {
+    const auto weight = parse_pair(text, "WEIGHT");
+    if (!weight) return report_error(weight.error());
+    arguments.asked.options.marker_weights.push_back({weight->first, weight->second});
+  }
   const auto tls = read_tls(arguments);
   if (!tls) return report_error(tls.error());
   if (const auto s = server::check_bind_address(arguments.bind, *tls != nullptr); !s)
@@ -149,10 +163,14 @@ int serve(const CommonOptions& common, const ServeArguments& arguments) {
   server::TrialService service(
       {.given = arguments.given,
        .keys = std::move(*keys),
-       .make_page = server::make_trial_page,
+       .make_page = [folders = arguments.asked.geometry](
+                        const std::filesystem::path& path) { return server::make_trial_page(path, folders); },
        .describe = server::describe_trial,
        .edits = {.time_now = pipeline::time_of_edit},
-       .angles = {.model = arguments.model, .threads = common.threads, .seed = common.seed}});
+       .angles = {.model = arguments.model,
+                  .asked = arguments.asked,
+                  .threads = common.threads,
+                  .seed = common.seed}});
   (*http)->run([&service](const server::Request& request, const server::Reply& reply) {
     service.handle(request, reply);
   });
@@ -176,6 +194,15 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       "-m,--model", arguments->model,
       "Body model, .osim, of a live source (a simulation has its own), or that recordings are "
       "solved with after edits; without, the .osim beside a recording");
+  command->add_option(
+      "--geometry", arguments->asked.geometry,
+      "Folder with the meshes that an .osim names; looked into after the model's own folder and "
+      "Geometry/ there. Repeatable.");
+  command->add_option("--tasks", arguments->asked.tasks,
+                      "OpenSim IKTaskSet, also within a setup of inverse kinematics: marker and coordinate "
+                      "weights that recordings are solved with after edits");
+  command->add_option("--weight", arguments->weights,
+                      "Marker weight NAME=W for these solutions; 0 leaves the marker out. Repeatable.");
   command->add_option("--record", arguments->record,
                       "Recording to write, .mcap: every frame of a live source");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")

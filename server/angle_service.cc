@@ -127,7 +127,7 @@ std::optional<Page> AngleService::page(const TrialFile& trial, AnglesOf which) {
 Result<std::shared_ptr<const AngleService::Solution>> AngleService::solve_one(const fs::path& recording,
                                                                               bool with_edits,
                                                                               const OfTrialIs& of) const {
-  pipeline::IkJob job;
+  pipeline::IkJob job = options_.asked;
   job.model = of->model;
   job.markers = recording;
   if (with_edits) job.edits = pipeline::kEditsBeside;

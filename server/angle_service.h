@@ -27,9 +27,10 @@ namespace kinemark::server {
 
 /// How recordings are solved, and what that may take.
 struct AngleServiceOptions {
-  std::filesystem::path model;            ///< of all recordings; empty: find_model() finds one beside each
-  int threads = 0;                        ///< 0: all cores. Any number gives the same bits.
-  std::uint64_t seed = 1;                 ///< as `kinemark ik --seed`
+  std::filesystem::path model;  ///< of all recordings; empty: find_model() finds one beside each
+  pipeline::IkJob asked;        ///< what all solutions have alike: tasks, weights, folders of meshes
+  int threads = 0;              ///< 0: all cores. Any number gives the same bits.
+  std::uint64_t seed = 1;       ///< as `kinemark ik --seed`
   std::int64_t most_samples = 4'000'000;  ///< frames times markers of a recording that is solved here
   std::size_t most_waiting = 8;           ///< recordings that wait for the one that is being solved
   std::size_t most_bytes = 256UL << 20;   ///< of all pages that are kept, but for those solved last

@@ -112,6 +112,24 @@ class AngleServiceThread : public ::testing::Test {
   std::unique_ptr<AngleService> service_;
 };
 
+TEST_F(AngleServiceThread, AsksEverySolutionForTheSameTasksAndWeights) {
+  AngleServiceOptions options;
+  options.asked.tasks = "tasks.xml";
+  options.asked.geometry = {"Geometry"};
+  options.asked.options.marker_weights = {{"RASI", 5.0}};
+  start(std::move(options));
+  solve_with("2");
+  const std::scoped_lock lock(mutex_);
+  ASSERT_EQ(jobs_.size(), 2U) << "with edits and without";
+  for (const auto& job : jobs_) {
+    EXPECT_EQ(job.tasks, "tasks.xml");
+    EXPECT_EQ(job.geometry.size(), 1U);
+    ASSERT_EQ(job.options.marker_weights.size(), 1U);
+    EXPECT_EQ(job.options.marker_weights.front().marker, "RASI");
+    EXPECT_EQ(job.model, scratch_ / "subject.osim");
+  }
+}
+
 TEST_F(AngleServiceThread, SolvesWithTheEditsAndOnceWithout) {
   EXPECT_EQ(state()["state"], "none");
   EXPECT_EQ(state()["model"], "subject.osim");

@@ -122,8 +122,13 @@ Page shielded(std::string html, std::string_view nonce, bool asks) {
                                 nonce, asks ? kAsks : "")};
 }
 
-Result<Page> make_trial_page(const std::filesystem::path& path) {
-  if (is_solved(path)) return report_page(pipeline::page_of(path), false);
+Result<Page> make_trial_page(const std::filesystem::path& path,
+                             const std::vector<std::filesystem::path>& geometry) {
+  if (is_solved(path)) {
+    pipeline::MarkersPageOptions options;
+    options.geometry = geometry;
+    return report_page(pipeline::page_of(path, options), false);
+  }
   pipeline::InfoJob job;
   job.file = path;
   const auto info = pipeline::run_info(job);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/files/info_job.h"
@@ -14,7 +15,9 @@ namespace kinemark::server {
 
 /// The page of a trial: the report of a solved one, of markers their recording, which can be edited there,
 /// else what the file holds. O(file). Fails as the readers of its files.
-[[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path);
+/// @param geometry  further folders of models' meshes
+[[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path,
+                                           const std::vector<std::filesystem::path>& geometry = {});
 
 /// What 'kinemark info' knows of a file, as a page. All names are text.
 [[nodiscard]] std::string facts_page(const pipeline::InfoOutcome& info);

@@ -96,7 +96,10 @@ double box(Random& random) {
     if (k < 8) return {k & 1 ? side[0] : 0.0, k & 2 ? side[1] : 0.0, k & 4 ? side[2] : 0.0};
     return {side[0] * random.uniform(), side[1] * random.uniform(), side[2] * random.uniform()};
   });
-  return (analysis::smallest_box(x) - side).cwiseQuotient(side).cwiseAbs().maxCoeff();
+  return (analysis::smallest_box(x, analysis::principal_axes(x)) - side)
+      .cwiseQuotient(side)
+      .cwiseAbs()
+      .maxCoeff();
 }
 
 // A helix of radius r whose pitch over a turn is 2 pi c, 200 samples a turn: curvature r / (r^2 + c^2),
@@ -114,12 +117,12 @@ analysis::PathSamples helix(const Pose& pose, double r, double c) {
 double curvature(Random& random) {
   const Pose pose(random);
   const double r = random.uniform(0.05, 0.4), c = r * random.uniform(0.1, 1.0);
-  return relative(analysis::median_curvature(helix(pose, r, c)), r / (r * r + c * c));
+  return relative(analysis::median_curvature(analysis::bends_of(helix(pose, r, c))), r / (r * r + c * c));
 }
 double torsion(Random& random) {
   const Pose pose(random);
   const double r = random.uniform(0.05, 0.4), c = r * random.uniform(0.1, 1.0);
-  return relative(analysis::median_torsion(helix(pose, r, c)), c / (r * r + c * c));
+  return relative(analysis::median_torsion(analysis::bends_of(helix(pose, r, c))), c / (r * r + c * c));
 }
 
 // A turn about a line and a slide along it, between two poses of a segment.

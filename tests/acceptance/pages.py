@@ -4,7 +4,7 @@
 """Pages in Debian's Chromium: how large, how fast, how readable, and whether every real recording opens.
 
     pages.py            sizes, looks and speed, with simulated data and pages that the program writes
-    pages.py --real     a page of every real C3D and TRC file of KINEMARK_TEST_DATA, opened and judged
+    pages.py --real     a page of every real C3D and TRC file of KINEMARK_TEST_DATA, and of every MOT with a model, opened and judged
 
 Needs `npm ci` in viewer/ once. Prints rows "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
@@ -21,6 +21,15 @@ VIEWER = PROJECT / "viewer"
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or PROJECT.parent / "shared" / "data")
 BATCH = 8
+# Coordinates of OpenSim and the model that they are of.
+MOTIONS = (
+    ("opensim-gait2354/subject01_walk1_ik.mot", "opensim-gait2354/subject01_simbody.osim"),
+    ("opensim-hamner-fullbody/subject02_running_ik.mot", "opensim-hamner-fullbody/subject02_registered.osim"),
+    ("opensim-arm26/arm26_InverseKinematics.mot", "opensim-arm26/arm26.osim"),
+    ("opensim-core-ik/std_subject01_walk1_ik.mot", "opensim-core-ik/subject01_simbody.osim"),
+    ("opensim-core-ik/std_subject1_abdbonepin_IK.mot", "opensim-core-ik/subject1_abdbonepin.osim"),
+    ("bmc-rajagopal-run/IK/results/ik_output_run.mot", "bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim"),
+)
 failed = False
 
 
@@ -79,18 +88,28 @@ def speed():
     row(len(rows) == 5, "speed was measured", "5 rows", str(len(rows)))
 
 
+def joints_of_motions(folder):
+    """Joints of the models where the coordinates put them, as recordings."""
+    made = []
+    for motion, model in MOTIONS:
+        path = folder / f"{len(made)}_{Path(motion).stem}.bvh"
+        ran = subprocess.run([PROGRAM, "convert", DATA / motion, path, "--model", DATA / model], capture_output=True, text=True, check=False)
+        row(ran.returncode == 0, f"{motion} with its model", "joints", ran.stderr[-200:] or "joints")
+        made += [path] if ran.returncode == 0 else []
+    return made
+
+
 def real(folder):
     """Every real recording: the program makes a page or refuses in a sentence; the page opens with markers to a pixel."""
     pages = []
-    for path in sorted(DATA.rglob("*")):
-        if path.suffix.lower() not in (".c3d", ".trc"):
-            continue
+    recordings = [path for path in sorted(DATA.rglob("*")) if path.suffix.lower() in (".c3d", ".trc")]
+    for path in recordings + joints_of_motions(folder):
         page = folder / f"{len(pages)}_{path.stem}.html"
         ran = subprocess.run([PROGRAM, "report", path, "-o", page], capture_output=True, text=True, check=False)
         if ran.returncode == 0:
             pages.append(page)
         elif ran.returncode != 3 or len(ran.stderr.strip().splitlines()) != 1:
-            row(False, f"{path.relative_to(DATA)}", "a page, or one sentence with status 3", f"status {ran.returncode}: {ran.stderr[-200:]}")
+            row(False, f"{path.parent.name}/{path.name}", "a page, or one sentence with status 3", f"status {ran.returncode}: {ran.stderr[-200:]}")
     broken = []
     for first in range(0, len(pages), BATCH):
         batch = pages[first : first + BATCH]

@@ -143,6 +143,38 @@ def read_vicon_csv(path):
     return out
 
 
+def loads(folder, theirs):
+    """Moments, forces and powers of a walk beside Vicon's, where both have them; Vicon's are 0 where it has none."""
+    found = {}
+    with (folder / "loads.csv").open(newline="", encoding="utf-8") as file:
+        for line in csv.DictReader(file):
+            found.setdefault(line["name"], {}).setdefault(line["component"], []).append(float(line["value"]) if line["value"] else math.nan)
+    # Of Vicon's three numbers of a power the last is one.
+    # Bounds: 1.5 % of the largest moment, 1 % of the largest force, 8 % of the largest power.
+    kinds = (("Moment", "moments", 1000, "N mm/kg", 25), ("Force", "forces", 1, "N/kg", 0.1), ("Power", "powers", 1, "W/kg", 0.3))
+    for kind, plural, scale, unit, bound in kinds:
+        joints, worst, squares, number, peak = 0, (0.0, ""), 0.0, 0, 0.0
+        for name, components in found.items():
+            if not name.endswith(kind) or name not in theirs or "Ground" in name:
+                continue
+            joints += 1
+            for k, (component, values) in enumerate(components.items()):
+                for value, point in zip(values, theirs[name], strict=True):
+                    if point is None or not any(point) or math.isnan(value):
+                        continue
+                    error = abs(scale * value - point[k if component else 2])
+                    worst = max(worst, (error, f"{name} {component}".strip()))
+                    squares += error * error
+                    number += 1
+                    peak = max(peak, *map(abs, point))
+        row(joints == 6 and number > 1000 and worst[0] <= bound, f"Plug-in Gait {plural}, PiG_Motion3_FF",
+            f"ankles, knees and hips within {bound} {unit} of Vicon's",
+            f"{joints} of 6, {number} numbers, largest difference {worst[0]:.3f} {unit} ({worst[1]}), RMS {math.sqrt(squares / max(1, number)):.3f}, "
+            f"largest number {peak:.0f}")
+    print(f"note: frames with moments {sum(math.isfinite(v) for v in found['LHipMoment']['extension'])} left, "
+          f"{sum(math.isfinite(v) for v in found['RHipMoment']['extension'])} right, of {len(theirs['LHipMoment'])}")
+
+
 def offsets(folder, vsk):
     """The foot's offsets of a static trial beside those that Vicon found in it."""
     found = {p["name"]: math.radians(p["value"]) for p in json.loads((folder / "segments.json").read_text(encoding="utf-8"))["parameters"]}
@@ -210,9 +242,7 @@ def main():
             kinemark("analyze", recording, "--segments", "pig", *more, "-o", out)
             compare(recording.stem, *read_results(out), read_c3d(recording), suffix, asked)
         compare("Sample_Static.csv", *read_results(folder / "Sample_Static"), read_vicon_csv(rom / "Sample_Static.csv"), "", 26)
-        names = json.loads((folder / walk.stem / "segments.json").read_text(encoding="utf-8"))["angles"]
-        moments = [entry["name"] for entry in names if entry["name"].endswith("Moment")]
-        row(len(moments) == 6, "Plug-in Gait moments, PiG_Motion3_FF", "ankles, knees and hips, beside Vicon's", f"{len(moments)} of 6 computed")
+        loads(folder / walk.stem, read_c3d(walk))
         offsets(folder / "Sample_Static", (rom / "Sample_SM.vsk").read_text(encoding="utf-8"))
         coverage(folder, walk, still)
     return 1 if failed else 0

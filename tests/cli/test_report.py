@@ -5,6 +5,7 @@
 import base64
 import json
 import math
+import os
 import re
 import struct
 import unittest
@@ -126,6 +127,66 @@ class ReportTest(CommandTest):
 
     def test_options_of_recordings_are_not_for_joint_angles(self):
         self.refused(2, "for marker files", "report", self.truth, "-o", "page.html", "--up", "y")
+
+    def with_mesh(self, *files):
+        """The model as model.osim with these meshes on its right thigh."""
+        meshes = "".join(f"<Mesh><socket_frame>..</socket_frame><mesh_file>{name}</mesh_file></Mesh>" for name in files)
+        body = re.search(r'<Body name="femur_r">.*?</Body>', self.model.read_text(), re.DOTALL)[0]
+        shown = body.replace("</Body>", f"<attached_geometry>{meshes}</attached_geometry></Body>")
+        (self.folder / "model.osim").write_text(self.model.read_text().replace(body, shown))
+
+    def test_meshes_of_a_model_are_found_and_named(self):
+        self.with_mesh("bone.obj")
+        (self.folder / "bones").mkdir()
+        (self.folder / "bones" / "Bone.OBJ").write_text("v 0 0 0\nv 0 -0.4 0\nv 0.05 0 0\nf 1 2 3\n")
+        ik = ("ik", "-m", "model.osim", "-t", self.c3d, "-o", "q.mot", "--force")
+        self.good(*ik, "--report", "page.html")
+        bodies = data_of(self.folder / "page.html")["scene"]["bodies"]
+        self.assertNotIn("meshes", bodies)
+        self.assertRegex(bodies["meshes_note"], r"^the mesh file that the model names was not found .* --geometry FOLDER: bone\.obj$")
+        self.good(*ik, "--report", "page.html", "--geometry", "bones")
+        at_once = data_of(self.folder / "page.html")["scene"]["bodies"]
+        self.assertEqual([at_once["names"][b] for b in at_once["meshes"]["body"]], ["femur_r"])
+        self.assertEqual(at_once["meshes_note"], "1 body drawn from the model's meshes")
+        self.assertEqual(at_once["meshes"]["triangles"], [1])
+        turn = unpack(at_once["meshes"]["turn"])
+        for f in range(len(turn[0])):
+            self.assertAlmostEqual(math.hypot(*(turn[k][f] for k in range(4))), 1, delta=2e-3)
+        later = self.page("q.mot", "--geometry", "bones")["scene"]["bodies"]
+        self.assertEqual(later["meshes"]["body"], at_once["meshes"]["body"])
+        self.good("track", "-m", "model.osim", "-t", self.c3d, "-o", "t.mot", "--report", "t.html", "--geometry", "bones")
+        self.assertEqual(data_of(self.folder / "t.html")["scene"]["bodies"]["meshes"]["body"], at_once["meshes"]["body"])
+        self.refused(4, "there is no folder none", *ik, "--report", "page.html", "--geometry", "none")
+        self.refused(2, "--geometry is for joint angles", "report", self.c3d, "-o", "page2.html", "--geometry", "bones")
+
+    def test_a_model_may_name_anything_as_a_mesh(self):
+        (self.folder / "bad.vtp").write_bytes(b"\x00" * 100)
+        (self.folder / "folder.obj").mkdir()
+        os.mkfifo(self.folder / "pipe.stl")
+        (self.folder / "endless.obj").symlink_to("/dev/zero")
+        self.with_mesh("bad.vtp", "folder.obj", "pipe.stl", "endless.obj", "/etc/passwd", "../../../etc/passwd", "a" * 5000, "x.asc", "&lt;script&gt;")
+        self.good("ik", "-m", "model.osim", "-t", self.c3d, "-o", "q.mot", "--report", "page.html")
+        bodies = data_of(self.folder / "page.html")["scene"]["bodies"]
+        self.assertNotIn("meshes", bodies)
+        self.assertIn("bad.vtp: is not XML", bodies["meshes_note"])
+        self.assertIn("folder.obj", bodies["meshes_note"])
+        self.assertLess(len(bodies["meshes_note"]), 1000)
+        self.assertNotIn("root:", (self.folder / "page.html").read_text())
+
+    def test_cycles_are_those_of_the_events_also_after_an_edit(self):
+        strikes = [0.1 + 0.55 * i for i in range(4)]
+        self.good("simulate", "subject", "-o", "in", "--duration", 2)
+        (self.folder / "walk.c3d").write_bytes((self.folder / "in" / "markers.c3d").read_bytes())
+        self.assertIsNone(self.page("walk.c3d")["summary"]["cycles"])
+        for time in strikes:
+            self.good("edit", "walk.c3d", "--mark", "Foot Strike", "--context", "Left", "--at", f"{time}s")
+        self.good("convert", "walk.c3d", "events.c3d", "--edits", "beside")
+        cycles = self.page("events.c3d")["summary"]["cycles"]
+        self.assertEqual(cycles["Right"], [])
+        self.assertEqual(len(cycles["Left"]), 3)
+        for found, start in zip(cycles["Left"], strikes):
+            self.assertAlmostEqual(found[0], start, delta=0.006)
+            self.assertAlmostEqual(found[1], start + 0.55, delta=0.011)
 
     def test_real_recordings_have_small_pages(self):
         for name, up in (

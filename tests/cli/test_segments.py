@@ -116,5 +116,77 @@ class Segments(CommandTest):
         self.assertIn("no marker 'C7'", result.err)
 
 
+class Loads(CommandTest):
+    """Forces, moments and powers of a real walk over three plates."""
+
+    def analyze(self, *more):
+        walk, still = real_file("btk-others/PiG_Motion3_FF.c3d"), real_file("btk-others/PiG_Calibration3_FF.c3d")
+        out = self.folder / "out"
+        result = self.run_in("analyze", walk, "--segments", "pig", "--static", still, "-o", out, "--force", "--json", *more)
+        self.assertEqual(result.status, 0, result.err)
+        return result, out, json.loads(result.out)
+
+    @staticmethod
+    def series(out, name, component=""):
+        with (out / "loads.csv").open(newline="", encoding="utf-8") as file:
+            return [row for row in csv.DictReader(file) if row["name"] == name and row["component"] == component]
+
+    def test_moments_have_deviations_and_say_where_nobody_measured(self):
+        result, out, found = self.analyze()
+        self.assertEqual([(s["body"], s["plate"]) for s in found["steps"]],
+                         [("LFoot", "plate 1"), ("LFoot", "plate 3"), ("RFoot", "plate 2")])
+        names = [load["name"] for load in found["loads"]]
+        for side in "LR":
+            for joint in ("Ankle", "Knee", "Hip"):
+                for kind in ("Force", "Moment", "Power"):
+                    self.assertIn(f"{side}{joint}{kind}", names)
+        rows = self.series(out, "RAnkleMoment", "plantarflexion")
+        self.assertEqual(len(rows), 293)
+        known = [row for row in rows if row["value"]]
+        self.assertTrue(all(float(row["sd"]) > 0 for row in known))
+        self.assertTrue(all(row["state"] == "missing" for row in rows if not row["value"]))
+        self.assertEqual({row["unit"] for row in rows}, {"N m/kg"})
+        # Pushing off with 1.2 to 1.9 N m/kg is what people do.
+        self.assertTrue(1.2 < max(float(row["value"]) for row in known) < 1.9)
+        self.assertIn("RFoot: on the floor without a plate that measures it in ", result.err)
+        self.assertTrue((out / "loads.sto").read_text().count("\t") > 1000)
+        self.assertTrue((out / "loads_sd.sto").exists())
+
+    def test_body_mass_of_the_command_line_counts(self):
+        _, out, _ = self.analyze("--refits", "0")
+        light = [float(row["value"]) for row in self.series(out, "LGroundReactionForce", "z") if row["value"]]
+        _, out, _ = self.analyze("--refits", "0", "--subject", "Bodymass=148")
+        heavy = [float(row["value"]) for row in self.series(out, "LGroundReactionForce", "z") if row["value"]]
+        self.assertEqual(len(light), len(heavy))
+        for a, b in zip(light, heavy, strict=True):
+            self.assertAlmostEqual(a, 2 * b, places=9)
+        self.assertTrue(all(not row["sd"] for row in self.series(out, "LGroundReactionForce", "z")))
+
+    def test_a_part_of_a_walk_keeps_its_plates(self):
+        _, out, _ = self.analyze("--refits", "0")
+        whole = {row["time_s"]: row["value"] for row in self.series(out, "LAnkleMoment", "plantarflexion")}
+        _, out, found = self.analyze("--refits", "0", "--start", "7.7", "--end", "8.6")
+        part = [row for row in self.series(out, "LAnkleMoment", "plantarflexion") if row["value"]]
+        self.assertGreater(len(part), 70)
+        self.assertEqual([step["plate"] for step in found["steps"] if step["body"] == "LFoot"], ["plate 1"])
+        # The foot's length is the mean over the frames that are read.
+        for row in part[10:-10]:
+            self.assertAlmostEqual(float(row["value"]), float(whole[row["time_s"]]), delta=0.02)
+
+    def test_a_static_trial_has_none(self):
+        still = real_file("btk-others/PiG_Calibration3_FF.c3d")
+        out = self.folder / "still"
+        result = self.run_in("analyze", still, "--segments", "pig", "--static", still, "-o", out, "--json")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(json.loads(result.out)["loads"], [])
+        self.assertFalse((out / "loads.csv").exists())
+
+    def test_a_wrong_number_of_refits_is_refused(self):
+        walk = real_file("btk-others/PiG_Motion3_FF.c3d")
+        result = self.run_in("analyze", walk, "--segments", "pig", "--refits", "3", "--json")
+        self.assertEqual(result.status, 2)
+        self.assertIn("3 refits: expected 0 or at least ", result.err)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -346,6 +346,24 @@ class Started(ServeTest):
             self.good("ik", "-m", self.model, "-t", "walk.c3d", "-o", f"{which}.mot", *edits)
             self.assertEqual(json.loads((self.folder / f"{which}_report.json").read_text())["kinemark_set"], state["solutions"][which]["set"])
 
+    def test_angles_are_solved_with_weights_and_tasks(self):
+        (self.folder / "walk.c3d").write_bytes(self.c3d.read_bytes())
+        labels = json.loads(self.good("info", "walk.c3d", "--json").out)["labels"]
+        tasks = "".join(f'<IKMarkerTask name="{name}"><apply>true</apply><weight>{1 + i}</weight></IKMarkerTask>' for i, name in enumerate(labels))
+        self.write("tasks.xml", f"<OpenSimDocument><IKTaskSet><objects>{tasks}</objects></IKTaskSet></OpenSimDocument>".encode())
+        weights = ("--tasks", "tasks.xml", "--weight", f"{labels[0]}=9")
+        server = self.serve("walk.c3d", "--model", self.model, *weights)
+        post = {"method": "POST", "Origin": server.origin, "Content_Type": "application/json"}
+        self.assertEqual(server.request("/api/trial/1/angles", body=b'{"do": "solve"}', **post)[0], 202)
+        state = {"state": "waiting"}
+        while state["state"] in ("waiting", "solving"):
+            state = server.json("angles")[1]
+        self.good("ik", "-m", self.model, "-t", "walk.c3d", "-o", "Q.mot", *weights)
+        self.assertEqual(json.loads((self.folder / "Q_report.json").read_text())["kinemark_set"], state["solutions"]["now"]["set"])
+        self.refused(3, "walk.c3d", "serve", "walk.c3d", "--tasks", "walk.c3d")
+        self.refused(2, "WEIGHT", "serve", "walk.c3d", "--weight", "A")
+        self.refused(4, "there is no folder none", "serve", "walk.c3d", "--geometry", "none")
+
     def test_what_is_no_recording_of_markers_has_no_edits(self):
         server = self.serve(self.study / "q.mot", self.write("bad.trc", b"nothing"))
         for trial in (1, 2):

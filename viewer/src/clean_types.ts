@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { PackedScene } from "./scene/types.ts";
 import type { EncodedCodes, EncodedCurve } from "./curves.ts";
 import type { StateName } from "./states.ts";
 import type { Finding, Gate, InputFile } from "./types.ts";
@@ -142,4 +143,6 @@ export interface EncodedMarker {
 export interface CleanPageData {
   summary: CleanSummary;
   series: { frame_step: number; points: number; markers: EncodedMarker[] };
+  /** Of a page whose points are not frames. */
+  scene?: PackedScene | null;
 }

@@ -4,6 +4,9 @@ import { decodeFloats, inflateAll, stepOf, type EncodedCurve } from "./curves.ts
 
 export type Foot = "Left" | "Right";
 
+/** Strike and next strike of each cycle of a foot, s. */
+export type CycleSpans = Record<Foot, readonly (readonly [number, number])[]>;
+
 /** Cycles of a coordinate and a foot as they stand in the page; src/kinemark/stages/report/README.md describes them. */
 export interface EncodedCycles {
   points: number;
@@ -58,6 +61,43 @@ export async function decodeCycles(encoded: EncodedCycles): Promise<Overlay[]> {
       sd: c.sd === null ? null : decodeFloats(c.sd, points),
       step: stepOf(c.mean),
     };
+  });
+}
+
+const perCycle = 101;
+const mostDrawn = 20;
+
+/** A curve over a cycle, linear between samples; NaN where a neighbour is missing. */
+function resampled(values: ArrayLike<number>, firstTime: number, step: number, [start, end]: readonly [number, number]): Float32Array {
+  return Float32Array.from({ length: perCycle }, (_, p) => {
+    const at = (start + (p / (perCycle - 1)) * (end - start) - firstTime) / step;
+    const before = Math.floor(at + 1e-6);
+    const share = Math.max(0, at - before);
+    if (share < 1e-6) return values[before] ?? NaN;
+    return (1 - share) * (values[before] ?? NaN) + share * (values[before + 1] ?? NaN);
+  });
+}
+
+/** Evenly chosen, the first and the last among them. */
+const chosen = <T>(all: readonly T[]): T[] =>
+  all.length <= mostDrawn ? [...all] : Array.from({ length: mostDrawn }, (_, i) => all[Math.round((i * (all.length - 1)) / (mostDrawn - 1))]!);
+
+/**
+ * A curve of evenly spaced points over the cycles of each foot, their mean and the SD between them.
+ * @param values  NaN where there is none
+ */
+export function cutIntoCycles(coordinate: string, values: ArrayLike<number>, firstTime: number, step: number, spans: CycleSpans): Overlay[] {
+  return (["Left", "Right"] as const).flatMap((side): Overlay[] => {
+    const all = spans[side].map((span) => resampled(values, firstTime, step, span));
+    const present = Array.from({ length: perCycle }, (_, p) => all.map((line) => line[p]!).filter(Number.isFinite));
+    const counts = present.map((v) => v.length);
+    if (Math.max(0, ...counts) === 0) return [];
+    const mean = Float32Array.from(present, (v) => (v.length === 0 ? NaN : v.reduce((a, b) => a + b, 0) / v.length));
+    const sd = Float32Array.from(present, (v, p) => (v.length < 2 ? NaN : Math.sqrt(v.reduce((sum, x) => sum + (x - mean[p]!) ** 2, 0) / (v.length - 1))));
+    return [{
+      coordinate, side, count: all.length, whole: all.filter((line) => line.every(Number.isFinite)).length,
+      fewest: Math.min(...counts), most: Math.max(...counts), each: chosen(all), mean, sd: sd.some(Number.isFinite) ? sd : null, step: null,
+    }];
   });
 }
 

@@ -38,7 +38,7 @@ async function show(page: HTMLElement, data: AnyPage): Promise<void> {
     return;
   }
   const foot = isLive(data) ? `kinemark ${data.summary.version}. This page talks with its own server alone.` : `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`;
-  const content = isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? cleanPage(data) : await ikPage(data);
+  const content = isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? await cleanPage(data) : await ikPage(data);
   lay(page, content, foot);
   for (const run of content.later ?? []) {
     await painted();

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { StateCounts } from "./clean_types.ts";
+import type { CycleSpans } from "./cycles.ts";
 import type { Editing } from "./editing/types.ts";
 import type { PackedScene } from "./scene/types.ts";
 import type { Finding, InputFile } from "./types.ts";
@@ -27,6 +28,8 @@ export interface MarkersSummary {
   channels: { name: string; kind: string; unit: string; rate_hz: number }[];
   event_count: number;
   events: { label: string; context: string; time_s: number }[];
+  /** Strike and next strike of each cycle, s; null: no foot strikes twice. */
+  cycles?: CycleSpans | null;
   inputs: InputFile[];
 }
 

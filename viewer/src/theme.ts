@@ -29,6 +29,8 @@ export interface Palette {
   bone: string;
   /** The bodies of a model. */
   body: string;
+  /** Surfaces of a model's own meshes. */
+  mesh: string;
   shadow: string;
   floor: string;
   floorStrong: string;
@@ -63,6 +65,7 @@ const light: Palette = {
   joint: "#7a2a8a",
   bone: "#c9a0d2",
   body: "#c8ccd0",
+  mesh: "#e4dac6",
   shadow: "#dbe1e5",
   floor: "#e9edf0",
   floorStrong: "#d3dade",
@@ -93,6 +96,7 @@ const dark: Palette = {
   joint: "#e6a8f2",
   bone: "#8a5c96",
   body: "#56646f",
+  mesh: "#a89c86",
   shadow: "#0a0e12",
   floor: "#202b33",
   floorStrong: "#2f3d47",

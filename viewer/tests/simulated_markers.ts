@@ -108,6 +108,18 @@ export function simulatedMarkers(frames = 200): MarkersPageData {
   };
 }
 
+/** The same with four strikes of the left foot, whose marker A swings once a cycle, and none twice of the right. */
+export function simulatedWalk(): MarkersPageData {
+  const data = simulatedMarkers(400);
+  const strike = (context: string, time_s: number): { label: string; context: string; time_s: number } => ({ label: "Foot Strike", context, time_s });
+  const period = (2 * Math.PI) / 0.05 / 100;
+  const times = [0, 1, 2, 3].map((i) => 1 + i * period);
+  data.summary.events = [...times.map((t) => strike("Left", t)), strike("Right", 1.7)];
+  data.summary.event_count = data.summary.events.length;
+  data.summary.cycles = { Left: times.slice(1).map((t, i): [number, number] => [times[i]!, t]), Right: [] };
+  return data;
+}
+
 /** The used markers of simulated() in space, and a model 2 cm above them. */
 export function simulatedScene(frames = 400): PackedScene {
   const place = (lift: number): number[][] =>

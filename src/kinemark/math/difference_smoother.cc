@@ -9,6 +9,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
+#include "kinemark/core/wide.h"
 
 namespace kinemark::math {
 namespace {
@@ -188,45 +189,124 @@ bool DifferenceSmoother::factor(double half_power) {
   return true;
 }
 
-// Forward, back and out of the unknowns for kColumns columns side by side, each as it would be alone.
-template <int kColumns>
-void DifferenceSmoother::solve(double* series, std::int64_t series_stride,
-                               std::vector<double>& unknown) const {
-  const std::int64_t n = samples(), m = order_, stride = width_ + 1;
-  unknown.assign(at(unknowns_ * kColumns), 0.0);
-  const auto add = [](double* to, double factor, const double* from) {
-    for (int c = 0; c < kColumns; ++c) to[c] += factor * from[c];
-  };
-  const auto take = [](double* to, double factor, const double* from) {
-    for (int c = 0; c < kColumns; ++c) to[c] -= factor * from[c];
-  };
-  double* u = unknown.data();
-  for (std::int64_t i = 0; i < n - m; ++i)
-    for (std::int64_t k = 0; k <= m; ++k)
-      add(u + gamma_row_[at(i)] * kColumns, difference_[at(k)], series + (i + k) * series_stride);
-  for (std::int64_t row = 0; row < unknowns_; ++row) {
-    const double* l = &factor_[at(row * stride)] + width_ - row;
-    for (std::int64_t column = first_[at(row)]; column < row; ++column)
-      take(u + row * kColumns, l[column], u + column * kColumns);
+// The factor as the loops below see it.
+struct DifferenceSmoother::Band {
+  std::int64_t samples, order, unknowns, width;
+  const double* difference;
+  const double* factor;
+  const std::int64_t* gamma_row;
+  const std::int64_t* gap_row;
+  const std::int64_t* first;
+  const std::int64_t* last;
+};
+
+namespace {
+
+// Columns side by side: in vectors, or one by one.
+template <int kVectors>
+struct Wide {
+  static constexpr std::int64_t kColumns = kVectors * kLanes;
+  Lanes part[kVectors];
+  [[gnu::always_inline]] void read(const double* from) {
+    for (int v = 0; v < kVectors; ++v) load(part[v], from + v * kLanes);
   }
-  for (std::int64_t row = unknowns_ - 1; row >= 0; --row) {
-    double* here = u + row * kColumns;
-    const double pivot = factor_[at(row * stride + width_)];
-    for (int c = 0; c < kColumns; ++c) here[c] /= pivot;
+  [[gnu::always_inline]] void write(double* to) const {
+    for (int v = 0; v < kVectors; ++v) store(to + v * kLanes, part[v]);
+  }
+  [[gnu::always_inline]] void clear() {
+    for (int v = 0; v < kVectors; ++v) spread(part[v], 0.0);
+  }
+  [[gnu::always_inline]] void add(double factor, const double* from) {
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes other;
+      load(other, from + v * kLanes);
+      part[v] += factor * other;
+    }
+  }
+  [[gnu::always_inline]] void take(double factor, const double* from) {
+    for (int v = 0; v < kVectors; ++v) {
+      Lanes other;
+      load(other, from + v * kLanes);
+      part[v] -= factor * other;
+    }
+  }
+  [[gnu::always_inline]] void divide(double by) {
+    for (int v = 0; v < kVectors; ++v) part[v] /= by;
+  }
+};
+struct Single {
+  static constexpr std::int64_t kColumns = 1;
+  double part;
+  [[gnu::always_inline]] void read(const double* from) { part = *from; }
+  [[gnu::always_inline]] void write(double* to) const { *to = part; }
+  [[gnu::always_inline]] void clear() { part = 0.0; }
+  [[gnu::always_inline]] void add(double factor, const double* from) { part += factor * *from; }
+  [[gnu::always_inline]] void take(double factor, const double* from) { part -= factor * *from; }
+  [[gnu::always_inline]] void divide(double by) { part /= by; }
+};
+
+// Forward, back and out of the unknowns for some columns side by side, each as it would be alone.
+// @param u  room for the unknowns of the columns
+template <class Columns, class Band>
+[[gnu::always_inline]] inline void solve_columns(const Band& of, double* series, std::int64_t stride,
+                                                 double* u) {
+  constexpr std::int64_t kColumns = Columns::kColumns;
+  const std::int64_t n = of.samples, m = of.order, w = of.width;
+  Columns sum;
+  const auto forward = [&](std::int64_t row) __attribute__((always_inline)) {
+    const double* l = of.factor + row * (w + 1) + w - row;
+    for (std::int64_t column = of.first[row]; column < row; ++column)
+      sum.take(l[column], u + column * kColumns);
+    sum.write(u + row * kColumns);
+  };
+  for (std::int64_t i = 0; i < n; ++i) {
+    if (i < n - m) {
+      sum.clear();
+      for (std::int64_t k = 0; k <= m; ++k) sum.add(of.difference[k], series + (i + k) * stride);
+      forward(of.gamma_row[i]);
+    }
+    if (of.gap_row[i] >= 0) {
+      sum.clear();
+      forward(of.gap_row[i]);
+    }
+  }
+  for (std::int64_t row = of.unknowns - 1; row >= 0; --row) {
+    sum.read(u + row * kColumns);
+    sum.divide(of.factor[row * (w + 1) + w]);
     // Rows below have taken their part of this one already.
-    for (std::int64_t below = row + 1; below <= last_[at(row)]; ++below)
-      if (first_[at(below)] <= row)
-        take(here, factor_[at(below * stride + row - below + width_)], u + below * kColumns);
+    for (std::int64_t below = row + 1; below <= of.last[row]; ++below)
+      if (of.first[below] <= row)
+        sum.take(of.factor[below * (w + 1) + row - below + w], u + below * kColumns);
+    sum.write(u + row * kColumns);
   }
   for (std::int64_t i = 0; i < n; ++i) {
-    double* sample = series + i * series_stride;
-    if (const std::int64_t gap = gap_row_[at(i)]; gap >= 0) {
-      take(sample, 1.0, u + gap * kColumns);
-      continue;
+    sum.read(series + i * stride);
+    if (of.gap_row[i] >= 0) {
+      sum.take(1.0, u + of.gap_row[i] * kColumns);
+    } else {
+      for (std::int64_t k = std::max<std::int64_t>(0, i - (n - m - 1)); k <= std::min(m, i); ++k)
+        sum.take(of.difference[k], u + of.gamma_row[i - k] * kColumns);
     }
-    for (std::int64_t k = std::max<std::int64_t>(0, i - (n - m - 1)); k <= std::min(m, i); ++k)
-      take(sample, difference_[at(k)], u + gamma_row_[at(i - k)] * kColumns);
+    sum.write(series + i * stride);
   }
+}
+
+}  // namespace
+
+template <class Columns>
+void DifferenceSmoother::solve(double* series, std::int64_t stride, std::vector<double>& unknown) const {
+  unknown.resize(at(unknowns_ * Columns::kColumns));
+  const Band band{.samples = samples(),
+                  .order = order_,
+                  .unknowns = unknowns_,
+                  .width = width_,
+                  .difference = difference_.data(),
+                  .factor = factor_.data(),
+                  .gamma_row = gamma_row_.data(),
+                  .gap_row = gap_row_.data(),
+                  .first = first_.data(),
+                  .last = last_.data()};
+  run_wide<solve_columns<Columns, Band>>(band, series, stride, unknown.data());
 }
 
 void DifferenceSmoother::smooth(SeriesMatrix& series) const {
@@ -241,9 +321,17 @@ void DifferenceSmoother::smooth(SeriesMatrix& series) const {
   fill_straight(seen_, series);
   std::vector<double> unknown;
   std::int64_t done = 0;
-  for (; done + 8 <= columns; done += 8) solve<8>(series.data() + done, columns, unknown);
-  for (; done + 3 <= columns; done += 3) solve<3>(series.data() + done, columns, unknown);
-  for (; done < columns; ++done) solve<1>(series.data() + done, columns, unknown);
+  for (; done + 12 <= columns; done += 12) solve<Wide<3>>(series.data() + done, columns, unknown);
+  for (; done + 4 <= columns; done += 4) solve<Wide<1>>(series.data() + done, columns, unknown);
+  if (columns - done > 1) {
+    // Two or three, with columns of zeros for company.
+    SeriesMatrix four = SeriesMatrix::Zero(n, kLanes);
+    four.leftCols(columns - done) = series.rightCols(columns - done);
+    solve<Wide<1>>(four.data(), kLanes, unknown);
+    series.rightCols(columns - done) = four.leftCols(columns - done);
+  } else if (columns > done) {
+    solve<Single>(series.data() + done, columns, unknown);
+  }
   series.rowwise() += level;
 }
 

@@ -63,8 +63,9 @@ class DifferenceSmoother {
   }
   void find_envelope();
   void assemble(double intensity);
-  template <int kColumns>
-  void solve(double* series, std::int64_t series_stride, std::vector<double>& unknown) const;
+  struct Band;
+  template <class Columns>
+  void solve(double* series, std::int64_t stride, std::vector<double>& unknown) const;
 
   std::vector<bool> seen_;
   int order_;

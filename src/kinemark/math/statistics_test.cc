@@ -46,6 +46,27 @@ TEST(Statistics, AllRanksAreThoseOfTheSortedValues) {
   }
 }
 
+TEST(Statistics, MedianOfManyIsThatOfTheSortedValues) {
+  Random random(12, 1);
+  for (const std::size_t n : {4096, 5001, 20000}) {
+    std::vector<double> values(n);
+    for (double& v : values) v = random.gaussian();
+    for (int kind = 0; kind < 4; ++kind) {
+      // As they come, in order (which a sample of them is too), few different ones, and bounds that all lie
+      // on one side.
+      if (kind == 1) std::ranges::sort(values);
+      if (kind == 2)
+        for (double& v : values) v = std::round(v);
+      if (kind == 3)
+        for (std::size_t i = 0; i < n; ++i)
+          values[i] = i % (n / 512) == 0 ? 1e3 + static_cast<double>(i) : random.uniform();
+      auto sorted = values;
+      std::ranges::sort(sorted);
+      EXPECT_EQ(median(values), 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2])) << n << " " << kind;
+    }
+  }
+}
+
 TEST(Statistics, NothingAndMissingValuesHaveNone) {
   for (const std::vector<double>& values : {std::vector<double>{}, std::vector{1.0, kNaN, 2.0}}) {
     EXPECT_TRUE(std::isnan(median(values)));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { decodeClean } from "../clean_decode.ts";
 import { sceneOfClean } from "../scene/of_clean.ts";
+import { unpackScene } from "../scene/scene.ts";
 import type { CleanPageData } from "../clean_types.ts";
 import { cleanGaps } from "../sections/clean_gaps.ts";
 import { cleanHeader } from "../sections/clean_header.ts";
@@ -17,7 +18,7 @@ import { wholeOf, View } from "../view.ts";
 import type { Content } from "./content.ts";
 
 /** A cleaned recording: what was filled and filtered, why, and how certain the result is. */
-export function cleanPage(data: CleanPageData): Content {
+export async function cleanPage(data: CleanPageData): Promise<Content> {
   const trial = decodeClean(data);
   const { summary } = trial;
   const view = new View(wholeOf(summary));
@@ -28,8 +29,8 @@ export function cleanPage(data: CleanPageData): Content {
   };
   const jump = (finding: Finding, time: number): void => show(finding.subject, time);
   if (summary.markers.length > 0) view.marker = worthALook(data);
-  const scene = sceneOfClean(trial);
-  const others = { legend: "as it came in", switch: "Before" };
+  const scene = sceneOfClean(trial) ?? (data.scene ? await unpackScene(data.scene, summary) : null);
+  const others = scene === null || scene.before === null ? null : { legend: "as it came in", switch: "Before" };
   const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
   const plots = [cleanGaps(trial, view), cleanMarker(trial, view, show)] as const;
   const [first, ...rest] = [...inSpace, ...plots];

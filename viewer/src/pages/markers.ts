@@ -3,6 +3,7 @@
 import type { MarkersPageData, MarkersSummary } from "../markers_types.ts";
 import type { Camera } from "../scene/camera.ts";
 import { unpackScene } from "../scene/scene.ts";
+import { markerCycles } from "../sections/marker_cycles.ts";
 import { findingGroups } from "../sections/finding_groups.ts";
 import { markersHeader } from "../sections/markers_header.ts";
 import { recordedCurves, recordedGaps, recordedRest, recordedTable } from "../sections/recorded.ts";
@@ -64,6 +65,7 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
   const parts = [
     ...(scene.forces.length > 0 ? [ground(scene, view)] : []),
     recordedCurves(scene, view),
+    ...(summary.cycles ? [markerCycles(scene, view, summary.cycles)] : []),
     recordedGaps(scene, view),
   ];
   return {
@@ -75,6 +77,7 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
       ...(bar.length > 0 ? ([["edit", "Edit"]] as const) : []),
       ...(editor === null ? [] : ([["solved", "Angles"]] as const)),
       ["marker", "One marker"],
+      ...(summary.cycles ? ([["cycles", "Cycles"]] as const) : []),
       ["gaps", "Gaps"],
       ["markers", "Markers"],
       ["rest", "Channels"],

@@ -8,7 +8,7 @@ import { decimalsFor, ticks } from "./ticks.ts";
 import { yRange } from "./time_plot.ts";
 
 const [width, height] = [560, 300];
-const [left, right, top, bottom] = [64, 14, 12, 46];
+const [left, right, top, bottom] = [92, 26, 12, 50];
 
 /** Cycles over each other from 0 to 100 %: each a thin line, their mean a thick one within a band of one SD. */
 export function cyclePlot(overlays: readonly Overlay[], label: string, unit: string): SVGElement {
@@ -28,7 +28,7 @@ export function cyclePlot(overlays: readonly Overlay[], label: string, unit: str
   for (const o of overlays) parts.push(svg("path", { class: `cycle-mean ${o.side.toLowerCase()}`, d: line(o.mean) }));
   parts.push(
     words((left + width - right) / 2, height - 8, "middle", "cycle, from foot strike to foot strike (%)"),
-    svg("text", { transform: `translate(14 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, unit),
+    svg("text", { transform: `translate(16 ${(top + height - bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, unit),
   );
   return svg("svg", { class: "chart wide-chart cycles", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label }, ...parts);
 }

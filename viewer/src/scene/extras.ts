@@ -19,6 +19,7 @@ import type { Palette } from "../theme.ts";
 import { Kind } from "./kind.ts";
 import { cornersOf, type Plane } from "./plane.ts";
 import { at, type CameraPlace, type Scene } from "./scene.ts";
+import { Skins } from "./skins.ts";
 import type { Look } from "./space_view.ts";
 import { add, cross, length, scaled, sub, unit, type Vec } from "./vec.ts";
 
@@ -34,6 +35,8 @@ export class Extras {
   readonly #centres: Kind;
   readonly #links: Kind;
   readonly #bodies: Kind;
+  readonly #skins: Skins;
+  readonly #hasMesh: ReadonlySet<number>;
   readonly #regions: Kind;
   readonly #cameras: LineSegments;
   readonly #nominal: LineSegments;
@@ -47,6 +50,8 @@ export class Extras {
     const joints = scene.skeleton?.names.length ?? 0;
     this.#links = new Kind(stage, new CylinderGeometry(1, 1, 1, 12, 1, true), new MeshLambertMaterial(), scene.skeleton?.links.length ?? 0);
     this.#bodies = new Kind(stage, new SphereGeometry(1, 20, 14), new MeshLambertMaterial({ transparent: true, opacity: 0.5, depthWrite: false }), scene.bodies?.names.length ?? 0, { order: 1 });
+    this.#skins = new Skins(stage, scene);
+    this.#hasMesh = new Set((scene.bodies?.meshes ?? []).map((mesh) => mesh.body));
     this.#centres = new Kind(stage, new SphereGeometry(1, 16, 11), new MeshLambertMaterial(), joints);
     this.#regions = new Kind(stage, new SphereGeometry(1, 24, 16), new MeshLambertMaterial({ transparent: true, opacity: 0.38, depthWrite: false }), joints, { order: 3 });
     const lines = (dashed = false): LineSegments => {
@@ -70,6 +75,7 @@ export class Extras {
   paint(p: Palette): void {
     (this.#centres.mesh.material as MeshLambertMaterial).color.set(p.joint);
     (this.#bodies.mesh.material as MeshLambertMaterial).color.set(p.body);
+    this.#skins.mesh.material.color.set(p.mesh);
     (this.#links.mesh.material as MeshLambertMaterial).color.set(p.bone);
     (this.#regions.mesh.material as MeshLambertMaterial).color.set(p.second);
     (this.#cameras.material as LineBasicMaterial).color.set(p.ink);
@@ -91,8 +97,9 @@ export class Extras {
   #putBodies(look: Look): void {
     const { bodies, points } = this.#scene;
     this.#bodies.begin();
+    this.#skins.put(look.point, look.bodies);
     bodies?.names.forEach((_, b) => {
-      if (!look.bodies) return;
+      if (!look.bodies || this.#hasMesh.has(b)) return;
       const [from, to] = [at(bodies.origin, points, b, look.point), at(bodies.end, points, b, look.point)];
       const way = sub(to, from);
       const along = unit(way);

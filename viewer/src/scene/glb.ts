@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { firstAbsent } from "../states.ts";
+import type { BodyMesh } from "./meshes.ts";
 import { at, type Scene } from "./scene.ts";
 import { add, cross, length, sub, unit, type Vec } from "./vec.ts";
 
 /** Keyframes of the animation at most: a viewer loads them all. */
 const mostKeys = 2000;
 const tiny = 1e-6;
+const colours = [["marker", "#0b6583"], ["line", "#9fb0bb"], ["joint", "#7a2a8a"]] as const;
+const boneColour = ["bone", "#e4dac6"] as const;
 
 /** An object on the instants of the animation; its size is `tiny` where it is absent. */
 interface Track {
   name: string;
-  mesh: 0 | 1;
-  material: number;
+  /** Of the file. */
+  mesh: number;
   translation: Float32Array;
   rotation: Float32Array | null;
-  scale: Float32Array;
+  scale: Float32Array | null;
 }
 
 class Buffer {
@@ -79,15 +82,16 @@ export function towards(way: Vec): [number, number, number, number] {
 
 function tracksOf(scene: Scene, sticks: readonly (readonly [number, number])[], keys: readonly number[]): Track[] {
   const { markers, points, names, skeleton } = scene;
-  const track = (name: string, mesh: 0 | 1, material: number, place: (point: number) => { x: Vec; turn: readonly number[]; size: Vec } | null): Track => {
-    const out: Track = { name, mesh, material, translation: new Float32Array(3 * keys.length), rotation: mesh === 0 ? null : new Float32Array(4 * keys.length), scale: new Float32Array(3 * keys.length) };
+  const track = (name: string, solid: 0 | 1, material: number, place: (point: number) => { x: Vec; turn: readonly number[]; size: Vec } | null): Track => {
+    const scale = new Float32Array(3 * keys.length);
+    const out: Track = { name, mesh: colours.length * solid + material, translation: new Float32Array(3 * keys.length), rotation: solid === 0 ? null : new Float32Array(4 * keys.length), scale };
     let last: Vec = [0, 0, 0];
     keys.forEach((point, k) => {
       const now = place(point);
       if (now !== null) last = now.x;
       out.translation.set(last, 3 * k);
       out.rotation?.set(now?.turn ?? [0, 0, 0, 1], 4 * k);
-      out.scale.set(now?.size ?? [tiny, tiny, tiny], 3 * k);
+      scale.set(now?.size ?? [tiny, tiny, tiny], 3 * k);
     });
     return out;
   };
@@ -103,7 +107,19 @@ function tracksOf(scene: Scene, sticks: readonly (readonly [number, number])[], 
     const way = sub(b, a);
     return { x: add(a, way, 0.5), turn: towards(way), size: [r, Math.max(tiny, length(way)), r] as Vec };
   };
+  const bone = (mesh: BodyMesh, i: number): Track => {
+    const name = scene.bodies!.names[mesh.body]!;
+    const out = { name, mesh: colours.length * solids.length + i, translation: new Float32Array(3 * keys.length), rotation: new Float32Array(4 * keys.length), scale: null };
+    keys.forEach((point, k) => {
+      out.translation.set(at(scene.bodies!.origin, points, mesh.body, point), 3 * k);
+      const [w, x, y, z] = [0, 1, 2, 3].map((n) => mesh.turn[n * points + point]!) as [number, number, number, number];
+      const size = Math.hypot(w, x, y, z) || 1;
+      out.rotation.set([x / size, y / size, z / size, w / size], 4 * k);
+    });
+    return out;
+  };
   return [
+    ...(scene.bodies?.meshes ?? []).map(bone),
     ...names.flatMap((name, m) => (scene.isMain[m] ? [track(name, 0, 0, dot(marker(m), 0.009))] : [])),
     ...sticks.map(([a, b]) => track(`${names[a]!} to ${names[b]!}`, 1, 1, rod(marker(a), marker(b), 0.0045))),
     ...(skeleton?.names ?? []).map((name, j) => track(name, 0, 2, dot(joint(j), 0.012))),
@@ -112,7 +128,7 @@ function tracksOf(scene: Scene, sticks: readonly (readonly [number, number])[], 
 }
 
 /**
- * Markers, lines and joints of a scene as an animated GLB file, metres, y up. Absent samples shrink to nothing. A long
+ * Markers, lines, joints and the meshes of bodies of a scene as an animated GLB file, metres, y up. Absent samples shrink to nothing. A long
  * recording keeps 2,000 instants, evenly spread.
  */
 export function glbOf(scene: Scene, sticks: readonly (readonly [number, number])[], name: string): Uint8Array {
@@ -122,8 +138,19 @@ export function glbOf(scene: Scene, sticks: readonly (readonly [number, number])
   const meshes = solids.flatMap(({ positions, faces }, mesh) => {
     const position = buffer.add(new Float32Array(positions), "VEC3", 34962, true);
     const indices = buffer.add(new Uint16Array(faces), "SCALAR", 34963);
-    return [0, 1, 2].map((material) => ({ name: `${mesh === 0 ? "point" : "rod"} ${material}`, primitives: [{ attributes: { POSITION: position }, indices, material }] }));
+    return colours.map((_, material) => ({ name: `${mesh === 0 ? "point" : "rod"} ${material}`, primitives: [{ attributes: { POSITION: position }, indices, material }] }));
   });
+  const bones = scene.bodies?.meshes ?? [];
+  const boneMeshes = bones.map((bone) => ({
+    name: scene.bodies!.names[bone.body]!,
+    primitives: [
+      {
+        attributes: { POSITION: buffer.add(bone.places, "VEC3", 34962, true), NORMAL: buffer.add(bone.normals, "VEC3", 34962) },
+        indices: buffer.add(bone.corners, "SCALAR", 34963),
+        material: colours.length,
+      },
+    ],
+  }));
   const times = buffer.add(Float32Array.from(keys, (p) => (scene.time[p] ?? 0) - (scene.time[0] ?? 0)), "SCALAR", null, true);
   const tracks = tracksOf(scene, sticks, keys);
   const samplers: object[] = [];
@@ -135,8 +162,8 @@ export function glbOf(scene: Scene, sticks: readonly (readonly [number, number])
     };
     animate("translation", track.translation, "VEC3", "LINEAR");
     if (track.rotation !== null) animate("rotation", track.rotation, "VEC4", "LINEAR");
-    animate("scale", track.scale, "VEC3", "STEP");
-    return { name: track.name, mesh: 3 * track.mesh + track.material };
+    if (track.scale !== null) animate("scale", track.scale, "VEC3", "STEP");
+    return { name: track.name, mesh: track.mesh };
   });
   const root = nodes.length;
   nodes.push({ name, rotation: invert(towards(scene.up)), ...(tracks.length > 0 ? { children: tracks.map((_, i) => i) } : {}) });
@@ -147,8 +174,8 @@ export function glbOf(scene: Scene, sticks: readonly (readonly [number, number])
     scene: 0,
     scenes: [{ name, nodes: [root] }],
     nodes,
-    meshes,
-    materials: ["#0b6583", "#9fb0bb", "#7a2a8a"].map((hex, i) => ({ name: ["marker", "line", "joint"][i], doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [...colour(hex), 1], metallicFactor: 0, roughnessFactor: 0.9 } })),
+    meshes: [...meshes, ...boneMeshes],
+    materials: [...colours, ...(bones.length > 0 ? [boneColour] : [])].map(([of, hex]) => ({ name: of, doubleSided: true, pbrMetallicRoughness: { baseColorFactor: [...colour(hex), 1], metallicFactor: 0, roughnessFactor: 0.9 } })),
     ...(tracks.length > 0 ? { animations: [{ name, samplers, channels }] } : {}),
     accessors: buffer.accessors,
     bufferViews: buffer.views,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshLambertMaterial, type Color, type Material, type Scene as Stage } from "three";
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, MeshLambertMaterial, type Color, type Material, type MeshBasicMaterial, type Scene as Stage } from "three";
 import { add, cross, length, scaled, sub, unit, type Vec } from "./vec.ts";
 
 const white = { r: 1, g: 1, b: 1 };
@@ -98,8 +98,11 @@ export class Kind {
   }
 }
 
+/** One colour for all solids of a kind. */
+export const colour = (kind: Kind, value: string): void => void (kind.mesh.material as MeshBasicMaterial).color.set(value);
+
 /** Each v of `from` becomes v0 a + v1 b + v2 c + x, from the first on in `to`. */
-function turn(from: Float32Array, to: Float32Array, first: number, a: Vec, b: Vec, c: Vec, x: Vec): void {
+export function turn(from: Float32Array, to: Float32Array, first: number, a: Vec, b: Vec, c: Vec, x: Vec): void {
   for (let i = 0; i < from.length; i += 3) {
     const [u, v, w] = [from[i]!, from[i + 1]!, from[i + 2]!];
     to[first + i] = u * a[0] + v * b[0] + w * c[0] + x[0];

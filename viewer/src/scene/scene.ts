@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { firstAbsent } from "../states.ts";
-import type { PackedJoints, PackedMarkers, PackedScene } from "./types.ts";
+import { unpackMeshes, type BodyMesh } from "./meshes.ts";
+import type { PackedBodies, PackedJoints, PackedMarkers, PackedScene } from "./types.ts";
 import { inflated, unpack } from "./unpack.ts";
 import { upright } from "./upright.ts";
 import type { Vec } from "./vec.ts";
@@ -35,13 +36,16 @@ export interface Joints {
   states: Uint8Array;
 }
 
-/** Bodies of a model, each about the line from its origin to its end. */
+/** Bodies of a model, each a mesh, or about the line from its origin to its end. */
 export interface Bodies {
   names: readonly string[];
   massKg: readonly number[];
   /** B x 3 x P, m */
   origin: Float32Array;
   end: Float32Array;
+  meshes: readonly BodyMesh[];
+  /** Which meshes are drawn and which are not; empty: nothing to say. */
+  meshesNote: string;
 }
 
 export interface CameraPlace {
@@ -112,6 +116,11 @@ async function unpackJoints(packed: PackedJoints, points: number): Promise<Joint
   return { names: packed.names, links: packed.links, centres, roots, states };
 }
 
+async function unpackBodies(packed: PackedBodies, points: number): Promise<Bodies> {
+  const [origin, end, meshes] = await Promise.all([unpack(packed.origin_m), unpack(packed.end_m), packed.meshes ? unpackMeshes(packed.meshes, points) : []]);
+  return { names: packed.names, massKg: packed.mass_kg.map((m) => m ?? 0), origin, end, meshes, meshesNote: packed.meshes_note ?? "" };
+}
+
 /** Segments whose axes Plug-in Gait writes among the markers, four points each. */
 const computedSegments = /^(PEL|HED|THX|TRX|[LR](FE|TI|FO|TO|CL|HU|RA|HN))([OALP])$/;
 
@@ -139,9 +148,7 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
       packed.forces.map(async (f) => ({ name: f.name, force: await unpack(f.force_n), point: await unpack(f.point_m) })),
     ),
     packed.skeleton ? unpackJoints(packed.skeleton, points) : null,
-    packed.bodies
-      ? Promise.all([unpack(packed.bodies.origin_m), unpack(packed.bodies.end_m)]).then(([origin, end]): Bodies => ({ names: packed.bodies!.names, massKg: packed.bodies!.mass_kg.map((m) => m ?? 0), origin, end }))
-      : null,
+    packed.bodies ? unpackBodies(packed.bodies, points) : null,
   ]);
   const computed = areComputed(packed.names);
   const found = packed.up === null ? upright(markers, M, points) : null;

@@ -24,6 +24,25 @@ export interface PackedJoints {
   states: string;
 }
 
+/** Meshes of bodies; src/kinemark/stages/report/README.md describes them. */
+export interface PackedMeshes {
+  body: number[];
+  points: number[];
+  triangles: number[];
+  positions_m: PackedSeries;
+  corners: string;
+  turn: PackedSeries;
+}
+
+export interface PackedBodies {
+  names: string[];
+  mass_kg: (number | null)[];
+  origin_m: PackedSeries;
+  end_m: PackedSeries;
+  meshes?: PackedMeshes;
+  meshes_note?: string;
+}
+
 export interface PackedCamera {
   name: string;
   centre_m: [number, number, number];
@@ -48,7 +67,7 @@ export interface PackedScene {
   worst: string | null;
   plates: { type: number; corners_m: (number | null)[][] }[];
   forces: { name: string; force_n: PackedSeries; point_m: PackedSeries }[];
-  bodies?: { names: string[]; mass_kg: (number | null)[]; origin_m: PackedSeries; end_m: PackedSeries };
+  bodies?: PackedBodies;
   skeleton?: PackedJoints;
   cameras?: PackedCamera[];
 }

@@ -38,7 +38,7 @@ export const ofSimulatedResults: Record<string, Check> = {
   },
 };
 
-const savedBy = async (page: Parameters<Check>[0]["page"], press: () => Promise<void>): Promise<{ name: string; bytes: Buffer }> => {
+export const savedBy = async (page: Parameters<Check>[0]["page"], press: () => Promise<void>): Promise<{ name: string; bytes: Buffer }> => {
   const [download] = await Promise.all([page.waitForEvent("download"), press()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 };

@@ -89,7 +89,7 @@ async function select(page: Page, label: string, value: string): Promise<void> {
 export const alwaysOfMarkers: Record<string, Check> = {
   "all sections are there, and nothing is broken": async ({ page }) => {
     assert.deepEqual(
-      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "ground")),
+      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "ground" && id !== "cycles")),
       ["attention", "space", "marker", "gaps", "markers", "rest", "settings"],
     );
     assert.equal(await page.locator(".broken").count(), 0);
@@ -352,6 +352,31 @@ export const comparesInSpace = (name: string, legend: string): Record<string, Ch
     await settle(page);
   },
 });
+
+/** A recording whose events mark cycles. */
+export const walksInCycles: Record<string, Check> = {
+  "the picked marker is drawn over the cycles of each foot, with their number": async ({ page }) => {
+    const figures = page.locator("#cycles .cycle-figure");
+    assert.equal(await figures.count(), 3, "x, y and z");
+    assert.match((await figures.first().textContent()) ?? "", /^A x/);
+    assert.equal(await figures.first().locator("path.cycle").count(), 3);
+    assert.match((await figures.first().textContent()) ?? "", /left: 3 cycles/);
+    assert.equal(await figures.first().locator("path.cycle-mean.right").count(), 0, "the right foot strikes once");
+    // One swing of a sine: highest at a quarter of the cycle, lowest at three.
+    const mean = figures.first().locator("path.cycle-mean.left");
+    const places = ((await mean.getAttribute("d")) ?? "").match(/-?[\d.]+/g)!.map(Number);
+    const heights = places.filter((_, i) => i % 2 === 1);
+    assert.equal(heights.length, 101);
+    assert.ok(Math.abs(heights.indexOf(Math.min(...heights)) - 25) <= 1 && Math.abs(heights.indexOf(Math.max(...heights)) - 75) <= 1);
+  },
+  "another marker is another figure": async ({ page }) => {
+    await page.selectOption("#marker-name", { index: 1 });
+    await settle(page);
+    assert.match((await page.locator("#cycles .cycle-figure").first().textContent()) ?? "", /^B x/);
+    await page.selectOption("#marker-name", { index: 0 });
+    await settle(page);
+  },
+};
 
 /** Without WebGL2 the rest of the page works. */
 export const withoutWebGl: Record<string, Check> = {

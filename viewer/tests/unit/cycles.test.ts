@@ -7,7 +7,7 @@ import type { EncodedCycles } from "../../src/cycles.ts";
 
 vi.mock("uplot", () => import("../fake_plot.ts"));
 install();
-const { countWords, decodeCycles } = await import("../../src/cycles.ts");
+const { countWords, cutIntoCycles, decodeCycles } = await import("../../src/cycles.ts");
 const { decode } = await import("../../src/decode.ts");
 const { cyclePlot } = await import("../../src/plots/cycle_plot.ts");
 const { compare } = await import("../../src/sections/compare.ts");
@@ -23,6 +23,41 @@ const encoded = (coordinate = "knee_r"): EncodedCycles => ({
     { coordinate, side: "Right", count: 2, whole: 1, fewest: 1, most: 2, drawn: 2, each: curve([0, 1, 2, 1, 0, 2, 3, NaN, 3, 2]), mean: curve([1, 2, 2, 2, 1]), sd: curve([1, 1, NaN, 1, 1]) },
     { coordinate, side: "Left", count: 1, whole: 1, fewest: 1, most: 1, drawn: 1, each: curve([5, 6, 7, 6, 5]), mean: curve([5, 6, 7, 6, 5]), sd: null },
   ],
+});
+
+describe("cutIntoCycles", () => {
+  const step = 1 / 200;
+  const sine = (n: number): number[] => Array.from({ length: n }, (_, i) => Math.sin((2 * Math.PI * i * step) / 1.25));
+  const spans = { Left: [[2.625, 3.875]], Right: [[2, 3.25], [3.25, 4.5], [4.5, 5.75]] } as const;
+  it("is the swing from strike to strike, of each foot", () => {
+    const [left, right] = cutIntoCycles("x", sine(800), 2, step, spans);
+    expect([left!.side, left!.count, left!.sd]).toEqual(["Left", 1, null]);
+    expect([right!.count, right!.whole, right!.each.length, right!.fewest, right!.most]).toEqual([3, 3, 3, 3, 3]);
+    for (let p = 0; p <= 100; ++p) {
+      expect(Math.abs(right!.mean[p]! - Math.sin((2 * Math.PI * p) / 100))).toBeLessThan(2e-4);
+      expect(Math.abs(left!.mean[p]! + Math.sin((2 * Math.PI * p) / 100))).toBeLessThan(2e-4);
+      expect(right!.sd![p]!).toBeLessThan(1e-5);
+    }
+  });
+  it("has the spread between cycles with N - 1, point by point", () => {
+    const values = sine(800).map((v, i) => v + (i < 250 ? 1 : i < 500 ? 2 : 3));
+    const [, right] = cutIntoCycles("x", values, 2, step, spans);
+    expect(right!.mean[50]).toBeCloseTo(2, 3);
+    expect(right!.sd![50]).toBeCloseTo(1, 3);
+  });
+  it("leaves out what is missing, and cycles beyond the recording", () => {
+    const values = sine(800);
+    values.fill(NaN, 100, 130);
+    const all = cutIntoCycles("x", values, 2, step, { Left: [[10, 11]], Right: spans.Right });
+    expect(all.length).toBe(1);
+    expect([all[0]!.count, all[0]!.whole, all[0]!.fewest, all[0]!.most]).toEqual([3, 2, 2, 3]);
+    expect(all[0]!.each[0]![45]).toBeNaN();
+  });
+  it("draws twenty of many, the first and the last among them, and counts all", () => {
+    const many = Array.from({ length: 50 }, (_, i): [number, number] => [i, i + 1]);
+    const [one] = cutIntoCycles("x", Array.from({ length: 10_001 }, (_, i) => Math.floor(i / 200)), 0, step, { Left: [], Right: many });
+    expect([one!.count, one!.each.length, one!.each[0]![50], one!.each[19]![50]]).toEqual([50, 20, 0, 49]);
+  });
 });
 
 describe("decodeCycles", () => {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/settings_file.h"
 
 namespace kinemark::pipeline {
@@ -69,23 +69,6 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request) {
     out.markers.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return out;
-}
-
-std::optional<data::Wrenches> plates_of(const std::filesystem::path& path, const data::Trial& trial) {
-  if (trial.force_plates.empty() || ending_of(path) != ".c3d") return std::nullopt;
-  auto forces = io::read_plate_forces(path, {.contact_force_n = 0.0});
-  if (!forces) return std::nullopt;  // the reader of markers has told what is wrong with them
-  auto& all = forces->wrenches;
-  const auto& time = trial.markers.time;
-  const auto skipped = all.time.nearest_frame(time.t0_s);
-  if (skipped < 0 || skipped + time.frames > all.frames()) return std::nullopt;
-  for (auto& wrench : all.items)
-    for (auto* values : {&wrench.force, &wrench.moment, &wrench.point}) {
-      values->erase(values->begin() + 3 * (skipped + time.frames), values->end());
-      values->erase(values->begin(), values->begin() + 3 * skipped);
-    }
-  all.time = time;
-  return std::move(all);
 }
 
 Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,

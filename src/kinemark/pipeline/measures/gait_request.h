@@ -5,13 +5,11 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
-#include "kinemark/data/wrenches.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 
 namespace kinemark::pipeline {
@@ -39,11 +37,6 @@ struct GaitRequest {
 
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
 [[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request);
-
-/// Forces of the plates of a .c3d on the trial's frames, which may be a part of the file's, not cut off at a
-/// threshold; none where there are none that can be read.
-[[nodiscard]] std::optional<data::Wrenches> plates_of(const std::filesystem::path& path,
-                                                      const data::Trial& trial);
 
 /// Walking in a trial: its markers as they are, the plates of its file where that is a .c3d, its events.
 /// Code::bad_input as analysis::analyze_gait().

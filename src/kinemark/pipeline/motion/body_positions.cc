@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Geometry>
+
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
@@ -34,12 +36,14 @@ Eigen::Vector3d end_of(const data::ModelDescription& model, const model::Workspa
 
 }  // namespace
 
-report::SceneBodies body_positions(const model::Model& model, const data::JointMotion& motion) {
+report::SceneBodies body_positions(const model::Model& model, const data::JointMotion& motion,
+                                   const ModelMeshes& meshes) {
   const auto& description = model.description();
   const auto n = static_cast<std::int64_t>(model.coordinate_count());
   check(std::ssize(motion.q) == motion.frames() * n, "the motion is of this model");
   const auto children = children_of(description);
   report::SceneBodies out;
+  out.meshes_note = meshes.note;
   std::vector<std::size_t> drawn;
   model::Workspace w(model);
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
@@ -48,8 +52,11 @@ report::SceneBodies body_positions(const model::Model& model, const data::JointM
     for (std::size_t b = 0; f == 0 && b < children.size(); ++b) {
       const auto& body = description.bodies[b];
       const double length_m = (end_of(description, w, b, children[b]) - w.position[b]).norm();
-      if (!(body.mass > kLightest_kg) || length_m < kShortest_m) continue;
+      const auto mesh = meshes.of_body.find(body.name);
+      const bool has_mesh = mesh != meshes.of_body.end();
+      if (!has_mesh && (!(body.mass > kLightest_kg) || length_m < kShortest_m)) continue;
       drawn.push_back(b);
+      if (!meshes.of_body.empty()) out.meshes.push_back(has_mesh ? mesh->second : data::TriangleMesh{});
       out.names.push_back(body.name);
       out.mass_kg.push_back(body.mass);
     }
@@ -57,6 +64,9 @@ report::SceneBodies body_positions(const model::Model& model, const data::JointM
       const Eigen::Vector3d origin = w.position[b], end = end_of(description, w, b, children[b]);
       out.origin_in_world.insert(out.origin_in_world.end(), origin.data(), origin.data() + 3);
       out.end_in_world.insert(out.end_in_world.end(), end.data(), end.data() + 3);
+      if (meshes.of_body.empty()) continue;
+      const Eigen::Quaterniond turn(w.rotation[b]);
+      out.world_from_body.insert(out.world_from_body.end(), {turn.w(), turn.x(), turn.y(), turn.z()});
     }
   }
   return out;

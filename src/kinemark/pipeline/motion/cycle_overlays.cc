@@ -39,13 +39,24 @@ bool is_of_other_foot(std::string_view name, data::Side side) {
   return name.ends_with(side == data::Side::left ? "_r" : "_l");
 }
 
+/// In time alone: nothing is asked of where the feet are.
+std::vector<analysis::GaitCycle> cycles_of(std::span<const data::Event> events, const TimeBase& recording) {
+  return analysis::find_cycles({}, analysis::events_of_file(events, recording).events,
+                               Eigen::RowVector2d::Zero());
+}
+
 }  // namespace
+
+std::vector<report::CycleSpan> cycle_spans(std::span<const data::Event> events, const TimeBase& recording) {
+  std::vector<report::CycleSpan> out;
+  for (const auto& cycle : cycles_of(events, recording))
+    out.push_back({.side = cycle.side, .start_s = cycle.start_s, .end_s = cycle.end_s});
+  return out;
+}
 
 std::vector<report::CycleOverlay> cycle_overlays(std::span<const data::Event> events,
                                                  const TimeBase& recording, const data::JointMotion& motion) {
-  const auto found = analysis::events_of_file(events, recording).events;
-  // Of cycles in time alone: nothing is asked of where the feet are.
-  const auto cycles = analysis::find_cycles({}, found, Eigen::RowVector2d::Zero());
+  const auto cycles = cycles_of(events, recording);
   std::vector<report::CycleOverlay> out;
   if (cycles.empty()) return out;
   for (std::int64_t j = 0; j < motion.size(); ++j) {

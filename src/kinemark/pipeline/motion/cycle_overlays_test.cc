@@ -47,6 +47,17 @@ const report::CycleOverlay* find(const std::vector<report::CycleOverlay>& all, c
   return nullptr;
 }
 
+TEST(CycleSpans, AreTheTimesFromStrikeToStrike) {
+  const auto spans = cycle_spans(kEvents, swinging().time);
+  ASSERT_EQ(spans.size(), 4U);
+  EXPECT_EQ(spans[0].side, data::Side::left);
+  EXPECT_DOUBLE_EQ(spans[0].start_s, 2.625);
+  EXPECT_DOUBLE_EQ(spans[0].end_s, 3.875);
+  EXPECT_EQ(spans[3].side, data::Side::right);
+  EXPECT_DOUBLE_EQ(spans[3].end_s, 5.75);
+  EXPECT_TRUE(cycle_spans(std::vector<data::Event>{{"General", "", 3.0}}, swinging().time).empty());
+}
+
 TEST(CycleOverlays, AreTheSwingFromStrikeToStrike) {
   const auto motion = swinging();
   const auto all = cycle_overlays(kEvents, motion.time, motion);

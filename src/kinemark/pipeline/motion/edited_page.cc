@@ -10,6 +10,8 @@
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/stages/report/markers_report.h"
 
+#include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -42,6 +44,7 @@ struct EditedReport {
               .up_from = parts.vertical.from,
               .inputs = {session.recorded().file},
               .warnings = parts.remarks,
+              .cycles = internal::cycle_spans(session.now().events, session.now().markers.time),
               .editing = editing_json(session)};
     if (!parts.forces.items.empty()) report.forces = &parts.forces;
     if (session.outcome().in_force.empty()) return;

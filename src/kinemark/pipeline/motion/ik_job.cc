@@ -182,7 +182,7 @@ Result<IkOutcome> run_ik(IkJob job) {
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(model, outcome.summary, motion, &solved->markers, inputs->trial);
+      return internal::motion_page(job, model, outcome.summary, motion, &solved->markers, inputs->trial);
     }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
@@ -207,11 +207,12 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
   const auto& motion = outcome.result.motion;
   if (job.progress && !job.progress(motion.frames(), motion.frames()))
     return fail(Code::cancelled, "inverse kinematics was stopped");
-  return IkPage{.html = internal::motion_page(inputs->model, outcome.summary, motion, &used, inputs->trial),
-                .summary = outcome.summary,
-                .set = internal::name_set(motion, outcome.summary.run),
-                .edits = inputs->edits.in_force,
-                .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
+  return IkPage{
+      .html = internal::motion_page(job, inputs->model, outcome.summary, motion, &used, inputs->trial),
+      .summary = outcome.summary,
+      .set = internal::name_set(motion, outcome.summary.run),
+      .edits = inputs->edits.in_force,
+      .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
 }
 
 }  // namespace kinemark::pipeline

@@ -17,6 +17,8 @@
 #include "kinemark/pipeline/motion/external_forces.h"
 #include "kinemark/stages/report/markers_report.h"
 
+#include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -106,13 +108,15 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
                                   .skeleton = options.skeleton,
                                   .record = true});
   if (!input) return std::unexpected(input.error());
-  report::MarkersReport report{.trial = path.filename().string(),
-                               .version = std::string(kVersion),
-                               .command_line = options.command_line,
-                               .recording = &input->trial,
-                               .rate_known = input->rate_known,
-                               .inputs = {input->file},
-                               .editing = options.editing};
+  report::MarkersReport report{
+      .trial = path.filename().string(),
+      .version = std::string(kVersion),
+      .command_line = options.command_line,
+      .recording = &input->trial,
+      .rate_known = input->rate_known,
+      .inputs = {input->file},
+      .cycles = internal::cycle_spans(input->trial.events, input->trial.markers.time),
+      .editing = options.editing};
   const auto parts = markers_page_parts(path, input->trial, input->trial);
   report.warnings = parts.remarks;
   if (!parts.forces.items.empty()) report.forces = &parts.forces;

@@ -20,7 +20,8 @@ struct MarkersPageOptions {
   std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
   std::string up;                       ///< axis that points up, "z"; empty or "auto": the one that is found
   std::string command_line;             ///< as typed, for the record
-  nlohmann::ordered_json editing;       ///< as report::MarkersReport::editing
+  std::vector<std::filesystem::path> geometry = {};  ///< of joint angles: folders of the model's meshes
+  nlohmann::ordered_json editing;                    ///< as report::MarkersReport::editing
 
   [[nodiscard]] Status check() const;  ///< The rate is not negative, the axis is understood: Code::usage.
 };

@@ -19,6 +19,7 @@
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 
 namespace kinemark::pipeline::internal {
 
@@ -60,6 +61,7 @@ Status check_output_named(const MotionJob& job, std::string_view or_else) {
 }
 
 Result<MotionInputs> read_inputs(const MotionJob& job) {
+  if (auto s = check_geometry(job.geometry); !s) return std::unexpected(s.error());
   auto model = read_model_input(job.model);
   if (!model) return std::unexpected(model.error());
   auto markers = read_marker_input({.path = job.markers, .rate_hz = job.rate_hz, .record = true});

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -20,11 +21,12 @@ struct MotionJob : JobSettings {
       edits;  ///< journal applied to the markers first; "beside": theirs, where there is one
   std::filesystem::path output;  ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
-  AxesChoice axes;               ///< how recording and forces are turned into the model's axes
-  ImageFiles images;             ///< seen besides the markers; none: nothing
-  double rate_hz = 0.0;          ///< for a marker file that stores none (.v3d); 0: not given
-  double max_rms_m = 0.05;       ///< quality gate: RMS distance of measured and model markers
-  double max_offset_m = 0.05;    ///< quality gate: length of the mean distance vector
+  std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes, for the page
+  AxesChoice axes;                              ///< how recording and forces are turned into the model's axes
+  ImageFiles images;                            ///< seen besides the markers; none: nothing
+  double rate_hz = 0.0;                         ///< for a marker file that stores none (.v3d); 0: not given
+  double max_rms_m = 0.05;                      ///< quality gate: RMS distance of measured and model markers
+  double max_offset_m = 0.05;                   ///< quality gate: length of the mean distance vector
 };
 
 /// What `kinemark ik` and `track` answer alike.

@@ -5,6 +5,7 @@
 
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
 
 #include "kinemark/pipeline/motion/internal/body_positions.h"
@@ -31,10 +32,11 @@ data::Trajectories solved_markers(const data::Trajectories& recorded, const data
   return markers;
 }
 
-std::string motion_page(const model::Model& model, const report::IkSummary& summary,
+std::string motion_page(const MotionJob& job, const model::Model& model, const report::IkSummary& summary,
                         const data::JointMotion& motion, const data::Trajectories* markers,
                         const data::Trial& recording) {
-  const auto bodies = body_positions(model, motion);
+  const auto bodies =
+      body_positions(model, motion, read_model_meshes(job.model, model.description(), job.geometry));
   return report::report_html({.summary = summary,
                               .motion = &motion,
                               .markers = markers,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +24,7 @@
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
 
 namespace kinemark::pipeline {
@@ -113,13 +115,17 @@ std::optional<model::Model> model_of(const report::IkRun& run) {
 }
 
 /// Its bodies, where the motion is of this model.
-std::optional<report::SceneBodies> bodies_of(const std::optional<model::Model>& model,
-                                             const data::JointMotion& motion) {
+std::optional<report::SceneBodies> bodies_of(const report::IkRun& run,
+                                             const std::optional<model::Model>& model,
+                                             const data::JointMotion& motion,
+                                             std::span<const fs::path> geometry) {
   if (!model) return std::nullopt;
   const auto& coordinates = model->description().coordinates;
   if (!std::ranges::equal(coordinates, motion.coordinates, {}, &data::CoordinateDescription::name))
     return std::nullopt;
-  return internal::body_positions(*model, motion);
+  const auto file = std::ranges::find(run.inputs, "model", &data::InputFile::role);
+  return internal::body_positions(*model, motion,
+                                  read_model_meshes(file->path, model->description(), geometry));
 }
 
 std::string set_of(const Json& json) {
@@ -154,7 +160,7 @@ Array<double> torques_from(const fs::path& path, const data::JointMotion& motion
   return out;
 }
 
-Result<Page> solved_page(const fs::path& solved) {
+Result<Page> solved_page(const fs::path& solved, std::span<const fs::path> geometry) {
   std::string stem = solved.stem().string();
   if (ending_of(solved) == ".json") stem.resize(stem.size() - 7);
   const fs::path base = solved.parent_path() / (stem + ".mot");
@@ -189,7 +195,7 @@ Result<Page> solved_page(const fs::path& solved) {
   const bool turned = std::ranges::any_of(
       run->warnings, [](const auto& sentence) { return sentence.starts_with(kTurnedNote); });
   const auto model = model_of(*run);
-  const auto bodies = bodies_of(model, *motion);
+  const auto bodies = bodies_of(*run, model, *motion, geometry);
   auto summary = report::summarize(std::move(*run), *motion, states);
   if (!summary) return fail_at(base.string(), summary.error());
   page.html =
@@ -210,8 +216,13 @@ Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) 
       return fail(Code::usage,
                   fmt::format("{}: --rate, --up and --skeleton are for marker files, not for joint angles",
                               path.string()));
-    return solved_page(path);
+    if (auto s = check_geometry(options.geometry); !s) return std::unexpected(s.error());
+    return solved_page(path, options.geometry);
   }
+  if (!options.geometry.empty())
+    return fail(Code::usage,
+                fmt::format("{}: --geometry is for joint angles, which have a model, not for marker files",
+                            path.string()));
   auto html = markers_page(path, options);
   if (!html) return std::unexpected(html.error());
   return Page{.html = std::move(*html), .read = {path}};
@@ -226,9 +237,11 @@ Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& opti
 }
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
-  auto page = make_page(
-      job.input,
-      {.rate_hz = job.rate_hz, .skeleton = job.skeleton, .up = job.up, .command_line = job.command_line});
+  auto page = make_page(job.input, {.rate_hz = job.rate_hz,
+                                    .skeleton = job.skeleton,
+                                    .up = job.up,
+                                    .command_line = job.command_line,
+                                    .geometry = job.geometry});
   if (!page) return std::unexpected(page.error());
   if (auto s = check_apart({job.page}, page->read); !s) return std::unexpected(s.error());
   if (auto s = io::write_text(job.page, page->html, job.force); !s) return std::unexpected(s.error());

@@ -17,8 +17,9 @@ struct ReportJob : JobSettings {
                                 ///< it; or a marker file
   std::filesystem::path page;   ///< to write, .html
   double rate_hz = 0.0;         ///< as MarkersPageOptions::rate_hz; marker files only
-  std::filesystem::path skeleton = {};  ///< as MarkersPageOptions::skeleton
-  std::string up;                       ///< as MarkersPageOptions::up
+  std::filesystem::path skeleton = {};          ///< as MarkersPageOptions::skeleton
+  std::string up;                               ///< as MarkersPageOptions::up
+  std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes
 };
 
 /// What `kinemark report` did.

@@ -170,7 +170,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(inputs->model, outcome.summary, motion, solved ? &*solved : nullptr,
+      return internal::motion_page(job, inputs->model, outcome.summary, motion, solved ? &*solved : nullptr,
                                    inputs->trial);
     }));
   if (auto s = internal::write(job, *staging, files, "direct marker control", motion, outcome); !s)

@@ -15,6 +15,7 @@
 #include "kinemark/io/number.h"
 #include "kinemark/io/rig/toml_fields.h"
 #include "kinemark/io/rig/toml_text.h"
+#include "kinemark/pipeline/segments/internal/definition_fields.h"
 #include "kinemark/pipeline/segments/internal/shipped_text.h"
 
 namespace kinemark::pipeline {
@@ -22,6 +23,9 @@ namespace {
 
 using analysis::Formula;
 using analysis::InTrial;
+using internal::axis_of;
+using internal::formula_of;
+using internal::take_formula;
 using Definition = analysis::SegmentDefinition;
 using Need = io::TomlFields::Need;
 
@@ -80,36 +84,6 @@ Result<std::vector<Side>> read_sides(const toml::table& root, const std::string&
   return out;
 }
 
-std::optional<int> axis_of(std::string_view text) {
-  if (text.size() != 1 || text[0] < 'x' || text[0] > 'z') return std::nullopt;
-  return text[0] - 'x';
-}
-
-Result<Formula> formula_of(const std::string& text, const std::string& where, std::string_view key) {
-  auto made = analysis::parse_formula(text);
-  if (!made) return fail(Code::bad_input, fmt::format("{}: {}: {}", where, key, made.error().message));
-  return made;
-}
-
-Status take_formula(io::TomlFields& fields, std::string_view key, std::optional<Formula>& out) {
-  std::string text;
-  fields.text(key, text);
-  if (text.empty()) return {};
-  auto made = formula_of(text, fields.where(), key);
-  if (!made) return std::unexpected(made.error());
-  out = std::move(*made);
-  return {};
-}
-Status take_formula(io::TomlFields& fields, std::string_view key, Formula& out) {
-  std::string text;
-  fields.text(key, text, Need::required);
-  if (fields.failed()) return fields.finish();
-  auto made = formula_of(text, fields.where(), key);
-  if (!made) return std::unexpected(made.error());
-  out = std::move(*made);
-  return {};
-}
-
 // ["y", "LASI - RASI"]
 Status take_direction(io::TomlFields& fields, std::string_view key, int& axis, Formula& along) {
   std::vector<std::string> pair;
@@ -160,9 +134,10 @@ Result<Definition::Parameter> read_parameter(io::TomlFields& fields) {
        {std::pair{"measured", &out.measured}, {"formula", &out.formula}, {"sd", &out.formula_sd}})
     if (auto s = take_formula(fields, key, *formula); !s) return std::unexpected(s.error());
   fields.text("measured_in", where_measured);
-  if (where_measured != "static" && where_measured != "any")
-    fields.refuse("measured_in", "\"static\" or \"any\"");
-  out.measured_anywhere = where_measured == "any";
+  if (where_measured != "static" && where_measured != "any" && where_measured != "recording")
+    fields.refuse("measured_in", "\"static\", \"any\" or \"recording\"");
+  out.measured_anywhere = where_measured != "static";
+  out.measured_here = where_measured == "recording";
   return out;
 }
 
@@ -290,6 +265,10 @@ Status take_entry(std::string_view kind, const toml::table& table, const std::st
   toml::table plain = table;  // without the lists of lists, which are read here
   if (kind == "segment") plain.erase("turns");
   if (kind == "angle") plain.erase("components");
+  if (kind == "joint") {
+    plain.erase("moment");
+    plain.erase("force");
+  }
   io::TomlFields fields(plain, fmt::format("{}: {} '{}'", where, kind, name));
   const auto add = [&](auto& list, auto read) -> Status {
     if (fields.failed()) return fields.finish();
@@ -318,6 +297,14 @@ Status take_entry(std::string_view kind, const toml::table& table, const std::st
   if (kind == "angle") {
     auto read = read_angle(fields, table);
     return add(out.angles, std::move(read));
+  }
+  if (kind == "body") {
+    auto read = internal::read_body(fields);
+    return add(out.bodies, std::move(read));
+  }
+  if (kind == "joint") {
+    auto read = internal::read_joint(fields, table);
+    return add(out.joints, std::move(read));
   }
   auto read = read_value(fields);
   return add(out.values, std::move(read));
@@ -373,13 +360,13 @@ Result<Definition> parse_definition(std::string_view text, const std::string& na
       continue;
     }
     const bool known = kind == "parameter" || kind == "point" || kind == "landmark" || kind == "segment" ||
-                       kind == "angle" || kind == "value";
+                       kind == "angle" || kind == "value" || kind == "body" || kind == "joint";
     if (!known || !node.is_array())
       return fail(
           Code::bad_input,
           fmt::format(
               "{}: '{}' is not read; there are title, sides, [progression], [[parameter]], [[point]], "
-              "[[landmark]], [[segment]], [[angle]] and [[value]]",
+              "[[landmark]], [[segment]], [[angle]], [[value]], [[body]] and [[joint]]",
               name, kind));
     if (auto s = take_entries(kind, *node.as_array(), name, *sides, out); !s)
       return std::unexpected(s.error());

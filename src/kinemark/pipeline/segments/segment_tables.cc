@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <numbers>
 #include <set>
@@ -21,11 +20,6 @@ using analysis::SegmentMotion;
 using analysis::SegmentSeries;
 using analysis::SubjectQuantity;
 
-void for_each_series(const SegmentMotion& motion, const std::function<void(const SegmentSeries&)>& take) {
-  for (const auto& series : motion.angles) take(series);
-  for (const auto& series : motion.values) take(series);
-}
-
 std::string column(const SegmentSeries& series, std::size_t k) {
   return series.labels.empty() ? series.name : series.name + "_" + series.labels[k];
 }
@@ -35,55 +29,69 @@ double per_si(const SegmentSeries& series) {
   return series.quantity == SubjectQuantity::angle ? 180.0 / std::numbers::pi : 1.0;
 }
 
-data::Table table_of(const SegmentMotion& motion, std::string name,
+data::Table table_of(const SeriesList& list, const TimeBase& time, std::string name,
                      const Array<double> SegmentSeries::* what) {
   data::Table table{.name = std::move(name), .in_degrees = true};
-  const auto frames = motion.time.frames;
-  for (std::int64_t f = 0; f < frames; ++f) table.time_s.push_back(motion.time.time_s(f));
-  for_each_series(motion, [&](const SegmentSeries& series) {
-    for (std::size_t k = 0; k < series.size(); ++k) table.columns.push_back(column(series, k));
-  });
-  for (std::int64_t f = 0; f < frames; ++f)
-    for_each_series(motion, [&](const SegmentSeries& series) {
-      for (std::size_t k = 0; k < series.size(); ++k)
-        table.values.push_back((series.*what)[static_cast<std::size_t>(f) * series.size() + k] *
-                               per_si(series));
-    });
+  for (std::int64_t f = 0; f < time.frames; ++f) table.time_s.push_back(time.time_s(f));
+  for (const auto* series : list)
+    for (std::size_t k = 0; k < series->size(); ++k) table.columns.push_back(column(*series, k));
+  for (std::int64_t f = 0; f < time.frames; ++f)
+    for (const auto* series : list)
+      for (std::size_t k = 0; k < series->size(); ++k)
+        table.values.push_back((series->*what)[static_cast<std::size_t>(f) * series->size() + k] *
+                               per_si(*series));
   return table;
 }
 
 std::string_view table_unit(const SegmentSeries& series) {
+  if (!series.unit.empty()) return series.unit;
   if (series.quantity == SubjectQuantity::length) return "m";
   return shown_unit(series.quantity);
 }
 
 data::ChannelKind kind_of(const SegmentSeries& series) {
-  return series.quantity == SubjectQuantity::angle ? data::ChannelKind::angle : data::ChannelKind::scalar;
+  if (series.quantity == SubjectQuantity::angle) return data::ChannelKind::angle;
+  if (series.unit.starts_with("N m")) return data::ChannelKind::moment;
+  if (series.unit.starts_with("N")) return data::ChannelKind::force;
+  if (series.unit.starts_with("W")) return data::ChannelKind::power;
+  return data::ChannelKind::scalar;
 }
 
 }  // namespace
 
-data::Table angles_table(const SegmentMotion& motion) {
-  return table_of(motion, "angles", &SegmentSeries::value);
+SeriesList series_of(const SegmentMotion& motion) {
+  SeriesList out;
+  for (const auto& series : motion.angles) out.push_back(&series);
+  for (const auto& series : motion.values) out.push_back(&series);
+  return out;
 }
 
-data::Table angle_deviations_table(const SegmentMotion& motion) {
-  return table_of(motion, "angles_sd", &SegmentSeries::sd);
+SeriesList series_of(const analysis::JointLoads& loads) {
+  SeriesList out;
+  for (const auto& series : loads.series) out.push_back(&series);
+  return out;
 }
 
-std::string angles_csv(const SegmentMotion& motion) {
+data::Table series_table(const SeriesList& list, const TimeBase& time, const std::string& name) {
+  return table_of(list, time, name, &SegmentSeries::value);
+}
+
+data::Table deviations_table(const SeriesList& list, const TimeBase& time, const std::string& name) {
+  return table_of(list, time, name, &SegmentSeries::sd);
+}
+
+std::string series_csv(const SeriesList& list, const TimeBase& time) {
   std::string out = "time_s,name,component,value,sd,unit,state\n";
   const auto cell = [](double x) { return std::isfinite(x) ? io::format_number(x) : std::string(); };
-  for_each_series(motion, [&](const SegmentSeries& series) {
-    for (std::int64_t f = 0; f < motion.time.frames; ++f)
-      for (std::size_t k = 0; k < series.size(); ++k) {
-        const auto i = static_cast<std::size_t>(f) * series.size() + k;
-        out += fmt::format("{},{},{},{},{},{},{}\n", io::format_number(motion.time.time_s(f)), series.name,
-                           series.labels.empty() ? "" : series.labels[k],
-                           cell(series.value[i] * per_si(series)), cell(series.sd[i] * per_si(series)),
-                           table_unit(series), data::to_string(series.state[static_cast<std::size_t>(f)]));
+  for (const auto* series : list)
+    for (std::int64_t f = 0; f < time.frames; ++f)
+      for (std::size_t k = 0; k < series->size(); ++k) {
+        const auto i = static_cast<std::size_t>(f) * series->size() + k;
+        out += fmt::format("{},{},{},{},{},{},{}\n", io::format_number(time.time_s(f)), series->name,
+                           series->labels.empty() ? "" : series->labels[k],
+                           cell(series->value[i] * per_si(*series)), cell(series->sd[i] * per_si(*series)),
+                           table_unit(*series), data::to_string(series->state[static_cast<std::size_t>(f)]));
       }
-  });
   return out;
 }
 
@@ -100,11 +108,14 @@ data::Trial points_trial(const SegmentMotion& motion, const data::Trial& recordi
   return out;
 }
 
-data::Trial trial_with(const SegmentMotion& motion, data::Trial recording) {
+data::Trial trial_with(const SegmentMotion& motion, const analysis::JointLoads& loads,
+                       data::Trial recording) {
   auto& channels = recording.channels;
   const auto frames = static_cast<std::size_t>(motion.time.frames);
   std::set<std::string> ours(motion.points.names.begin(), motion.points.names.end());
-  for_each_series(motion, [&](const SegmentSeries& series) { ours.insert(series.name); });
+  SeriesList list = series_of(motion);
+  std::ranges::copy(series_of(loads), std::back_inserter(list));
+  for (const auto* series : list) ours.insert(series->name);
   // Channels that stay, then ours.
   data::Channels made{.rate_hz = motion.time.rate_hz, .frames = motion.time.frames};
   std::vector<std::size_t> kept;
@@ -116,22 +127,23 @@ data::Trial trial_with(const SegmentMotion& motion, data::Trial recording) {
     made.kinds.push_back(channels.kinds[c]);
     made.units.push_back(channels.units[c]);
   }
-  for_each_series(motion, [&](const SegmentSeries& series) {
-    made.names.push_back(series.name);
-    made.kinds.push_back(kind_of(series));
-    made.units.emplace_back(table_unit(series));
-  });
+  for (const auto* series : list) {
+    made.names.push_back(series->name);
+    made.kinds.push_back(kind_of(*series));
+    made.units.emplace_back(table_unit(*series));
+  }
   for (std::size_t f = 0; f < frames; ++f) {
     for (const auto c : kept)
       for (std::size_t k = 0; k < 3; ++k)
         made.values.push_back(channels.values[(f * channels.names.size() + c) * 3 + k]);
-    for_each_series(motion, [&](const SegmentSeries& series) {
+    for (const auto* series : list) {
       for (std::size_t k = 0; k < 3; ++k)
-        made.values.push_back(k < series.size() ? series.value[f * series.size() + k] * per_si(series) : 0.0);
+        made.values.push_back(k < series->size() ? series->value[f * series->size() + k] * per_si(*series)
+                                                 : 0.0);
       // A point whose first component is missing is missing.
       if (!std::isfinite(made.values[made.values.size() - 3]))
         for (std::size_t k = 1; k < 3; ++k) made.values[made.values.size() - k] = kNaN;
-    });
+    }
   }
   channels = std::move(made);
 
@@ -176,9 +188,10 @@ nlohmann::ordered_json parameters_json(const SegmentMotion& motion) {
   return out;
 }
 
-nlohmann::ordered_json series_json(const SegmentMotion& motion) {
+nlohmann::ordered_json series_json(const SeriesList& list) {
   auto out = nlohmann::ordered_json::array();
-  for_each_series(motion, [&](const SegmentSeries& series) {
+  for (const auto* one_series : list) {
+    const auto& series = *one_series;
     nlohmann::ordered_json one{
         {"name", series.name}, {"components", series.labels}, {"unit", table_unit(series)}};
     for (const auto state :
@@ -198,7 +211,7 @@ nlohmann::ordered_json series_json(const SegmentMotion& motion) {
                    : nlohmann::ordered_json(nullptr));
     }
     out.push_back(std::move(one));
-  });
+  }
   return out;
 }
 

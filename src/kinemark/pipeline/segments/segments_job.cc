@@ -15,6 +15,7 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/segments/definition_file.h"
@@ -125,24 +126,48 @@ void find_cross_talk(const analysis::SegmentDefinition& definition, SegmentsOutc
   }
 }
 
+Status find_loads(const SegmentsJob& job, const analysis::SegmentDefinition& definition,
+                  const data::Trial& recording, const analysis::SegmentInput& input,
+                  const analysis::SegmentOptions& options, SegmentsOutcome& outcome) {
+  const auto plates = plates_of(job.input, recording);
+  if (!plates || input.static_trial == input.markers) return {};
+  analysis::PlateEvidence evidence{.plates = &*plates, .corners = {}};
+  for (const auto& plate : recording.force_plates) evidence.corners.push_back(plate.corners_in_world);
+  auto loads = analysis::find_joint_loads(definition, input, evidence,
+                                          {.segments = options, .refits = job.refits, .seed = job.seed});
+  if (!loads) return fail_at(job.input.string(), loads.error());
+  outcome.loads = std::move(*loads);
+  std::ranges::copy(outcome.loads.warnings, std::back_inserter(outcome.warnings));
+  return {};
+}
+
 Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
-  auto staging = Staging::create_in(
-      job.output,
-      {"angles.mot", "angles_sd.sto", "angles.csv", "centres.csv", "segments.c3d", "segments.json"},
-      job.force, {job.input, job.static_trial, job.vsk});
+  std::vector<std::string> names{"angles.mot",  "angles_sd.sto", "angles.csv",
+                                 "centres.csv", "segments.c3d",  "segments.json"};
+  if (!outcome.loads.series.empty())
+    for (const auto* name : {"loads.sto", "loads_sd.sto", "loads.csv"}) names.emplace_back(name);
+  auto staging = Staging::create_in(job.output, names, job.force, {job.input, job.static_trial, job.vsk});
   if (!staging) return std::unexpected(staging.error());
   const auto& motion = outcome.motion;
+  const SeriesList angles = series_of(motion), loads = series_of(outcome.loads);
   const data::Trial points = points_trial(motion, files.recording);
-  const data::Trial whole = trial_with(motion, files.recording);
+  const data::Trial whole = trial_with(motion, outcome.loads, files.recording);
   const auto& targets = staging->targets();
-  std::vector<ResultFile> made{table_file(targets[0], [&] { return angles_table(motion); }),
-                               table_file(targets[1], [&] { return angle_deviations_table(motion); }),
-                               text_file(targets[2], [&] { return angles_csv(motion); }),
-                               marker_file(targets[3], points),
-                               marker_file(targets[4], whole),
-                               json_file(targets[5], [&] { return segments_outcome_json(outcome); })};
+  std::vector<ResultFile> made{
+      table_file(targets[0], [&] { return series_table(angles, motion.time, "angles"); }),
+      table_file(targets[1], [&] { return deviations_table(angles, motion.time, "angles_sd"); }),
+      text_file(targets[2], [&] { return series_csv(angles, motion.time); }),
+      marker_file(targets[3], points),
+      marker_file(targets[4], whole),
+      json_file(targets[5], [&] { return segments_outcome_json(outcome); })};
+  if (!loads.empty()) {
+    made.push_back(table_file(targets[6], [&] { return series_table(loads, motion.time, "loads"); }));
+    made.push_back(table_file(targets[7], [&] { return deviations_table(loads, motion.time, "loads_sd"); }));
+    made.push_back(text_file(targets[8], [&] { return series_csv(loads, motion.time); }));
+  }
   SetDigest digest;
-  digest.add("segments").add(outcome.inputs).add(angles_csv(motion));
+  digest.add("segments").add(outcome.inputs).add(series_csv(angles, motion.time));
+  if (!loads.empty()) digest.add(series_csv(loads, motion.time));
   auto written = write_results(*staging, made, job.progress, "the segments", digest.hex());
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
@@ -166,10 +191,12 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   if (files->static_trial) input.static_trial = &files->static_trial->markers;
   for (const auto& [name, trial] : files->trials) input.trials[name] = &trial->markers;
   if (auto s = find_values(job, *definition, *files, input, outcome); !s) return std::unexpected(s.error());
-  auto motion = analysis::compute_segments(*definition, input,
-                                           {.noise_sd_m = job.noise_sd_m, .up = *up, .threads = job.threads});
+  const analysis::SegmentOptions options{.noise_sd_m = job.noise_sd_m, .up = *up, .threads = job.threads};
+  auto motion = analysis::compute_segments(*definition, input, options);
   if (!motion) return fail_at(job.input.string(), motion.error());
   outcome.motion = std::move(*motion);
+  if (auto s = find_loads(job, *definition, files->recording, input, options, outcome); !s)
+    return std::unexpected(s.error());
   std::ranges::copy(outcome.motion.warnings, std::back_inserter(outcome.warnings));
   find_cross_talk(*definition, outcome);
   if (job.output.empty()) return outcome;
@@ -190,7 +217,12 @@ nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
     out["inputs"].push_back(std::move(one));
   }
   out["parameters"] = parameters_json(outcome.motion);
-  out["angles"] = series_json(outcome.motion);
+  out["angles"] = series_json(series_of(outcome.motion));
+  out["loads"] = series_json(series_of(outcome.loads));
+  out["steps"] = nlohmann::ordered_json::array();
+  for (const auto& step : outcome.loads.steps)
+    out["steps"].push_back(
+        {{"body", step.body}, {"plate", step.plate}, {"begin_s", step.begin_s}, {"end_s", step.end_s}});
   out["cross_talk"] = nlohmann::ordered_json::array();
   constexpr double kDegree = std::numbers::pi / 180.0;
   for (const auto& [name, found] : outcome.cross_talk)

@@ -3,6 +3,7 @@
 // Segments and joint angles of a recording by a definition: files in, files out.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +14,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
+#include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
@@ -30,28 +32,31 @@ struct SegmentsJob : JobSettings {
   std::vector<std::string> subject;    ///< NAME=VALUE, mm, deg, kg
   std::string up;                      ///< "x", "y" or "z", also "-y"; empty: found, else z
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
+  std::int64_t refits = 99;            ///< behind deviations of loads: 0 (none) or at least 20
   bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
   std::filesystem::path output;        ///< folder; empty: nothing is written
 };
 
 /// Warnings: what was left out or could not be computed.
 struct SegmentsOutcome : JobOutcome {
-  std::vector<data::InputFile> inputs;                                  ///< all that were read
-  std::string title;                                                    ///< of the definition
-  analysis::SegmentMotion motion;                                       ///< what it gives
+  std::vector<data::InputFile> inputs;  ///< all that were read
+  std::string title;                    ///< of the definition
+  analysis::SegmentMotion motion;       ///< what it gives
+  analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
 };
 
 /// Read, screen, compute, write into the folder `output`: angles.mot and angles_sd.sto (degrees, metres),
-/// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles and centres)
-/// and segments.json. Progress counts files.
+/// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles, loads and
+/// centres) and segments.json; loads.sto, loads_sd.sto and loads.csv where there are loads. Progress counts
+/// files.
 ///
 /// Code::usage for names and numbers that make no sense; Code::bad_input as the readers and
 /// analysis::compute_segments(); Code::io as Staging.
 [[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
 
-/// "definition", "inputs", "parameters", "angles", "cross_talk" (a list of "name", "correlation",
-/// "varus_deg", "flexion_deg", "suspicious", "sentence"), "written", "warnings".
+/// "definition", "inputs", "parameters", "angles", "loads", "steps" (on plates), "cross_talk" (a list of
+/// "name", "correlation", "varus_deg", "flexion_deg", "suspicious", "sentence"), "written", "warnings".
 [[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -14,6 +14,7 @@
 #include "kinemark/stages/report/internal/curve_block.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
+#include "kinemark/stages/report/scene.h"
 
 namespace kinemark::report {
 
@@ -28,6 +29,12 @@ constexpr std::size_t kMostListed = 3000;
 
 /// Numbers that curves of all markers may hold before they are packed; bounds the memory.
 constexpr std::int64_t kMostNumbers = 6'000'000;
+
+/// Places that all markers may have together in space, and what they may take of a page whose curves are
+/// thinned: extremes of axes were never together.
+constexpr std::int64_t kMostPositions = 200'000;
+constexpr std::int64_t kPositionsBytes = 250'000;
+constexpr std::int64_t kPositionsShare = 8;  // and at most so small a part of all
 
 /// Points of the curves before they are packed: per marker eight triples.
 PlotPoints plot_grid(const TimeBase& time, std::int64_t markers, const ReportOptions& options) {
@@ -186,6 +193,31 @@ void keep_longest(Json& list) {
   list = std::move(kept);
 }
 
+/// The result in space, in evenly chosen frames as they are.
+Json positions_json(const CleanReport& report, std::int64_t most_bytes) {
+  const std::int64_t step = report.series.front().place_step;
+  std::vector<std::string> names;
+  for (const auto& marker : report.account.markers) names.push_back(marker.name);
+  const auto points = std::ssize(report.series.front().positions);
+  auto positions =
+      Trajectories::all_missing(names, {.rate_hz = report.time.rate_hz / static_cast<double>(step),
+                                        .t0_s = report.time.t0_s,
+                                        .frames = points});
+  for (std::int64_t m = 0; m < positions.markers(); ++m) {
+    const auto& series = report.series[static_cast<std::size_t>(m)];
+    for (std::int64_t p = 0; p < points; ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      positions.state[positions.index(p, m)] = series.place_state[i];
+      positions.x(p, m) = series.positions[i].cast<double>();
+    }
+  }
+  Json out = scene_json({.markers = &positions, .up = {}, .up_from = ""},
+                        {.max_bytes = most_bytes, .max_bytes_long = most_bytes, .short_frames = 0});
+  out["frame_step"] = step * out["frame_step"].get<std::int64_t>();
+  out["worst"] = nullptr;  // of every frame, which the map of gaps shows
+  return out;
+}
+
 }  // namespace
 
 void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerArrays& arrays,
@@ -222,6 +254,13 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
     result.values(d->acceleration, series.acceleration);
     result.deviations(d->acceleration_sd, series.acceleration_sd);
   }
+  const std::int64_t most = kMostPositions / std::max<std::int64_t>(1, before.markers());
+  series.place_step =
+      std::max<std::int64_t>(1, (after.frames() + most - 1) / std::max<std::int64_t>(1, most));
+  for (std::int64_t f = 0; f < after.frames(); f += series.place_step) {
+    series.positions.emplace_back(after.x(f, arrays.after_marker).cast<float>());
+    series.place_state.push_back(after.state[after.index(f, arrays.after_marker)]);
+  }
   report.account.markers.push_back(std::move(account));
   report.counts.push_back(counts);
   report.series.push_back(std::move(series));
@@ -241,13 +280,24 @@ nlohmann::ordered_json clean_report_json(const CleanReport& report, const Report
   const bool none = report.series.empty();
   const std::int64_t points = none ? 0 : report.series.front().points;
   const std::int64_t step = none ? 1 : report.series.front().frame_step;
-  Json series = internal::pack_within(points, options.max_data_bytes, [&](const PlotPoints& thinned) {
-    Json markers = Json::array();
-    for (const CleanSeries& s : report.series) markers.push_back(pack_marker(s, thinned));
-    return Json{
-        {"frame_step", step * thinned.step()}, {"points", thinned.size()}, {"markers", std::move(markers)}};
-  });
-  return {{"summary", std::move(summary)}, {"series", std::move(series)}};
+  const auto curves_within = [&](std::int64_t most_bytes) {
+    return internal::pack_within(points, most_bytes, [&](const PlotPoints& thinned) {
+      Json markers = Json::array();
+      for (const CleanSeries& s : report.series) markers.push_back(pack_marker(s, thinned));
+      return Json{
+          {"frame_step", step * thinned.step()}, {"points", thinned.size()}, {"markers", std::move(markers)}};
+    });
+  };
+  const auto is_thinned = [](const Json& series) { return series["frame_step"].get<std::int64_t>() > 1; };
+  const std::int64_t positions_bytes =
+      std::clamp<std::int64_t>(options.max_data_bytes / kPositionsShare, 1000, kPositionsBytes);
+  Json series = curves_within(options.max_data_bytes - (step > 1 ? positions_bytes : 0));
+  Json scene = nullptr;
+  if (is_thinned(series)) {
+    if (step == 1) series = curves_within(options.max_data_bytes - positions_bytes);
+    scene = positions_json(report, positions_bytes);
+  }
+  return {{"summary", std::move(summary)}, {"series", std::move(series)}, {"scene", std::move(scene)}};
 }
 
 std::string clean_report_html(const CleanReport& report, const ReportOptions& options) {

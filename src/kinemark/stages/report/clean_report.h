@@ -51,8 +51,11 @@ struct CleanSeries {
   std::array<std::vector<float>, 3> raw, position, velocity, acceleration;
   /// one standard deviation, likewise
   std::array<std::vector<float>, 3> position_sd, velocity_sd, acceleration_sd;
-  std::array<std::vector<float>, 3> change;  ///< raw - position where both are present, m
-  std::vector<std::uint8_t> before, after;   ///< data::SampleState as ranked in README.md
+  std::array<std::vector<float>, 3> change;    ///< raw - position where both are present, m
+  std::vector<std::uint8_t> before, after;     ///< data::SampleState as ranked in README.md
+  std::int64_t place_step = 1;                 ///< frames per place
+  std::vector<Eigen::Vector3f> positions;      ///< of the result in every place_step-th frame, m; NaN: absent
+  std::vector<data::SampleState> place_state;  ///< likewise
 };
 
 /// The report of a cleaned recording. Plain data: fill `run`, `time` and all of `account` but its markers,

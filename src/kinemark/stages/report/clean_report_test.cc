@@ -228,9 +228,40 @@ TEST(CleanReportJson, RefusesMarkersWithoutSeriesOrOfDifferentGrids) {
   EXPECT_ANY_THROW((void)clean_report_json(r));
 }
 
+TEST(CleanReportJson, AThinnedPageHoldsTheResultInSpaceAsItIs) {
+  const ExampleClean e = example_clean(30'000);
+  const Json json = clean_report_json(e.finished());
+  const Json& scene = json["scene"];
+  ASSERT_GT(json["series"]["frame_step"].get<std::int64_t>(), 1);
+  const auto step = scene["frame_step"].get<std::int64_t>(), points = scene["points"].get<std::int64_t>();
+  EXPECT_GE(points, 300);
+  EXPECT_EQ(points, (30'000 + step - 1) / step);
+  EXPECT_LE(scene.dump().size(), 260'000U);
+  EXPECT_EQ(static_cast<std::int64_t>(scene["names"].size()), e.after.markers());
+  EXPECT_TRUE(scene["worst"].is_null() && scene["before"].is_null());
+  const auto positions = internal::unpack_series(scene["markers"]["positions_m"]);
+  const auto states = internal::inflate_base64(scene["markers"]["states"].get<std::string>());
+  std::int64_t compared = 0;
+  for (std::int64_t m = 0; m < e.after.markers(); ++m)
+    for (std::int64_t p = 0; p < points; p += 7) {
+      if (!e.after.present(p * step, m)) continue;
+      ++compared;
+      for (std::int64_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(positions[static_cast<std::size_t>((3 * m + k) * points + p)], e.after.x(p * step, m)[k],
+                    3e-4);
+      EXPECT_LT(states[static_cast<std::size_t>(m * points + p)], 4) << "there";
+    }
+  EXPECT_GT(compared, 400);
+}
+
+TEST(CleanReportJson, AShortPageTakesItsSpaceViewFromTheCurves) {
+  EXPECT_TRUE(clean_report_json(example_clean(300).finished())["scene"].is_null());
+}
+
 TEST(CleanReportHtml, SizeIsBoundedWhateverTheLength) {
   const ExampleClean e = example_clean(12000);
-  const std::size_t bare = clean_report_html(e.finished({.max_points = 2})).size();
+  const std::size_t bare =
+      clean_report_html(e.finished({.max_points = 2}), {.max_points = 2, .max_data_bytes = 10'000}).size();
   EXPECT_LT(bare, 1'000'000U) << "the bundle";
   EXPECT_LT(clean_report_html(e.finished(), {.max_data_bytes = 500'000}).size(), bare + 500'000U);
 }

@@ -10,6 +10,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/stages/report/internal/curve_block.h"
+#include "kinemark/stages/report/internal/json_parts.h"
 
 namespace kinemark::report {
 namespace {
@@ -76,6 +77,15 @@ Json cycles_json(std::span<const CycleOverlay> overlays) {
     curves.push_back(overlay_json(overlay));
   }
   return {{"points", overlays.front().curves.points}, {"curves", std::move(curves)}};
+}
+
+Json cycle_spans_json(std::span<const CycleSpan> cycles) {
+  if (cycles.empty()) return nullptr;
+  Json out = {{"Left", Json::array()}, {"Right", Json::array()}};
+  for (const auto& cycle : cycles)
+    out[cycle.side == data::Side::left ? "Left" : "Right"].push_back(
+        Json::array({internal::number(cycle.start_s, 6), internal::number(cycle.end_s, 6)}));
+  return out;
 }
 
 }  // namespace kinemark::report

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/data/gait_event.h"
 #include "kinemark/data/measure.h"
 
 namespace kinemark::report {
@@ -21,11 +22,21 @@ struct CycleOverlay {
   std::vector<std::int64_t> cycles;  ///< P, that have a value there
 };
 
+/// One cycle of a foot.
+struct CycleSpan {
+  data::Side side = data::Side::left;  ///< of the foot
+  double start_s = 0.0;                ///< its strike, on the clock of the recording
+  double end_s = 0.0;                  ///< its next strike
+};
+
 /// Cycles that a page draws of one overlay at most, evenly chosen; its mean is that of all.
 inline constexpr std::int64_t kMostCyclesDrawn = 20;
 
 /// As src/kinemark/stages/report/README.md describes it: `null` without overlays. Angles in deg, lengths in
 /// m.
 [[nodiscard]] nlohmann::ordered_json cycles_json(std::span<const CycleOverlay> overlays);
+
+/// As src/kinemark/stages/report/README.md describes it: `null` without cycles.
+[[nodiscard]] nlohmann::ordered_json cycle_spans_json(std::span<const CycleSpan> cycles);
 
 }  // namespace kinemark::report

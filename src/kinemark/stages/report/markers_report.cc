@@ -134,6 +134,7 @@ Json summary_of(const MarkersReport& report) {
           {"channels", channels_json(trial)},
           {"event_count", trial.events.size()},
           {"events", events_json(trial)},
+          {"cycles", cycle_spans_json(report.cycles)},
           {"inputs", internal::inputs_json(report.inputs)}};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/data/trial.h"
+#include "kinemark/stages/report/cycle_overlay.h"
 #include "kinemark/stages/report/report_parts.h"
 #include "kinemark/stages/report/scene.h"
 
@@ -28,6 +29,7 @@ struct MarkersReport {
   std::vector<std::string> warnings;              ///< one sentence each, besides those of the recording
   const data::Trajectories* before = nullptr;     ///< as it was recorded, on the same markers and frames;
                                                   ///< nullptr: as it is
+  std::vector<CycleSpan> cycles;                  ///< that the recording's events mark; may be none
   nlohmann::ordered_json editing;  ///< state of the edits, where the page can change them; null
 };
 

@@ -93,6 +93,17 @@ TEST(MarkersReport, ListsChannelsAndEvents) {
   EXPECT_EQ(json["events"][0]["time_s"], 1.25);
 }
 
+TEST(MarkersReport, TellsTheCyclesOfEachFoot) {
+  const auto trial = five_markers();
+  EXPECT_TRUE(markers_report_json({.recording = &trial})["summary"]["cycles"].is_null());
+  const auto json =
+      markers_report_json({.recording = &trial,
+                           .cycles = {{.side = data::Side::right, .start_s = 1.1, .end_s = 2.2},
+                                      {.side = data::Side::right, .start_s = 2.2, .end_s = 2.9}}});
+  EXPECT_EQ(json["summary"]["cycles"],
+            nlohmann::ordered_json::parse(R"({"Left": [], "Right": [[1.1, 2.2], [2.2, 2.9]]})"));
+}
+
 TEST(MarkersReport, AnUnknownRateIsAFinding) {
   const auto trial = five_markers();
   const auto groups = markers_notices({.recording = &trial, .rate_known = false});

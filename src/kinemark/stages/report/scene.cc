@@ -141,6 +141,10 @@ Json scene_json(const Scene& scene, const SceneOptions& options) {
   check(scene.bodies == nullptr || std::ssize(scene.bodies->origin_in_world) ==
                                        3 * markers.frames() * std::ssize(scene.bodies->names),
         "a scene needs a place of each body in each frame");
+  check(scene.bodies == nullptr || scene.bodies->meshes.empty() ||
+            (scene.bodies->meshes.size() == scene.bodies->names.size() &&
+             3 * scene.bodies->world_from_body.size() == 4 * scene.bodies->origin_in_world.size()),
+        "a scene with meshes needs one a body, and how each is turned in each frame");
   check(scene.skeleton == nullptr || scene.skeleton->frames() == markers.frames(),
         "a scene needs joint centres on the markers' clock");
   const std::int64_t frames = markers.frames();

@@ -15,6 +15,7 @@
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/data/triangle_mesh.h"
 #include "kinemark/data/wrenches.h"
 
 namespace kinemark::report {
@@ -29,13 +30,17 @@ struct SceneCamera {
   bool nominal = false;  ///< where it was meant to stand, not where it stands
 };
 
-/// Rigid bodies, each drawn as a plain shape of its own mass about the line from its origin to its end: F
-/// frames, B bodies.
+/// Rigid bodies, each drawn as its mesh, or as a plain shape of its own mass about the line from its origin
+/// to its end: F frames, B bodies.
 struct SceneBodies {
-  std::vector<std::string> names;  ///< B
-  std::vector<double> mass_kg;     ///< B, >= 0
-  Array<double> origin_in_world;   ///< F x B x 3, m
-  Array<double> end_in_world;      ///< F x B x 3, m: where the next body begins
+  std::vector<std::string> names;          ///< B
+  std::vector<double> mass_kg;             ///< B, >= 0
+  Array<double> origin_in_world;           ///< F x B x 3, m
+  Array<double> end_in_world;              ///< F x B x 3, m: where the next body begins
+  std::vector<data::TriangleMesh> meshes;  ///< B, m in the axes of each body; an empty one: the plain shape;
+                                           ///< or none at all. At most 65,535 points a body.
+  Array<double> world_from_body;           ///< F x B x 4, unit quaternions w x y z; empty without meshes
+  std::string meshes_note;                 ///< which meshes are drawn, and which are not; may be empty
 };
 
 /// Points through time to draw, all in one laboratory frame.

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/report/internal/scene_parts.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/report/internal/json_parts.h"
 #include "kinemark/stages/report/internal/track_block.h"
 
@@ -15,6 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kFinest_m = 2e-5, kCoarsest_m = 5e-4;
 constexpr double kFinestBody_m = 2e-4;  // shapes are rough anyway
+constexpr double kFinestTurn = 5e-4;    // of a quaternion: 0.2 mm at 0.4 m
+constexpr double kFinestMesh_m = 1e-4;
 /// Of the roots of covariances: what an ellipsoid's half axis may be off.
 constexpr double kFinestSd_mm = 1e-2, kCoarsestSd_mm = 2e-1;
 
@@ -45,6 +51,74 @@ std::vector<double> roots_of(const data::Skeleton& skeleton) {
       out.insert(out.end(), {L(0, 0), L(1, 0), L(1, 1), L(2, 0), L(2, 1), L(2, 2)});
     }
   return out;
+}
+
+/// Quaternions of the bodies that have a mesh, each on the side of the one before it, so that they move
+/// little.
+std::vector<double> turns_of(const SceneBodies& bodies, std::span<const std::size_t> drawn,
+                             std::int64_t step) {
+  const std::size_t count = bodies.names.size();
+  const std::size_t frames = bodies.world_from_body.size() / (4 * count);
+  std::vector<double> out(drawn.size() * 4 *
+                          ((frames + static_cast<std::size_t>(step) - 1) / static_cast<std::size_t>(step)));
+  const std::size_t points = out.size() / (4 * drawn.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    Eigen::Vector4d before = Eigen::Vector4d::UnitX();
+    for (std::size_t p = 0; p < points; ++p) {
+      const std::size_t frame = p * static_cast<std::size_t>(step);
+      Eigen::Vector4d turn =
+          Eigen::Map<const Eigen::Vector4d>(bodies.world_from_body.data() + 4 * (frame * count + drawn[i]));
+      if (turn.dot(before) < 0.0) turn = -turn;
+      before = turn;
+      for (Eigen::Index k = 0; k < 4; ++k) out[(4 * i + static_cast<std::size_t>(k)) * points + p] = turn[k];
+    }
+  }
+  return out;
+}
+
+/// Corners of all triangles, body after body: each less the one before it, lower bytes of all, then upper
+/// ones.
+std::string corners_of(const SceneBodies& bodies, std::span<const std::size_t> drawn) {
+  std::vector<std::uint16_t> words;
+  for (const std::size_t body : drawn)
+    for (const auto& triangle : bodies.meshes[body].triangles)
+      for (const auto corner : triangle) words.push_back(static_cast<std::uint16_t>(corner));
+  std::vector<std::uint8_t> bytes(2 * words.size());
+  std::uint16_t before = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto change = static_cast<std::uint16_t>(words[i] - before);
+    before = words[i];
+    bytes[i] = static_cast<std::uint8_t>(change);
+    bytes[words.size() + i] = static_cast<std::uint8_t>(change >> 8U);
+  }
+  return deflated(bytes);
+}
+
+Json meshes_json(const SceneBodies& bodies, std::int64_t step) {
+  std::vector<std::size_t> drawn;
+  Json points = Json::array(), triangles = Json::array();
+  std::int64_t total = 0;
+  for (std::size_t b = 0; b < bodies.meshes.size(); ++b) {
+    const auto& mesh = bodies.meshes[b];
+    if (mesh.empty()) continue;
+    check(mesh.points.size() <= 65'535, "a mesh of a page has at most 65,535 points");
+    drawn.push_back(b);
+    points.push_back(mesh.points.size());
+    triangles.push_back(mesh.triangles.size());
+    total += std::ssize(mesh.points);
+  }
+  std::vector<double> positions;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    for (const std::size_t body : drawn)
+      for (const auto& x : bodies.meshes[body].points) positions.push_back(x[k]);
+  const auto turns = turns_of(bodies, drawn, step);
+  return {
+      {"body", drawn},
+      {"points", std::move(points)},
+      {"triangles", std::move(triangles)},
+      {"positions_m", pack_series(positions, total, kFinestMesh_m, kCoarsest_m)},
+      {"corners", corners_of(bodies, drawn)},
+      {"turn", pack_series(turns, std::ssize(turns) / (4 * std::ssize(drawn)), kFinestTurn, kFinestTurn)}};
 }
 
 }  // namespace
@@ -78,10 +152,18 @@ Json bodies_json(const SceneBodies& bodies, std::int64_t step) {
   };
   Json masses = Json::array();
   for (const double mass : bodies.mass_kg) masses.push_back(number(mass, 4));
-  return {{"names", bodies.names},
-          {"mass_kg", std::move(masses)},
-          {"origin_m", pack(bodies.origin_in_world)},
-          {"end_m", pack(bodies.end_in_world)}};
+  // Who has a mesh needs no end.
+  auto ends = bodies.end_in_world;
+  for (std::size_t i = 0; i < ends.size() && !bodies.meshes.empty(); ++i)
+    if (!bodies.meshes[i / 3 % bodies.names.size()].empty()) ends[i] = kNaN;
+  Json out = {{"names", bodies.names},
+              {"mass_kg", std::move(masses)},
+              {"origin_m", pack(bodies.origin_in_world)},
+              {"end_m", pack(ends)}};
+  if (!bodies.meshes_note.empty()) out["meshes_note"] = bodies.meshes_note;
+  if (std::ranges::any_of(bodies.meshes, [](const auto& mesh) { return !mesh.empty(); }))
+    out["meshes"] = meshes_json(bodies, step);
+  return out;
 }
 
 Json cameras_json(std::span<const SceneCamera> cameras) {

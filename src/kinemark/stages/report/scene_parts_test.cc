@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/stages/report/internal/unpack_testing.h"
@@ -79,6 +80,68 @@ TEST(SceneParts, CamerasStandWhereTheyStand) {
   EXPECT_EQ(json[0]["centre_m"], (nlohmann::ordered_json{1.0, 2.0, 3.0}));
   EXPECT_EQ(json[0]["forward"], (nlohmann::ordered_json{0.0, 0.6, 0.8}));
   EXPECT_EQ(json[0]["nominal"], true);
+}
+
+/// Two bodies over 5 frames; the second has a mesh and turns about z by a full turn, past the change of sign.
+SceneBodies with_a_mesh() {
+  SceneBodies bodies;
+  bodies.names = {"plain", "bone"};
+  bodies.mass_kg = {1.0, 0.0};
+  bodies.meshes = {{},
+                   {.points = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}, {0.0, 0.0, 0.3}},
+                    .triangles = {{0, 1, 2}, {3, 1, 0}}}};
+  bodies.meshes_note = "1 body drawn from the model's meshes";
+  for (int f = 0; f < 5; ++f) {
+    bodies.origin_in_world.insert(bodies.origin_in_world.end(), {0.0, 0.0, 0.0, 0.5, 0.0, 0.1 * f});
+    bodies.end_in_world.insert(bodies.end_in_world.end(), {0.3, 0.0, 0.0, 0.6, 0.0, 0.1 * f});
+    const double half = 0.5 * (2.0 * std::numbers::pi / 4.0) * f;
+    bodies.world_from_body.insert(bodies.world_from_body.end(), {1.0, 0.0, 0.0, 0.0});
+    // The other of the two quaternions of the same turn, in every second frame.
+    const double sign = f % 2 == 0 ? 1.0 : -1.0;
+    bodies.world_from_body.insert(bodies.world_from_body.end(),
+                                  {sign * std::cos(half), 0.0, 0.0, sign * std::sin(half)});
+  }
+  return bodies;
+}
+
+TEST(SceneParts, MeshesComeBackWithTheTurnsOfTheirBodies) {
+  const auto json = internal::bodies_json(with_a_mesh(), 2);
+  EXPECT_EQ(json["meshes_note"].get<std::string>(), "1 body drawn from the model's meshes");
+  const auto& meshes = json["meshes"];
+  EXPECT_EQ(meshes["body"], nlohmann::ordered_json::parse("[1]"));
+  EXPECT_EQ(meshes["points"], nlohmann::ordered_json::parse("[4]"));
+  EXPECT_EQ(meshes["triangles"], nlohmann::ordered_json::parse("[2]"));
+  const auto positions = unpack_series(meshes["positions_m"]);
+  ASSERT_EQ(positions.size(), 12U);
+  EXPECT_NEAR(positions[1], 0.1, 1e-4) << "x of the second point";
+  EXPECT_NEAR(positions[4 + 2], 0.2, 1e-4) << "y of the third";
+  EXPECT_NEAR(positions[8 + 3], 0.3, 1e-4) << "z of the fourth";
+  const auto corners = inflate_base64(meshes["corners"].get<std::string>());
+  ASSERT_EQ(corners.size(), 12U);
+  std::uint16_t word = 0;
+  const std::vector<int> expected{0, 1, 2, 3, 1, 0};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    word = static_cast<std::uint16_t>(word + corners[i] + 256 * corners[6 + i]);
+    EXPECT_EQ(word, expected[i]) << i;
+  }
+  const auto turn = unpack_series(meshes["turn"]);
+  ASSERT_EQ(turn.size(), 12U) << "frames 0, 2 and 4";
+  EXPECT_NEAR(turn[0], 1.0, 3e-4);
+  EXPECT_NEAR(turn[1], 0.0, 3e-4);
+  EXPECT_NEAR(turn[9 + 1], 1.0, 3e-4) << "half a turn about z";
+  EXPECT_NEAR(turn[2], -1.0, 3e-4) << "a whole turn goes on, it does not jump";
+  const auto ends = unpack_series(json["end_m"]);
+  EXPECT_NEAR(ends[0], 0.3, 5e-4) << "the plain body keeps its end";
+  EXPECT_EQ(ends[9], 0.0) << "the other has none";
+}
+
+TEST(SceneParts, WithoutMeshesNothingIsAdded) {
+  auto bodies = with_a_mesh();
+  bodies.meshes.clear();
+  bodies.world_from_body.clear();
+  bodies.meshes_note.clear();
+  const auto json = internal::bodies_json(bodies, 1);
+  EXPECT_FALSE(json.contains("meshes") || json.contains("meshes_note"));
 }
 
 }  // namespace

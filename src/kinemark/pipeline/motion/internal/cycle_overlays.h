@@ -22,4 +22,8 @@ namespace kinemark::pipeline::internal {
                                                                const TimeBase& recording,
                                                                const data::JointMotion& motion);
 
+/// The same cycles in time alone.
+[[nodiscard]] std::vector<report::CycleSpan> cycle_spans(std::span<const data::Event> events,
+                                                         const TimeBase& recording);
+
 }  // namespace kinemark::pipeline::internal

@@ -10,6 +10,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
+#include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/report/ik_summary.h"
 
 namespace kinemark::pipeline::internal {
@@ -18,11 +19,12 @@ namespace kinemark::pipeline::internal {
 [[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded,
                                                 const data::MarkerFit& fit, const data::JointMotion& motion);
 
-/// HTML with the model's bodies in space, and over the cycles that the recording's events mark.
+/// HTML with the model's bodies in space, as the meshes that its file names where they are found, and over
+/// the cycles that the recording's events mark.
 /// @param markers    on the motion's clock; nullptr: not known
 /// @param recording  what was solved
-[[nodiscard]] std::string motion_page(const model::Model& model, const report::IkSummary& summary,
-                                      const data::JointMotion& motion, const data::Trajectories* markers,
-                                      const data::Trial& recording);
+[[nodiscard]] std::string motion_page(const MotionJob& job, const model::Model& model,
+                                      const report::IkSummary& summary, const data::JointMotion& motion,
+                                      const data::Trajectories* markers, const data::Trial& recording);
 
 }  // namespace kinemark::pipeline::internal

@@ -154,8 +154,9 @@ struct MeasuredPath::Refits {
   static bool of_least(Pivot pivot) { return pivot == Pivot::of_derivative; }
   static bool of_raw(Pivot pivot) { return pivot == Pivot::raw_squared; }
 
-  std::vector<double> values(const PathSamples& path, const PathFrame& frame, bool (*taken)(Pivot)) const {
-    const PathFacts facts(path, frame);
+  std::vector<double> values(const PathSamples& path, const PathFrame& frame, bool (*taken)(Pivot),
+                             const NearPath* near = nullptr) const {
+    const PathFacts facts(path, frame, near);
     std::vector<double> out;
     for (const auto* definition : definitions)
       out.push_back(taken(definition->pivot) ? definition->value(facts) : kNaN);
@@ -214,17 +215,28 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
   if (least_too)
     refits.least = refits.values(differentiate(least_, stretch.first, stretch.count, recording_.rate_hz),
                                  frame, Refits::of_least);
-  refits.pilot = refits.values(part(pilot), frame, Refits::of_less);
-  const SeriesMatrix raw = raw_path(near.recording, less_.middleRows(near.first, near.recording.x.rows()));
-  const auto visit = [&](std::int64_t number, const SeriesMatrix& less, const SeriesMatrix& least) {
-    const PathSamples less_part = part(less);
+  const PathSamples pilot_part = part(pilot);
+  const NearPath near_pilot(pilot_part.x);
+  refits.pilot = refits.values(pilot_part, frame, Refits::of_less, &near_pilot);
+  // What noise is added to where measures are taken of samples that are not smoothed.
+  const std::int64_t first = stretch.first - near.first;
+  const PathMatrix raw = raw_path(near.recording, less_.middleRows(near.first, near.recording.x.rows()))
+                             .middleRows(first, stretch.count);
+  const auto visit = [&](const RefitBatch& batch, std::int64_t k) {
+    const auto of_batch = [&](const SeriesMatrix& x) {
+      return differentiate(x, first, stretch.count, recording_.rate_hz, 3 * k, 3);
+    };
+    const PathSamples less_part = of_batch(batch.less);
     if (spread != nullptr) spread->add(less_part);
-    const auto a = refits.values(less_part, frame, Refits::of_less);
-    const auto b = least_too ? refits.values(part(least), frame, Refits::of_least) : a;
-    const auto c = raw_too ? refits.values(part(with_noise(raw, near.recording.seen, recording_.noise_sd_m,
-                                                           options_.seed, stream, number)),
-                                           frame, Refits::of_raw)
-                           : a;
+    const auto a = refits.values(less_part, frame, Refits::of_less, &near_pilot);
+    const auto b = least_too ? refits.values(of_batch(batch.least), frame, Refits::of_least) : a;
+    const auto c =
+        raw_too
+            ? refits.values({.rate_hz = recording_.rate_hz,
+                             .x = raw + PathMatrix(batch.simulated.block(first, 3 * k, stretch.count, 3)) -
+                                  pilot_part.x},
+                            frame, Refits::of_raw)
+            : a;
     for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
       const Pivot pivot = refits.definitions[i]->pivot;
       const double base = refits.pilot[i];
@@ -234,7 +246,11 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
       if (Refits::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
     }
   };
-  for_each_refit(near.recording, pilot, options_.refits, options_.seed, stream, visit);
+  for_each_batch(near.recording, pilot,
+                 {.count = options_.refits, .seed = options_.seed, .stream = stream, .least_too = least_too},
+                 [&](const RefitBatch& batch) {
+                   for (std::int64_t k = 0; k < batch.count; ++k) visit(batch, k);
+                 });
 }
 
 std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region,
@@ -268,8 +284,9 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
   refits.least.assign(count, kNaN), refits.raw.assign(count, kNaN);
   const bool raw_too = refits.any(Refits::of_raw);
   if (raw_too)
-    refits.raw = refits.values(differentiate(raw_path(recording_, less_), stretch.first, stretch.count, rate),
-                               frame, Refits::of_raw);
+    refits.raw = refits.values(
+        {.rate_hz = rate, .x = raw_path(recording_, less_).middleRows(stretch.first, stretch.count)}, frame,
+        Refits::of_raw);
   CurveSpread spread(pilot_part);
   if (intervals) refit(stretch, near, pilot, frame, refits, curves != nullptr ? &spread : nullptr);
 

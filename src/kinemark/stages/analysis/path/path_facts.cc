@@ -32,8 +32,8 @@ PathSamples moving_part(const PathSamples& path, const MovementWindow& window) {
 
 // Way of the straight trend in a time, over the extent of the path without the trend.
 double drift_of(const PathSamples& path, double time_s) {
-  const SeriesMatrix level = without_trend(path.x);
-  const SeriesMatrix trend = path.x - level;
+  const PathMatrix level = without_trend(path.x);
+  const PathMatrix trend = path.x - level;
   const double speed = (trend.row(path.count() - 1) - trend.row(0)).norm() * path.rate_hz /
                        static_cast<double>(std::max<std::int64_t>(1, path.count() - 1));
   return speed * time_s / (level.colwise().maxCoeff() - level.colwise().minCoeff()).norm();
@@ -74,9 +74,14 @@ PathFrame recognise(const PathSamples& path) {
   return out;
 }
 
-PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled)
+const OuterSamples& NearPath::outer() const {
+  return once(outer_, [this] { return outer_samples(x_); });
+}
+
+PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled, const NearPath* near_path)
     : path(samples),
       frame(settled),
+      near(near_path),
       speed(speed_of(samples)),
       window(movement_window(speed, samples.rate_hz)) {
   if (settled.discrete) part_ = moving_part(samples, window);
@@ -89,7 +94,7 @@ const Eigen::VectorXd& PathFacts::moving_speed() const {
 const PrincipalAxes& PathFacts::principal() const {
   return once(principal_, [this] { return principal_axes(path.x); });
 }
-const SeriesMatrix& PathFacts::along() const {
+const PathMatrix& PathFacts::along() const {
   return once(along_, [this] { return along_axes(path.x, principal()); });
 }
 const Cycles& PathFacts::cycles() const {
@@ -103,11 +108,23 @@ const EllipseAxes& PathFacts::ellipse() const {
 const Diameters& PathFacts::distances() const {
   return once(distances_, [this] { return diameters(path.x); });
 }
+const Bends& PathFacts::bends() const {
+  return once(bends_, [this] { return bends_of(path); });
+}
 const Eigen::Vector3d& PathFacts::box() const {
-  return once(box_, [this] { return smallest_box(path.x); });
+  return once(box_, [this] {
+    return near == nullptr ? smallest_box(path.x, principal())
+                           : smallest_box(path.x, principal(), near->outer(), near->x());
+  });
 }
 const Periodogram& PathFacts::periodogram() const {
-  return once(periodogram_, [this] { return periodogram_of(path.x, path.rate_hz); });
+  return once(periodogram_, [this] { return periodogram_of(path.x, path.rate_hz, kLowHz); });
+}
+double PathFacts::dominant_hz() const {
+  constexpr double kLowest_hz = 0.3;
+  const double low = peak_frequency(periodogram(), kLowest_hz);
+  // Where a higher one may have more, all of them.
+  return std::isnan(low) ? peak_frequency(periodogram_of(path.x, path.rate_hz), kLowest_hz) : low;
 }
 
 }  // namespace kinemark::analysis

@@ -25,6 +25,9 @@ struct PathFrame {
   double share_at_rest = 0.0;  ///< of the samples slower than kMovingShare of the peak speed
 };
 
+/// Frequencies that measures of bands need.
+inline constexpr double kLowHz = 12.0;
+
 /// The middle nine tenths of the values lie within a tenth of their median.
 [[nodiscard]] bool hardly_changes(const Eigen::VectorXd& values);
 
@@ -34,14 +37,29 @@ struct PathFrame {
 /// its straight trend moves it in a cycle by less than a quarter of its extent.
 [[nodiscard]] PathFrame recognise(const PathSamples& path);
 
+/// A path of which others are variants: what is known of it spares work on them, and changes no value.
+class NearPath {
+ public:
+  /// @param x  n x 3, must outlive it
+  explicit NearPath(const PathMatrix& x) : x_(x) {}
+  [[nodiscard]] const PathMatrix& x() const { return x_; }  ///< n x 3, m
+  [[nodiscard]] const OuterSamples& outer() const;          ///< found when it is first asked for
+
+ private:
+  const PathMatrix& x_;
+  mutable std::optional<OuterSamples> outer_;
+};
+
 /// Values that measures share, each computed when it is first asked for. Not for several threads at once.
 class PathFacts {
  public:
-  /// Both must outlive it. Cost: n.
-  PathFacts(const PathSamples& samples, const PathFrame& settled);
+  /// All must outlive it. Cost: n.
+  /// @param near_path  of as many samples, which these are a variant of; null: none
+  PathFacts(const PathSamples& samples, const PathFrame& settled, const NearPath* near_path = nullptr);
 
   const PathSamples& path;  ///< the stretch
   const PathFrame& frame;   ///< what was settled
+  const NearPath* near;     ///< a path that these are a variant of, or null
   Eigen::VectorXd speed;    ///< of the stretch, m/s
   MovementWindow window;    ///< onset and end, s from the first sample of the stretch
 
@@ -49,21 +67,24 @@ class PathFacts {
   [[nodiscard]] const PathSamples& movement() const { return part_ ? *part_ : path; }
   [[nodiscard]] const Eigen::VectorXd& moving_speed() const;  ///< of the movement, m/s
   [[nodiscard]] const PrincipalAxes& principal() const;       ///< of the stretch
-  [[nodiscard]] const SeriesMatrix& along() const;            ///< the stretch along its principal axes, m
+  [[nodiscard]] const PathMatrix& along() const;              ///< the stretch along its principal axes, m
   [[nodiscard]] const Cycles& cycles() const;                 ///< along the settled axis
   [[nodiscard]] const EllipseAxes& ellipse() const;           ///< in the best-fit plane; NaN of open paths
   [[nodiscard]] const Diameters& distances() const;           ///< between samples
+  [[nodiscard]] const Bends& bends() const;                   ///< for curvature and torsion
   [[nodiscard]] const Eigen::Vector3d& box() const;           ///< the smallest, descending, m
-  [[nodiscard]] const Periodogram& periodogram() const;       ///< of the stretch
+  [[nodiscard]] const Periodogram& periodogram() const;       ///< of the stretch, up to kLowHz
+  [[nodiscard]] double dominant_hz() const;                   ///< above 0.3 Hz, of the stretch
 
  private:
   std::optional<PathSamples> part_;
   mutable std::optional<Eigen::VectorXd> moving_speed_;
   mutable std::optional<PrincipalAxes> principal_;
-  mutable std::optional<SeriesMatrix> along_;
+  mutable std::optional<PathMatrix> along_;
   mutable std::optional<Cycles> cycles_;
   mutable std::optional<EllipseAxes> ellipse_;
   mutable std::optional<Diameters> distances_;
+  mutable std::optional<Bends> bends_;
   mutable std::optional<Eigen::Vector3d> box_;
   mutable std::optional<Periodogram> periodogram_;
 };

@@ -8,16 +8,19 @@
 
 namespace kinemark::analysis {
 
-/// n x 3: one row per sample, one column per axis.
+/// n x 3: one row per sample, one column per axis, one sample behind the other.
 using math::SeriesMatrix;
+
+/// n x 3 as well, but one axis behind the other.
+using PathMatrix = Eigen::MatrixXd;
 
 /// The path of one point over a stretch of even samples, with its derivatives.
 struct PathSamples {
   double rate_hz = 0.0;  ///< above 0
-  SeriesMatrix x;        ///< position, m
-  SeriesMatrix v;        ///< velocity, m/s
-  SeriesMatrix a;        ///< acceleration, m/s^2
-  SeriesMatrix j;        ///< jerk, m/s^3
+  PathMatrix x;          ///< position, m
+  PathMatrix v;          ///< velocity, m/s
+  PathMatrix a;          ///< acceleration, m/s^2
+  PathMatrix j;          ///< jerk, m/s^3
 
   [[nodiscard]] std::int64_t count() const { return x.rows(); }  ///< n
 };
@@ -33,5 +36,10 @@ inline constexpr std::int64_t kDerivativeMargin = 4;
 /// @param count  samples of it; kDerivativeMargin must follow
 [[nodiscard]] PathSamples differentiate(const SeriesMatrix& x, std::int64_t first, std::int64_t count,
                                         double rate_hz);
+/// The same of some of the columns.
+/// @param column  the first of them
+/// @param axes    how many
+[[nodiscard]] PathSamples differentiate(const SeriesMatrix& x, std::int64_t first, std::int64_t count,
+                                        double rate_hz, std::int64_t column, std::int64_t axes);
 
 }  // namespace kinemark::analysis

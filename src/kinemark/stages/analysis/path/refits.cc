@@ -6,20 +6,30 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/normals.h"
 
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kHighestCutOff = 0.45;          // cycles per sample
-constexpr std::int64_t kPilotRefits = 40;        // that tell the energy of noise
-constexpr std::int64_t kBatch = 16;              // recordings smoothed at once, at most
-constexpr std::int64_t kBatchSamples = 1 << 18;  // of all of them, so that an hour needs no more memory
-constexpr double kLocal_s = 0.15;                // farthest neighbour that tells local energy
+constexpr double kHighestCutOff = 0.45;    // cycles per sample
+constexpr std::int64_t kPilotRefits = 40;  // that tell the energy of noise
+constexpr std::int64_t kColumns = 12;      // that are smoothed side by side
+constexpr std::int64_t kNoiseRows = 256;   // whose noise is made at once
+constexpr double kLocal_s = 0.15;          // farthest neighbour that tells local energy
 constexpr std::uint64_t kPilotStream = 1ULL << 62;
+
+// White noise of a deviation, on the samples that are seen.
+struct Noise {
+  const std::vector<bool>* seen;
+  double sd;
+  std::uint64_t seed, stream;
+};
 
 math::DifferenceSmoother smoother_of(const Recording& recording, double factor) {
   math::DifferenceSmoother smoother(recording.seen, recording.choice.order);
@@ -28,18 +38,32 @@ math::DifferenceSmoother smoother_of(const Recording& recording, double factor) 
   return smoother;
 }
 
-std::int64_t batch_of(std::int64_t samples) {
-  return std::clamp<std::int64_t>(kBatchSamples / std::max<std::int64_t>(1, samples), 1, kBatch);
+// Recordings smoothed at once, so that their columns fill the smoother's vectors.
+std::int64_t batch_of(std::int64_t axes) { return kColumns / std::gcd(kColumns, axes); }
+
+// Noise of one recording added to as many columns from `column` on as `axes` says.
+void add_noise(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const Noise& noise,
+               std::int64_t number) {
+  const std::uint64_t stream = mix64(noise.stream) ^ static_cast<std::uint64_t>(number);
+  std::vector<double> normals;
+  for (std::int64_t first = 0; first < to.rows(); first += kNoiseRows) {
+    const std::int64_t rows = std::min(kNoiseRows, to.rows() - first);
+    normals.resize(at(rows * axes));
+    math::fill_normals(noise.seed, stream, first * axes, normals);
+    const double* from = normals.data();
+    for (std::int64_t i = first; i < first + rows; ++i, from += axes) {
+      if (!(*noise.seen)[at(i)]) continue;
+      double* values = to.data() + i * to.cols() + column;
+      for (std::int64_t k = 0; k < axes; ++k) values[k] += noise.sd * from[k];
+    }
+  }
 }
 
 // Recordings first .. first + count side by side, as many columns each as the path has.
-SeriesMatrix simulated(const Recording& recording, const SeriesMatrix& path, std::int64_t first,
-                       std::int64_t count, std::uint64_t seed, std::uint64_t stream) {
+SeriesMatrix simulated(const SeriesMatrix& path, const Noise& noise, std::int64_t first, std::int64_t count) {
   const auto axes = path.cols();
-  SeriesMatrix out(path.rows(), axes * count);
-  for (std::int64_t k = 0; k < count; ++k)
-    out.middleCols(axes * k, axes) =
-        with_noise(path, recording.seen, recording.noise_sd_m, seed, stream, first + k);
+  SeriesMatrix out = path.replicate(1, count);
+  for (std::int64_t k = 0; k < count; ++k) add_noise(out, axes * k, axes, noise, first + k);
   return out;
 }
 
@@ -66,17 +90,8 @@ Eigen::VectorXd hann(std::int64_t size) {
 
 SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd,
                         std::uint64_t seed, std::uint64_t stream, std::int64_t number) {
-  Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(number));
   SeriesMatrix out = path;
-  double* values = out.data();
-  const std::int64_t columns = path.cols(), count = out.size();
-  for (std::int64_t i = 0; i < count; i += 2) {
-    // Both of Box and Muller's numbers, for this value and the next.
-    const double size = sd * std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-    const double angle = 2.0 * std::numbers::pi * random.uniform();
-    if (seen[at(i / columns)]) values[i] += size * std::cos(angle);
-    if (i + 1 < count && seen[at((i + 1) / columns)]) values[i + 1] += size * std::sin(angle);
-  }
+  add_noise(out, 0, path.cols(), {.seen = &seen, .sd = sd, .seed = seed, .stream = stream}, number);
   return out;
 }
 
@@ -105,13 +120,16 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   // the principal components of the stretch.
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(n - 1);
   Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(axes);
-  const std::int64_t batch = batch_of(n);
+  const Noise white{
+      .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = seed, .stream = stream ^ kPilotStream};
+  const std::int64_t batch = batch_of(axes);
   for (std::int64_t begin = 0; begin < kPilotRefits; begin += batch) {
     const std::int64_t in_batch = std::min(batch, kPilotRefits - begin);
-    SeriesMatrix deviations = simulated(recording, fit, begin, in_batch, seed, stream ^ kPilotStream);
+    SeriesMatrix deviations = simulated(fit, white, begin, in_batch);
     smoother.smooth(deviations);
+    for (std::int64_t i = 0; i < n; ++i)
+      for (std::int64_t k = 0; k < in_batch; ++k) deviations.row(i).segment(axes * k, axes) -= fit.row(i);
     for (std::int64_t k = 0; k < in_batch; ++k) {
-      deviations.middleCols(axes * k, axes) -= fit;
       const SeriesMatrix part = deviations.block(first, axes * k, count, axes) * solver.eigenvectors();
       const SeriesMatrix level = part.rowwise() - part.colwise().mean().eval();
       noise_variance += level.colwise().squaredNorm().transpose() / static_cast<double>(count * kPilotRefits);
@@ -142,22 +160,39 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   return ((pilot.rowwise() - mean) * shrink).rowwise() + mean;
 }
 
+void for_each_batch(const Recording& recording, const SeriesMatrix& path, const RefitNumbers& numbers,
+                    const std::function<void(const RefitBatch&)>& visit) {
+  const auto less = smoother_of(recording, kLessSmooth);
+  std::optional<math::DifferenceSmoother> least;
+  if (numbers.least_too) least.emplace(smoother_of(recording, kLeastSmooth));
+  const Noise noise{
+      .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = numbers.seed, .stream = numbers.stream};
+  const std::int64_t batch = batch_of(path.cols());
+  RefitBatch out;
+  for (out.first = 0; out.first < numbers.count; out.first += batch) {
+    out.count = std::min(batch, numbers.count - out.first);
+    out.simulated = simulated(path, noise, out.first, out.count);
+    out.less = out.simulated;
+    less.smooth(out.less);
+    if (least) {
+      out.least = out.simulated;
+      least->smooth(out.least);
+    }
+    visit(out);
+  }
+}
+
 void for_each_refit(
     const Recording& recording, const SeriesMatrix& path, std::int64_t refits, std::uint64_t seed,
     std::uint64_t stream,
     const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit) {
-  const auto less = smoother_of(recording, kLessSmooth), least = smoother_of(recording, kLeastSmooth);
-  const std::int64_t batch = batch_of(path.rows());
-  for (std::int64_t first = 0; first < refits; first += batch) {
-    const std::int64_t count = std::min(batch, refits - first);
-    SeriesMatrix a = simulated(recording, path, first, count, seed, stream);
-    SeriesMatrix b = a;
-    less.smooth(a);
-    least.smooth(b);
-    const auto axes = path.cols();
-    for (std::int64_t k = 0; k < count; ++k)
-      visit(first + k, a.middleCols(axes * k, axes), b.middleCols(axes * k, axes));
-  }
+  const auto axes = path.cols();
+  for_each_batch(recording, path, {.count = refits, .seed = seed, .stream = stream},
+                 [&](const RefitBatch& batch) {
+                   for (std::int64_t k = 0; k < batch.count; ++k)
+                     visit(batch.first + k, batch.less.middleCols(axes * k, axes),
+                           batch.least.middleCols(axes * k, axes));
+                 });
 }
 
 }  // namespace kinemark::analysis

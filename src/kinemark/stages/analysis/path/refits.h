@@ -39,9 +39,30 @@ struct Recording {
 [[nodiscard]] SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count,
                                       std::uint64_t seed, std::uint64_t stream);
 
+/// Which simulated recordings are made and smoothed.
+struct RefitNumbers {
+  std::int64_t count = 0;    ///< 0 or more
+  std::uint64_t seed = 0;    ///< of their noise
+  std::uint64_t stream = 0;  ///< of it
+  bool least_too = true;     ///< smooth them with kLeastSmooth as well
+};
+
+/// Some of them, side by side: columns axes * k and on are those of number first + k.
+struct RefitBatch {
+  std::int64_t first = 0;  ///< number of the first
+  std::int64_t count = 0;  ///< how many
+  SeriesMatrix simulated;  ///< n x (axes * count): the path with noise on its seen samples
+  SeriesMatrix less;       ///< smoothed with kLessSmooth
+  SeriesMatrix least;      ///< with kLeastSmooth; empty where not asked for
+};
+
+/// Simulated recordings of `path`, a batch at a time. Noise is white, of the recording's SD, on seen samples;
+/// that of number k comes from stream (stream, k) of the seed, whatever else is computed.
+void for_each_batch(const Recording& recording, const SeriesMatrix& path, const RefitNumbers& numbers,
+                    const std::function<void(const RefitBatch&)>& visit);
+
 /// For every simulated recording of `path`: call `visit` with its number and with the smoothed path of it at
-/// kLessSmooth and kLeastSmooth. Noise is white, of the recording's SD, on seen samples; that of refit k
-/// comes from stream (stream, k) of the seed, whatever else is computed.
+/// kLessSmooth and kLeastSmooth. Noise as of for_each_batch().
 void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits,
                     std::uint64_t seed, std::uint64_t stream,
                     const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit);

@@ -6,16 +6,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "kinemark/stages/analysis/path/path_samples.h"
 
 namespace kinemark::analysis {
 
 /// Sum of the distances from sample to sample, m. Noise can only lengthen it.
-[[nodiscard]] double path_length(const SeriesMatrix& x);
+[[nodiscard]] double path_length(const PathMatrix& x);
 
 /// Distance from the first to the last sample over the path length: 1 of a straight way.
-[[nodiscard]] double straightness(const SeriesMatrix& x);
+[[nodiscard]] double straightness(const PathMatrix& x);
 
 /// Directions in which a path spreads most, next and least (principal components): the last is the normal of
 /// its best-fit plane, in the sense of total least squares.
@@ -25,10 +28,10 @@ struct PrincipalAxes {
   Eigen::Vector3d variance = Eigen::Vector3d::Zero();    ///< along them, m^2, over n, descending
 };
 /// Signs so that the first two axes point to the farther end of the path along them.
-[[nodiscard]] PrincipalAxes principal_axes(const SeriesMatrix& x);
+[[nodiscard]] PrincipalAxes principal_axes(const PathMatrix& x);
 
 /// Positions in the frame of the axes: n x 3, along them.
-[[nodiscard]] SeriesMatrix along_axes(const SeriesMatrix& x, const PrincipalAxes& axes);
+[[nodiscard]] PathMatrix along_axes(const PathMatrix& x, const PrincipalAxes& axes);
 
 /// Distances of the samples from their mean, m: the median over samples of the distance to the farthest other
 /// sample, and the largest of all distances. Of long paths every k-th sample, 240 at most.
@@ -36,11 +39,11 @@ struct Diameters {
   double median_farthest = 0.0;  ///< as Poizner, Wooten & Salot (1986) take the diameter of a wheel
   double largest = 0.0;          ///< between any two samples
 };
-[[nodiscard]] Diameters diameters(const SeriesMatrix& x);
+[[nodiscard]] Diameters diameters(const PathMatrix& x);
 
 /// Diameter of the circle of least squared distances, m, in the plane of two coordinates (n x 2 or more
 /// columns, the first two count). Algebraic start (Kasa 1976), then Newton's method.
-[[nodiscard]] double circle_diameter(const SeriesMatrix& in_plane);
+[[nodiscard]] double circle_diameter(const PathMatrix& in_plane);
 
 /// Axes of the ellipse fitted to the first two columns by direct least squares (Halir & Flusser 1998), m.
 struct EllipseAxes {
@@ -48,23 +51,53 @@ struct EllipseAxes {
   double minor = 0.0;  ///< of the shorter one
 };
 /// NaN where no ellipse fits.
-[[nodiscard]] EllipseAxes ellipse_axes(const SeriesMatrix& in_plane);
+[[nodiscard]] EllipseAxes ellipse_axes(const PathMatrix& in_plane);
 
 /// Sides of the smallest box around all samples, descending, m.
 ///
 /// From the box along the principal axes, each side in turn is turned to the least area of the rectangle
 /// around the path seen along it (exact: one edge of the hull lies on it, Freeman & Shapira 1975) until the
 /// volume no longer falls: a local minimum, never larger than the box along the principal axes.
-[[nodiscard]] Eigen::Vector3d smallest_box(const SeriesMatrix& x);
+[[nodiscard]] Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal);
+
+/// Which samples of a path lie near its hull, for the boxes of paths that lie near it.
+struct OuterSamples {
+  using Triangle = std::array<std::int64_t, 3>;  ///< samples, counter-clockwise from outside
+  std::vector<std::int64_t>
+      order;  ///< all samples, those nearest to the hull, or outside of what is known of it, first
+  std::vector<double> depth;          ///< of each of these at least, m; empty where little would be gained
+  std::vector<Triangle> coarse;       ///< faces of the hull of its farthest samples along 13 axes both ways
+  std::vector<std::int64_t> corners;  ///< samples that depths are counted from, ascending
+};
+/// Cost: n, and of long paths some ten milliseconds.
+[[nodiscard]] OuterSamples outer_samples(const PathMatrix& x);
+
+/// The smallest box of a path near another: the same as without that knowledge, for less.
+/// @param near    outer_samples() of the other path
+/// @param near_x  the other path, with as many samples
+[[nodiscard]] Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal,
+                                           const OuterSamples& near, const PathMatrix& near_x);
+
+/// Distance of every row of one path from the same row of another, n, m.
+[[nodiscard]] Eigen::VectorXd deviations(const PathMatrix& x, const PathMatrix& other);
+
+/// What curvature and torsion are made of, at the samples faster than a tenth of the peak speed.
+struct Bends {
+  std::vector<double> speed_squared;  ///< |v|^2, m^2/s^2
+  std::vector<double> cross_squared;  ///< |v x a|^2, m^4/s^6
+  std::vector<double> triple;         ///< (v x a) . j, m^3/s^6
+};
+/// Cost: n.
+[[nodiscard]] Bends bends_of(const PathSamples& path);
 
 /// Median over the samples faster than a tenth of the peak speed of |v x a| / |v|^3, 1/m.
-[[nodiscard]] double median_curvature(const PathSamples& path);
+[[nodiscard]] double median_curvature(const Bends& bends);
 
 /// Median over the same samples, those with a curvature, of |(v x a) . j| / |v x a|^2, 1/m.
-[[nodiscard]] double median_torsion(const PathSamples& path);
+[[nodiscard]] double median_torsion(const Bends& bends);
 
 /// The exponent b of |v| ~ curvature^-b by least squares of the logarithms over the same samples: 1/3 of a
 /// harmonic ellipse (Lacquaniti, Terzuolo & Viviani 1983).
-[[nodiscard]] double power_law_exponent(const PathSamples& path);
+[[nodiscard]] double power_law_exponent(const Bends& bends);
 
 }  // namespace kinemark::analysis

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/stages/analysis/path/testing/known_path.h"
@@ -24,6 +25,8 @@ template <class Own>
 PathSamples tilted(std::int64_t n, double rate_hz, const Own& own) {
   return testing::path_of(n, rate_hz, [&](double t) -> Eigen::Vector3d { return kPlace + kTilt * own(t); });
 }
+
+Eigen::Vector3d box_of(const PathMatrix& x) { return smallest_box(x, principal_axes(x)); }
 
 PathSamples helix() {
   return tilted(1208, 400.0, [](double t) {
@@ -120,7 +123,7 @@ TEST(SmallestBox, OfTheCornersOfATiltedBox) {
     x.row(k) = (kPlace + kTilt * Eigen::Vector3d(k & 1 ? 0.3 : 0.0, k & 2 ? 0.2 : 0.0, k & 4 ? 0.05 : 0.0))
                    .transpose();
   x.row(8) = (kPlace + kTilt * Eigen::Vector3d(0.29, 0.01, 0.01)).transpose();  // turns the principal axes
-  const auto sides = smallest_box(x);
+  const auto sides = box_of(x);
   EXPECT_NEAR(sides[0], 0.3, 1e-9);
   EXPECT_NEAR(sides[1], 0.2, 1e-9);
   EXPECT_NEAR(sides[2], 0.05, 1e-9);
@@ -132,7 +135,7 @@ TEST(SmallestBox, OfAFlatPathIsItsSmallestRectangle) {
   x.row(0) = kPlace.transpose();
   x.row(1) = (kPlace + kTilt * Eigen::Vector3d(0.4, 0, 0)).transpose();
   x.row(2) = (kPlace + kTilt * Eigen::Vector3d(0, 0.3, 0)).transpose();
-  const auto sides = smallest_box(x);
+  const auto sides = box_of(x);
   EXPECT_NEAR(sides[0] * sides[1], 0.12, 1e-9);
   EXPECT_NEAR(sides[2], 0.0, 1e-9);
 }
@@ -147,14 +150,49 @@ TEST(SmallestBox, OfManySamplesIsThatOfTheirCorners) {
     if (i < 8) p = Eigen::Vector3d(i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0);
     x.row(i) = (kPlace + kTilt * p.cwiseProduct(Eigen::Vector3d(0.5, 0.3, 0.1))).transpose();
   }
-  EXPECT_LT((smallest_box(x) - Eigen::Vector3d(0.5, 0.3, 0.1)).norm(), 1e-9);
+  EXPECT_LT((box_of(x) - Eigen::Vector3d(0.5, 0.3, 0.1)).norm(), 1e-9);
   // Of a flat one nothing lies inside.
   for (std::int64_t i = 0; i < n; ++i)
     x.row(i) = Eigen::RowVector3d(0.4 * std::cos(static_cast<double>(i)),
                                   0.4 * std::sin(static_cast<double>(i)), 0.0);
-  const auto flat = smallest_box(x);
+  const auto flat = box_of(x);
   EXPECT_NEAR(flat[0], 0.8, 1e-6);
   EXPECT_NEAR(flat[2], 0.0, 1e-12);
+}
+
+TEST(SmallestBox, OfAPathNearAnotherIsTheSameWithWhatIsKnownOfThat) {
+  Random random(8, 0);
+  for (const std::int64_t n : {100, 1500, 6000})
+    for (const double noise : {1e-4, 0.01, 0.2}) {
+      PathMatrix x(n, 3);
+      for (std::int64_t i = 0; i < n; ++i) {
+        const double t = 0.01 * static_cast<double>(i);
+        x.row(i) << 0.3 * std::sin(t) + 0.1 * std::cos(7.1 * t), 0.2 * std::cos(0.9 * t),
+            0.05 * std::sin(3.3 * t);
+      }
+      PathMatrix other = x;
+      for (double& value : other.reshaped()) value += noise * random.gaussian();
+      EXPECT_LT((deviations(x, other) - (x - other).rowwise().norm()).norm(), 1e-12);
+      const auto axes = principal_axes(other);
+      const auto alone = smallest_box(other, axes),
+                 with_help = smallest_box(other, axes, outer_samples(x), x);
+      EXPECT_LT((alone - with_help).norm(), 1e-12 * alone.norm()) << n << " " << noise;
+    }
+}
+
+TEST(OuterSamples, NearestToTheHullComeFirst) {
+  const std::int64_t n = 5000;
+  Random random(2, 0);
+  PathMatrix x(n, 3);
+  for (double& value : x.reshaped()) value = random.uniform(-1.0, 1.0);
+  for (int k = 0; k < 8; ++k) x.row(100 * k) << (k & 1 ? 1 : -1), (k & 2 ? 1 : -1), (k & 4 ? 1 : -1);
+  const auto outer = outer_samples(x);
+  ASSERT_EQ(outer.order.size(), static_cast<std::size_t>(n));
+  ASSERT_EQ(outer.depth.size(), outer.order.size());
+  // The hull is a cube: the depth of a point is its distance from the nearest side.
+  for (std::size_t i = 0; i < outer.order.size(); ++i)
+    ASSERT_NEAR(outer.depth[i], 1.0 - x.row(outer.order[i]).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_TRUE(std::ranges::is_sorted(outer.depth));
 }
 
 TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {
@@ -164,7 +202,7 @@ TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {
     for (double& value : x.reshaped()) value = random.gaussian();
     const SeriesMatrix along = along_axes(x, principal_axes(x));
     const double volume = (along.colwise().maxCoeff() - along.colwise().minCoeff()).prod();
-    const auto sides = smallest_box(x);
+    const auto sides = box_of(x);
     EXPECT_LE(sides.prod(), volume * (1.0 + 1e-9));
     EXPECT_GE(sides[0], sides[1]);
     EXPECT_GE(sides[1], sides[2]);
@@ -174,14 +212,14 @@ TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {
 TEST(Curvature, AndTorsionOfAHelixAreThoseOfItsFormula) {
   // r / (r^2 + c^2), c / (r^2 + c^2) with pitch c = speed along the axis over turning speed.
   const double r = 0.3, c = 0.2 / 4.0;
-  EXPECT_NEAR(median_curvature(helix()), r / (r * r + c * c), 1e-9);
-  EXPECT_NEAR(median_torsion(helix()), c / (r * r + c * c), 1e-7);
+  EXPECT_NEAR(median_curvature(bends_of(helix())), r / (r * r + c * c), 1e-9);
+  EXPECT_NEAR(median_torsion(bends_of(helix())), c / (r * r + c * c), 1e-7);
 }
 
 TEST(PowerLaw, ExponentOfAHarmonicEllipseIsAThird) {
   const auto path = tilted(
       808, 400.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(5 * t), 0.07 * std::sin(5 * t), 0); });
-  EXPECT_NEAR(power_law_exponent(path), 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(power_law_exponent(bends_of(path)), 1.0 / 3.0, 1e-9);
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/wide.h"
 #include "kinemark/stages/analysis/path/shape.h"
 
 namespace kinemark::analysis {
@@ -14,50 +17,157 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr std::int64_t kMany = 4000;       // samples from which those well inside are left out first
-constexpr std::int64_t kVeryMany = 30000;  // for which a finer hull pays
+constexpr std::int64_t kMany = 200;       // samples from which those well inside are left out first
+constexpr std::int64_t kVeryMany = 4000;  // for which a finer hull pays
+constexpr double kInside = 1e-6;          // of the extent: nearer to a face is not inside
+constexpr std::int64_t kBoxBlock = 256;
+constexpr std::size_t kManyFaces = 1000;  // more only of corners in a plane, each face many times
+constexpr int kLevels = 40;               // of tetrahedra on each other
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-// Convex hull, counter-clockwise (Andrew 1979).
-Points hull_of(Points points) {
-  std::ranges::sort(points, [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  Points hull;
-  const auto go_along = [&hull](const auto& from, std::size_t least) {
-    for (const auto& point : from) {
-      while (hull.size() > least && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
-      hull.push_back(point);
+// Corners of a hull from a to b, counter-clockwise, without these two, of points that may lie outside of that
+// edge (quickhull, Barber et al. 1996).
+void add_corners(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Points& points, Points& hull) {
+  const Eigen::Vector2d* farthest = nullptr;
+  double most = 0.0;
+  for (const auto& p : points)
+    if (const double outside = -turn(a, b, p); outside > most) most = outside, farthest = &p;
+  if (farthest == nullptr) return;
+  const Eigen::Vector2d c = *farthest;
+  Points before, behind;
+  for (const auto& p : points)
+    if (turn(a, c, p) < 0.0)
+      before.push_back(p);
+    else if (turn(c, b, p) < 0.0)
+      behind.push_back(p);
+  add_corners(a, c, before, hull);
+  hull.push_back(c);
+  add_corners(c, b, behind, hull);
+}
+
+// Points in a plane, u and w, filled up with the first of them to whole vectors.
+struct PlanePart {
+  std::vector<double> u, w;
+};
+constexpr std::size_t kCorners = 8;
+constexpr double kTurnU[kCorners] = {1, 1, 0, -1, -1, -1, 0, 1},
+                 kTurnW[kCorners] = {0, 1, 1, 1, 0, -1, -1, -1};
+
+// The farthest points along eight directions: their numbers.
+[[gnu::always_inline]] inline void find_octagon(const double* u, const double* w, std::int64_t n,
+                                                std::size_t* corners) {
+  for (std::size_t k = 0; k < kCorners; ++k) {
+    Lanes most, where, here{0.0, 1.0, 2.0, 3.0};
+    spread(most, -INFINITY), spread(where, 0.0);
+    for (std::int64_t i = 0; i < n; i += kLanes) {
+      Lanes x, y;
+      load(x, u + i), load(y, w + i);
+      const Lanes along = kTurnU[k] * x + kTurnW[k] * y;
+      const LaneBits better = along > most;
+      most = better ? along : most;
+      where = better ? here : where;
+      here += static_cast<double>(kLanes);
     }
-  };
-  go_along(points, 1);
-  const std::size_t lower = hull.size();
-  std::ranges::reverse(points);
-  points.erase(points.begin());
-  go_along(points, lower);
-  if (hull.size() > 1) hull.pop_back();
+    int best = 0;
+    for (int l = 1; l < kLanes; ++l)
+      if (most[l] > most[best]) best = l;
+    corners[k] = static_cast<std::size_t>(where[best]);
+  }
+}
+
+// How far points lie inside of some lines: the least of a u + b w + c, and of which line.
+struct Line {
+  double a, b, c;
+};
+[[gnu::always_inline]] inline void find_inside(const double* u, const double* w, std::int64_t n,
+                                               const Line* lines, std::size_t count, double* inside,
+                                               double* which) {
+  for (std::int64_t i = 0; i < n; i += kLanes) {
+    Lanes x, y, least, where, number;
+    load(x, u + i), load(y, w + i);
+    spread(least, INFINITY), spread(where, 0.0), spread(number, 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Lanes side = lines[k].a * x + lines[k].b * y + lines[k].c;
+      const LaneBits less = side < least;
+      least = less ? side : least;
+      where = less ? number : where;
+      number += 1.0;
+    }
+    store(inside + i, least), store(which + i, where);
+  }
+}
+
+// Convex hull of points in a plane, counter-clockwise: the farthest along eight directions, and what lies
+// outside of the octagon that these make, each point outside of one edge.
+Points hull_of(const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
+  const std::int64_t n = u.size(), room = (n + kLanes - 1) / kLanes * kLanes;
+  PlanePart part{.u = std::vector<double>(at(room), u[0]), .w = std::vector<double>(at(room), w[0])};
+  std::copy_n(u.data(), n, part.u.begin()), std::copy_n(w.data(), n, part.w.begin());
+  std::size_t corners[kCorners];
+  run_wide<find_octagon>(static_cast<const double*>(part.u.data()), static_cast<const double*>(part.w.data()),
+                         room, &corners[0]);
+  Line lines[kCorners];
+  Points ends;
+  for (const std::size_t k : corners)
+    if (const Eigen::Vector2d p(part.u[k], part.w[k]); ends.empty() || p != ends.back()) ends.push_back(p);
+  if (ends.size() > 1 && ends.back() == ends.front()) ends.pop_back();
+  if (ends.size() < 2) return ends;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const Eigen::Vector2d edge = ends[(k + 1) % ends.size()] - ends[k];
+    lines[k] = {.a = -edge.y(), .b = edge.x(), .c = edge.y() * ends[k].x() - edge.x() * ends[k].y()};
+  }
+  std::vector<double> inside(at(room)), which(at(room));
+  run_wide<find_inside>(static_cast<const double*>(part.u.data()), static_cast<const double*>(part.w.data()),
+                        room, static_cast<const Line*>(&lines[0]), ends.size(), inside.data(), which.data());
+  std::array<Points, kCorners> outside;
+  for (std::size_t i = 0; i < at(n); ++i)
+    if (inside[i] < 0.0) outside[static_cast<std::size_t>(which[i])].emplace_back(part.u[i], part.w[i]);
+  Points hull;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    hull.push_back(ends[k]);
+    add_corners(ends[k], ends[(k + 1) % ends.size()], outside[k], hull);
+  }
   return hull;
 }
 
-// Direction of one side of the least rectangle around a hull.
+// Direction of one side of the least rectangle around a hull: what lies farthest along an edge and from it
+// goes round with the edge (Toussaint 1983).
 Eigen::Vector2d best_side(const Points& hull) {
   Eigen::Vector2d best(1.0, 0.0);
   double least = INFINITY;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+  const std::size_t n = hull.size();
+  std::size_t ahead = 0, across = 0, behind = 0;
+  bool placed = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % n] - hull[i];
     if (!(edge.norm() > 0.0)) continue;
     const Eigen::Vector2d u = edge.normalized(), w(-u.y(), u.x());
-    double u0 = INFINITY, u1 = -INFINITY, w0 = INFINITY, w1 = -INFINITY;
-    for (const auto& p : hull) {
-      u0 = std::min(u0, u.dot(p)), u1 = std::max(u1, u.dot(p));
-      w0 = std::min(w0, w.dot(p)), w1 = std::max(w1, w.dot(p));
+    if (!placed) {
+      for (std::size_t k = 0; k < n; ++k) {
+        if (u.dot(hull[k]) > u.dot(hull[ahead])) ahead = k;
+        if (w.dot(hull[k]) > w.dot(hull[across])) across = k;
+        if (u.dot(hull[k]) < u.dot(hull[behind])) behind = k;
+      }
+      placed = true;
     }
-    if ((u1 - u0) * (w1 - w0) < least) least = (u1 - u0) * (w1 - w0), best = u;
+    const auto go_on = [&](std::size_t& at, const Eigen::Vector2d& along) {
+      for (std::size_t steps = 0; steps < n && along.dot(hull[(at + 1) % n]) >= along.dot(hull[at]); ++steps)
+        at = (at + 1) % n;
+    };
+    go_on(ahead, u), go_on(across, w), go_on(behind, -u);
+    const double area = (u.dot(hull[ahead]) - u.dot(hull[behind])) * (w.dot(hull[across]) - w.dot(hull[i]));
+    if (area < least) least = area, best = u;
   }
   return best;
+}
+
+double extent(const Points& points, const Eigen::Vector2d& along) {
+  double least = INFINITY, most = -INFINITY;
+  for (const auto& p : points) least = std::min(least, along.dot(p)), most = std::max(most, along.dot(p));
+  return most - least;
 }
 
 // A plane that has all points of a set on one side: normal . p <= distance.
@@ -66,32 +176,61 @@ struct Face {
   double distance = 0.0;
 };
 
-// The faces of the hull of a few points, each perhaps several times: of every three, whether the others lie
-// on one side.
-std::vector<Face> faces_of(const std::vector<Eigen::Vector3d>& corners) {
-  constexpr double kFlat = 1e-9;
-  std::vector<Face> out;
+Eigen::Vector3d row(const PathMatrix& x, std::int64_t i) { return x.row(i).transpose(); }
+
+// The faces of the hull of a few rows, each perhaps several times: of every three, whether the others lie on
+// one side. Their corners, counter-clockwise from outside.
+std::vector<OuterSamples::Triangle> faces_of(const PathMatrix& x, const std::vector<std::int64_t>& rows) {
+  constexpr double kFlat = 1e-9;  // of the extent
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto i : rows) corners.push_back(row(x, i) - row(x, rows.front()));
+  double scale = 0.0;
+  for (const auto& corner : corners) scale = std::max(scale, corner.cwiseAbs().maxCoeff());
+  if (!(scale > 0.0)) return {};
+  for (auto& corner : corners) corner /= scale;
+  std::vector<OuterSamples::Triangle> out;
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k) {
-        Eigen::Vector3d normal = (corners[j] - corners[i]).cross(corners[k] - corners[i]);
-        if (!(normal.norm() > kFlat)) continue;
-        normal.normalize();
+        const Eigen::Vector3d normal = (corners[j] - corners[i]).cross(corners[k] - corners[i]);
+        const double flat = kFlat * normal.norm();
+        if (!(flat > kFlat * kFlat)) continue;
         double least = 0.0, most = 0.0;
         for (const auto& corner : corners) {
           const double side = normal.dot(corner - corners[i]);
           least = std::min(least, side), most = std::max(most, side);
-          if (least < -kFlat && most > kFlat) break;
+          if (least < -flat && most > flat) break;
         }
-        if (most <= kFlat) out.push_back({.normal = normal, .distance = normal.dot(corners[i])});
-        if (least >= -kFlat) out.push_back({.normal = -normal, .distance = -normal.dot(corners[i])});
+        if (most <= flat) out.push_back({rows[i], rows[j], rows[k]});
+        if (least >= -flat) out.push_back({rows[i], rows[k], rows[j]});
       }
   return out;
 }
 
 // The farthest rows along axes to a grid's points on a half of a cube, both ways: 13 of a grid from -1 to 1,
 // 62 of one from -2 to 2.
-std::vector<std::int64_t> farthest_both_ways(const SeriesMatrix& points, int grid) {
+struct Extremes {
+  const double *x, *y, *z;
+  std::int64_t count;
+  Eigen::Vector3d axis;
+  double least, most;
+};
+[[gnu::always_inline]] inline void find_extremes(Extremes* of) {
+  Lanes least, most;
+  spread(least, of->least), spread(most, of->most);
+  const double a = of->axis[0], b = of->axis[1], c = of->axis[2];
+  for (std::int64_t i = 0; i < of->count; i += kLanes) {
+    Lanes x, y, z;
+    load(x, of->x + i), load(y, of->y + i), load(z, of->z + i);
+    const Lanes along = a * x + b * y + c * z;
+    least = along < least ? along : least;
+    most = along > most ? along : most;
+  }
+  for (int k = 0; k < kLanes; ++k)
+    of->least = std::min(of->least, least[k]), of->most = std::max(of->most, most[k]);
+}
+
+std::vector<std::int64_t> farthest_both_ways(const PathMatrix& points, int grid) {
   std::vector<Eigen::Vector3d> axes;
   for (int x = -grid; x <= grid; ++x)
     for (int y = -grid; y <= grid; ++y)
@@ -99,12 +238,24 @@ std::vector<std::int64_t> farthest_both_ways(const SeriesMatrix& points, int gri
         if (std::tuple(x, y, z) > std::tuple(0, 0, 0)) axes.emplace_back(x, y, z);
   std::vector<double> least(axes.size(), INFINITY), most(axes.size(), -INFINITY);
   std::vector<std::int64_t> out(2 * axes.size(), 0);
-  for (std::int64_t i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d p = points.row(i).transpose();
+  for (std::int64_t begin = 0; begin < points.rows(); begin += kBoxBlock) {
+    const std::int64_t count = std::min(kBoxBlock, points.rows() - begin);
     for (std::size_t k = 0; k < axes.size(); ++k) {
-      const double along = p.dot(axes[k]);
-      if (along < least[k]) least[k] = along, out[2 * k] = i;
-      if (along > most[k]) most[k] = along, out[2 * k + 1] = i;
+      Extremes part{.x = points.col(0).data() + begin,
+                    .y = points.col(1).data() + begin,
+                    .z = points.col(2).data() + begin,
+                    .count = count / kLanes * kLanes,
+                    .axis = axes[k],
+                    .least = least[k],
+                    .most = most[k]};
+      run_wide<find_extremes>(&part);
+      if (part.least == least[k] && part.most == most[k] && count == kBoxBlock) continue;
+      for (std::int64_t i = begin; i < begin + count; ++i) {
+        const double along =
+            axes[k][0] * points(i, 0) + axes[k][1] * points(i, 1) + axes[k][2] * points(i, 2);
+        if (along < least[k]) least[k] = along, out[2 * k] = i;
+        if (along > most[k]) most[k] = along, out[2 * k + 1] = i;
+      }
     }
   }
   std::ranges::sort(out);
@@ -112,52 +263,199 @@ std::vector<std::int64_t> farthest_both_ways(const SeriesMatrix& points, int gri
   return out;
 }
 
-// Of many points about 0 those that do not lie well inside the hull of the farthest along a grid's axes: all
-// corners of their own hull are among them.
-SeriesMatrix outer(const SeriesMatrix& centred, int grid, std::int64_t many) {
-  constexpr double kInside = 1e-6;  // of the extent
-  const double scale = centred.cwiseAbs().maxCoeff();
-  if (centred.rows() < many || !(scale > 0.0)) return centred;
-  std::vector<Eigen::Vector3d> corners;
-  for (const auto i : farthest_both_ways(centred, grid))
-    corners.emplace_back(centred.row(i).transpose() / scale);
-  const auto faces = faces_of(corners);
-  if (faces.size() < 4) return centred;
-  double ball = INFINITY;  // that all faces have inside
-  for (const auto& face : faces) ball = std::min(ball, face.distance - kInside);
-  SeriesMatrix out(centred.rows(), 3);
-  std::int64_t kept = 0;
-  for (std::int64_t i = 0; i < centred.rows(); ++i) {
-    const Eigen::Vector3d p = centred.row(i).transpose() / scale;
-    if (ball > 0.0 && p.squaredNorm() < ball * ball) continue;
-    const auto inside = [&p](const Face& face) { return face.normal.dot(p) < face.distance - kInside; };
-    if (!std::ranges::all_of(faces, inside)) out.row(kept++) = centred.row(i);
+// How far a block of points lies within all faces: the least of distance - normal . p, and of which face.
+struct DepthBlock {
+  const double *x, *y, *z;
+  double *depth, *which;
+  const Face* faces;
+  std::size_t count;
+};
+[[gnu::always_inline]] inline void find_depth(const DepthBlock& of) {
+  for (std::int64_t i = 0; i < kBoxBlock; i += kLanes) {
+    Lanes x, y, z, depth, which, number;
+    load(x, of.x + i), load(y, of.y + i), load(z, of.z + i);
+    spread(depth, INFINITY), spread(which, 0.0), spread(number, 0.0);
+    for (std::size_t k = 0; k < of.count; ++k) {
+      const auto& face = of.faces[k];
+      const Lanes here = face.distance - (face.normal[0] * x + face.normal[1] * y + face.normal[2] * z);
+      const LaneBits nearer = here < depth;
+      depth = nearer ? here : depth;
+      which = nearer ? number : which;
+      number += 1.0;
+    }
+    store(of.depth + i, depth), store(of.which + i, which);
   }
-  return out.topRows(kept);
+}
+
+// Planes through the corners where they are now; none where a triangle has no direction.
+std::vector<Face> planes_of(const PathMatrix& x, const std::vector<OuterSamples::Triangle>& triangles) {
+  std::vector<Face> out;
+  for (const auto& corner : triangles) {
+    const Eigen::Vector3d first = row(x, corner[0]);
+    const Eigen::Vector3d normal = (row(x, corner[1]) - first).cross(row(x, corner[2]) - first);
+    if (!(normal.norm() > 0.0)) return {};
+    out.push_back({.normal = normal.normalized(), .distance = normal.normalized().dot(first)});
+  }
+  return out;
+}
+
+// Depth of every point.
+// @param which  number of the face that it is nearest to or farthest outside of, for each
+Eigen::VectorXd depths(const PathMatrix& points, const std::vector<Face>& faces, double* which) {
+  const std::int64_t n = points.rows();
+  Eigen::VectorXd out(n);
+  std::array<double, kBoxBlock> depth, number;
+  Eigen::Matrix<double, kBoxBlock, 3> rest;
+  for (std::int64_t i = 0; i < n; i += kBoxBlock) {
+    DepthBlock block{.x = points.col(0).data() + i,
+                     .y = points.col(1).data() + i,
+                     .z = points.col(2).data() + i,
+                     .depth = depth.data(),
+                     .which = number.data(),
+                     .faces = faces.data(),
+                     .count = faces.size()};
+    if (n - i < kBoxBlock) {
+      rest.setZero();
+      rest.topRows(n - i) = points.bottomRows(n - i);
+      block.x = rest.col(0).data(), block.y = rest.col(1).data(), block.z = rest.col(2).data();
+    }
+    run_wide<find_depth>(block);
+    const std::int64_t count = std::min(kBoxBlock, n - i);
+    std::copy_n(depth.begin(), count, out.data() + i);
+    std::copy_n(number.begin(), count, which + i);
+  }
+  return out;
+}
+
+// Those of some points outside a face that may be corners of the hull: the farthest, and those that are not
+// in the tetrahedron that it makes with the face, face by face of that (as in quickhull, Barber et al. 1996).
+struct Outside {
+  const PathMatrix& points;
+  double margin;
+  std::vector<std::int64_t>& kept;
+
+  void keep(const std::array<Eigen::Vector3d, 3>& corner, const std::vector<std::int64_t>& some, int level) {
+    if (some.size() < 3 || level == kLevels) {
+      kept.insert(kept.end(), some.begin(), some.end());
+      return;
+    }
+    const Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    std::int64_t farthest = some.front();
+    for (const auto i : some)
+      if (normal.dot(row(points, i) - row(points, farthest)) > 0.0) farthest = i;
+    const Eigen::Vector3d apex = row(points, farthest);
+    if (normal.dot(apex - corner[0]) <= margin * normal.norm()) {
+      kept.insert(kept.end(), some.begin(), some.end());  // all of them lie on the face
+      return;
+    }
+    std::array<Face, 3> sides;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d side = (corner[(k + 1) % 3] - corner[k]).cross(apex - corner[k]);
+      if (!(side.norm() > 0.0)) {
+        kept.insert(kept.end(), some.begin(), some.end());
+        return;
+      }
+      sides[k] = {.normal = side.normalized(), .distance = side.normalized().dot(apex)};
+    }
+    kept.push_back(farthest);
+    std::array<std::vector<std::int64_t>, 3> beyond;
+    for (const auto i : some) {
+      if (i == farthest) continue;
+      const Eigen::Vector3d p = row(points, i);
+      std::size_t most = 0;
+      double height = -INFINITY;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const double above = sides[k].normal.dot(p) - sides[k].distance; above > height)
+          height = above, most = k;
+      if (height > -margin) beyond[most].push_back(i);
+    }
+    for (std::size_t k = 0; k < 3; ++k) keep({corner[k], corner[(k + 1) % 3], apex}, beyond[k], level + 1);
+  }
+};
+
+// Those points that may be corners of their hull, by the polyhedron with the corners of some triangles: what
+// sees all its faces from inside lies in it, even where it is not convex, and so in the hull of all points.
+PathMatrix outermost(const PathMatrix& points, const PathMatrix& x,
+                     const std::vector<OuterSamples::Triangle>& triangles, double margin) {
+  const auto faces = planes_of(x, triangles);
+  if (faces.size() < 4) return points;
+  std::vector<double> which(at(points.rows()));
+  const auto depth = depths(points, faces, which.data());
+  std::vector<std::vector<std::int64_t>> outside(faces.size());
+  for (std::int64_t i = 0; i < points.rows(); ++i)
+    if (!(depth[i] > margin)) outside[static_cast<std::size_t>(which[at(i)])].push_back(i);
+  std::vector<std::int64_t> kept;
+  Outside sort_out{.points = points, .margin = margin, .kept = kept};
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    sort_out.keep({row(x, triangles[k][0]), row(x, triangles[k][1]), row(x, triangles[k][2])}, outside[k], 0);
+  PathMatrix out(static_cast<Eigen::Index>(kept.size()), 3);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = points.row(kept[at(i)]);
+  return out;
 }
 
 }  // namespace
 
-Eigen::Vector3d smallest_box(const SeriesMatrix& x) {
-  const PrincipalAxes principal = principal_axes(x);
+OuterSamples outer_samples(const PathMatrix& x) {
+  OuterSamples out;
+  const std::int64_t n = x.rows();
+  out.order.resize(at(n));
+  std::iota(out.order.begin(), out.order.end(), 0);
+  if (n < kMany) return out;
+  out.coarse = faces_of(x, farthest_both_ways(x, 1));
+  if (out.coarse.size() < 4 || out.coarse.size() > kManyFaces) return out;
+  std::vector<OuterSamples::Triangle> fine;
+  if (n >= kVeryMany) fine = faces_of(x, farthest_both_ways(x, 2));
+  const auto& triangles = fine.size() < 4 || fine.size() > kManyFaces ? out.coarse : fine;
+  for (const auto& triangle : triangles)
+    out.corners.insert(out.corners.end(), triangle.begin(), triangle.end());
+  std::ranges::sort(out.corners);
+  out.corners.erase(std::ranges::unique(out.corners).begin(), out.corners.end());
+  std::vector<double> which(at(n));
+  const auto depth = depths(x, planes_of(x, triangles), which.data());
+  std::ranges::sort(out.order, [&](std::int64_t a, std::int64_t b) { return depth[a] < depth[b]; });
+  for (const auto i : out.order) out.depth.push_back(depth[i]);
+  return out;
+}
+
+Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal) {
+  return smallest_box(x, principal, outer_samples(x), x);
+}
+
+Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal, const OuterSamples& near,
+                             const PathMatrix& near_x) {
   Eigen::Matrix3d axes = principal.axes;
-  const SeriesMatrix centred = outer(outer(x.rowwise() - principal.mean, 1, kMany), 2, kVeryMany);
+  const double margin = kInside * (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  PathMatrix centred = x;
+  if (!near.depth.empty()) {
+    // A sample that was deeper in the near path's hull than it and the corners of this have moved is no
+    // corner.
+    const Eigen::VectorXd moved = deviations(x, near_x);
+    double of_corners = margin;
+    for (const auto i : near.corners) of_corners = std::max(of_corners, moved[i] + margin);
+    const double most = of_corners + moved.maxCoeff();
+    std::int64_t kept = 0;
+    for (std::size_t i = 0; i < near.order.size() && near.depth[i] <= most; ++i) {
+      const auto sample = near.order[i];
+      if (near.depth[i] <= of_corners + moved[sample]) centred.row(kept++) = x.row(sample);
+    }
+    centred = outermost(centred.topRows(kept), x, near.coarse, margin);
+  }
+  centred.rowwise() -= principal.mean;
   const auto sides = [&centred](const Eigen::Matrix3d& along) -> Eigen::Vector3d {
-    const SeriesMatrix p = centred * along;
+    const PathMatrix p = centred * along;
     return (p.colwise().maxCoeff() - p.colwise().minCoeff()).transpose();
   };
   Eigen::Vector3d best = sides(axes);
   for (int unchanged = 0, k = 2, step = 0; unchanged < 3 && step < 60; ++step, k = (k + 2) % 3) {
     // The rectangle across axis k, in the plane of the two others.
     const Eigen::Vector3d first = axes.col((k + 1) % 3), second = axes.col((k + 2) % 3);
-    Points points;
-    for (std::int64_t i = 0; i < centred.rows(); ++i)
-      points.emplace_back(centred.row(i).dot(first), centred.row(i).dot(second));
-    const Eigen::Vector2d side = best_side(hull_of(std::move(points)));
+    const Points hull = hull_of(centred * first, centred * second);
+    const Eigen::Vector2d side = best_side(hull), other(-side.y(), side.x());
     Eigen::Matrix3d turned = axes;
     turned.col((k + 1) % 3) = side.x() * first + side.y() * second;
-    turned.col((k + 2) % 3) = -side.y() * first + side.x() * second;
-    const Eigen::Vector3d found = sides(turned);
+    turned.col((k + 2) % 3) = other.x() * first + other.y() * second;
+    Eigen::Vector3d found = best;
+    found[(k + 1) % 3] = extent(hull, side), found[(k + 2) % 3] = extent(hull, other);
     // Equal but for rounding is no gain, and a flat path still has a smallest rectangle.
     const double flat = 1e-9 * best.maxCoeff();
     if (found.cwiseMax(flat).prod() < best.cwiseMax(flat).prod() * (1.0 - 1e-9)) {

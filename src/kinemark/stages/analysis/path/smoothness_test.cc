@@ -117,6 +117,24 @@ TEST(LowAmplitudes, OfALongSeriesAreThoseOfTheWholeTransform) {
   EXPECT_EQ(low_amplitudes(speed, kLength, kLength / 2), all);
 }
 
+TEST(Amplitudes, OfAnyEvenLengthAreThoseOfTheSum) {
+  // 34 and 250 fit no FourierTransform, 40 does.
+  for (const std::int64_t length : {34, 40, 250}) {
+    Eigen::VectorXd series(length - 4);
+    for (Eigen::Index i = 0; i < series.size(); ++i) series[i] = std::cos(0.3 * static_cast<double>(i * i));
+    const auto found = amplitudes(series, length);
+    ASSERT_EQ(found.size(), length / 2 + 1);
+    for (Eigen::Index k = 0; k < found.size(); ++k) {
+      double re = 0.0, im = 0.0;
+      for (Eigen::Index i = 0; i < series.size(); ++i) {
+        const double angle = kTurn * static_cast<double>(i * k) / static_cast<double>(length);
+        re += series[i] * std::cos(angle), im += series[i] * std::sin(angle);
+      }
+      EXPECT_NEAR(found[k], std::hypot(re, im), 1e-10) << length << " " << k;
+    }
+  }
+}
+
 TEST(Smoothness, IsNotDeterminedOfNothing) {
   EXPECT_TRUE(std::isnan(spectral_arc(Eigen::VectorXd::Zero(50), 100.0).value));
   EXPECT_TRUE(std::isnan(spectral_arc(Eigen::VectorXd::Ones(1), 100.0).value));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kinemark/math/fourier.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/stages/analysis/path/spectrum.h"
 
@@ -18,19 +19,30 @@ Eigen::VectorXd centred_index(std::int64_t n) {
   return Eigen::VectorXd::LinSpaced(n, -0.5 * static_cast<double>(n - 1), 0.5 * static_cast<double>(n - 1));
 }
 
-// The least even number from n on without a prime factor above 5: its transform is quick.
-std::int64_t quick_length(std::int64_t n) {
-  for (std::int64_t length = n + n % 2;; length += 2) {
-    std::int64_t rest = length;
-    for (const std::int64_t prime : {2, 3, 5})
-      while (rest % prime == 0) rest /= prime;
-    if (rest == 1) return length;
+// Hann's window, kept for the next path of as many samples, as refits are.
+struct Window {
+  Eigen::VectorXd values;
+  double squared = 0.0;
+};
+const Window& hann_window(std::int64_t n) {
+  thread_local Window last;
+  if (last.values.size() != n) {
+    last.values = (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
+                                (2.0 * M_PI / static_cast<double>(n - 1)))
+                                   .cos())
+                      .matrix();
+    last.squared = last.values.squaredNorm();
   }
+  return last;
 }
 
 }  // namespace
 
-Eigen::VectorXd speed_of(const PathSamples& path) { return path.v.rowwise().norm(); }
+Eigen::VectorXd speed_of(const PathSamples& path) {
+  Eigen::ArrayXd squared = Eigen::ArrayXd::Zero(path.v.rows());
+  for (Eigen::Index k = 0; k < path.v.cols(); ++k) squared += path.v.col(k).array().square();
+  return squared.sqrt().matrix();
+}
 
 MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz) {
   MovementWindow out;
@@ -38,12 +50,14 @@ MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz) {
   const std::int64_t n = speed.size();
   if (n == 0) return out;
   const double level = kMovingShare * speed.maxCoeff();
-  std::int64_t first = -1, last = -1, run = 0;
-  for (std::int64_t i = 0; i < n; ++i) {
+  std::int64_t first = -1, last = -1;
+  for (std::int64_t i = 0, run = 0; i < n && first < 0; ++i) {
     run = speed[i] > level ? run + 1 : 0;
-    if (run < hold) continue;
-    if (first < 0) first = i - run + 1;
-    last = i;
+    if (run == hold) first = i - run + 1;
+  }
+  for (std::int64_t i = n - 1, run = 0; i >= 0 && first >= 0 && last < 0; --i) {
+    run = speed[i] > level ? run + 1 : 0;
+    if (run == hold) last = i + run - 1;
   }
   const auto crossing = [&](std::int64_t below, std::int64_t above) {
     const double share = (speed[above] - level) / (speed[above] - speed[below]);
@@ -78,21 +92,21 @@ double time_to_peak(const Eigen::VectorXd& speed, double rate_hz) {
   return static_cast<double>(at) / rate_hz;
 }
 
-SeriesMatrix without_trend(const SeriesMatrix& x) {
+PathMatrix without_trend(const PathMatrix& x) {
   const Eigen::VectorXd t = centred_index(x.rows());
-  SeriesMatrix out = x.rowwise() - x.colwise().mean().eval();
+  PathMatrix out = x.rowwise() - x.colwise().mean().eval();
   if (x.rows() > 1) out -= t * (t.transpose() * out).eval() / t.squaredNorm();
   return out;
 }
 
-Eigen::Vector3d detrended_axis(const SeriesMatrix& x) {
-  const SeriesMatrix level = without_trend(x);
+Eigen::Vector3d detrended_axis(const PathMatrix& x) {
+  const PathMatrix level = without_trend(x);
   const Eigen::Matrix3d spread = level.transpose() * level;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
 }
 
-std::vector<double> cycle_starts(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
-  const SeriesMatrix along = x * axis;
+std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
+  const PathMatrix along = x * axis;
   const Eigen::VectorXd z = without_trend(along);
   std::vector<double> crossings;
   for (std::int64_t i = 0; i + 1 < z.size(); ++i)
@@ -101,7 +115,7 @@ std::vector<double> cycle_starts(const SeriesMatrix& x, const Eigen::Vector3d& a
   return crossings;
 }
 
-Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
+Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
   const auto crossings = cycle_starts(x, axis, rate_hz);
   std::vector<double> lengths;
   for (std::size_t i = 1; i < crossings.size(); ++i) lengths.push_back(crossings[i] - crossings[i - 1]);
@@ -120,20 +134,25 @@ Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double r
   return out;
 }
 
-Periodogram periodogram_of(const SeriesMatrix& x, double rate_hz) {
+Periodogram periodogram_of(const PathMatrix& x, double rate_hz, double highest_hz) {
   const std::int64_t n = x.rows();
   if (n < 8) return {};
-  const Eigen::VectorXd window = (0.5 - 0.5 * ((centred_index(n).array() + 0.5 * static_cast<double>(n - 1)) *
-                                               (2.0 * M_PI / static_cast<double>(n - 1)))
-                                                  .cos())
-                                     .matrix();
-  const std::int64_t length = quick_length(n);
-  const SeriesMatrix level = without_trend(x);
-  Periodogram out{.step_hz = rate_hz / static_cast<double>(length),
-                  .per_mean_square = 2.0 / (window.squaredNorm() * static_cast<double>(length)),
-                  .power = Eigen::VectorXd::Zero(length / 2 + 1)};
-  for (Eigen::Index axis = 0; axis < x.cols(); ++axis)
-    out.power += amplitudes(level.col(axis).cwiseProduct(window), length).array().square().matrix();
+  const Window& window = hann_window(n);
+  const std::int64_t length = math::FourierTransform::good_length(n);
+  PathMatrix level = without_trend(x);
+  level.array().colwise() *= window.values.array();
+  const double step_hz = rate_hz / static_cast<double>(length);
+  const auto highest = static_cast<std::int64_t>(
+      std::min(std::ceil(highest_hz / step_hz) + 1.0, static_cast<double>(length / 2)));
+  Periodogram out{.step_hz = step_hz,
+                  .per_mean_square = 2.0 / (window.squared * static_cast<double>(length)),
+                  .power = low_powers(level, length, highest)};
+  if (highest < length / 2) {
+    // All frequencies together have the samples' squares (Parseval); each but the first is there twice.
+    const double all = level.squaredNorm() * static_cast<double>(length);
+    out.most_above =
+        std::max(0.0, all - out.power[0] - 2.0 * out.power.segment(1, highest - 1).sum()) + 1e-9 * all;
+  }
   return out;
 }
 
@@ -155,6 +174,7 @@ double peak_frequency(const Periodogram& of, double low_hz) {
   Eigen::Index at = 0;
   power.segment(first, power.size() - 1 - first).maxCoeff(&at);
   const std::int64_t k = first + at;
+  if (power[k] <= of.most_above) return kNaN;
   if (!(power[k - 1] > 0.0 && power[k] > 0.0 && power[k + 1] > 0.0)) return kNaN;
   const double before = std::log(power[k - 1]), here = std::log(power[k]), after = std::log(power[k + 1]);
   const double second_difference = before - 2.0 * here + after;

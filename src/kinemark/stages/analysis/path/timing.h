@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -46,33 +47,36 @@ struct Cycles {
 };
 /// Upward crossings of zero of the positions along an axis, freed of their straight trend, s from the first
 /// sample.
-[[nodiscard]] std::vector<double> cycle_starts(const SeriesMatrix& x, const Eigen::Vector3d& axis,
+[[nodiscard]] std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis,
                                                double rate_hz);
 /// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer
 /// to the one before than 0.4 of the median cycle are noise and do not count.
-[[nodiscard]] Cycles cycles_along(const SeriesMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
+[[nodiscard]] Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
 
 /// The direction in which positions freed of their straight trend spread most.
-[[nodiscard]] Eigen::Vector3d detrended_axis(const SeriesMatrix& x);
+[[nodiscard]] Eigen::Vector3d detrended_axis(const PathMatrix& x);
 
 /// Squared amplitudes of positions by frequency, axes added: straight trend taken off, Hann window, samples
-/// that are 0 appended until their number has no prime factor above 5.
+/// that are 0 appended until their number is a FourierTransform's good_length().
 struct Periodogram {
   double step_hz = 0.0;          ///< from one value to the next; the first is of 0 Hz
   double per_mean_square = 0.0;  ///< what turns a sum of values into a mean square over the samples
   Eigen::VectorXd power;         ///< m^2 times the samples' number squared; empty below 8 samples
+  double most_above =
+      0.0;  ///< that neither the last nor any above it can exceed; 0: the last is half the rate
 };
-/// Cost: n log n.
-[[nodiscard]] Periodogram periodogram_of(const SeriesMatrix& x, double rate_hz);
+/// Cost: n log n, less where only low frequencies are asked for.
+/// @param highest_hz  up to which, above 0; values within 1e-9 of the largest amplitude
+[[nodiscard]] Periodogram periodogram_of(const PathMatrix& x, double rate_hz, double highest_hz = INFINITY);
 
 /// Root of the mean square over the samples, axes added, of what lies between two frequencies, m.
 [[nodiscard]] double band_rms(const Periodogram& of, double low_hz, double high_hz);
 
 /// Frequency of the largest value above `low_hz`, Hz, by a parabola through its logarithm and those beside
-/// it.
+/// it. NaN where a frequency that was not asked for may have a larger one.
 [[nodiscard]] double peak_frequency(const Periodogram& of, double low_hz);
 
 /// Positions without the straight line of least squares through them, axis by axis.
-[[nodiscard]] SeriesMatrix without_trend(const SeriesMatrix& x);
+[[nodiscard]] PathMatrix without_trend(const PathMatrix& x);
 
 }  // namespace kinemark::analysis

@@ -101,6 +101,29 @@ TEST(Periodogram, HoldsTheMeanSquareWhateverTheNumberOfSamples) {
   EXPECT_EQ(periodogram_of(SeriesMatrix::Zero(7, 3), 100.0).power.size(), 0);
 }
 
+TEST(Periodogram, OfLowFrequenciesIsAPartOfTheWhole) {
+  // Thinned out from 2048 samples on; a line at 30 Hz lies above and is larger than all below.
+  Random random(9, 0);
+  for (const std::int64_t n : {1000, 2500, 9000}) {
+    auto x = testing::sampled(n, 240.0, [](double t) {
+      return Eigen::Vector3d(std::sin(kTurn * 1.3 * t), 0.01 * std::sin(kTurn * 7.0 * t), 0.3 * t);
+    });
+    for (double& value : x.reshaped()) value += 0.001 * random.gaussian();
+    const auto all = periodogram_of(x, 240.0), low = periodogram_of(x, 240.0, 12.0);
+    ASSERT_LT(low.power.size(), all.power.size() / 5);
+    EXPECT_EQ(low.step_hz, all.step_hz);
+    EXPECT_LT((low.power.cwiseSqrt() - all.power.head(low.power.size()).cwiseSqrt()).cwiseAbs().maxCoeff(),
+              1e-9 * std::sqrt(all.power.maxCoeff()));
+    EXPECT_NEAR(band_rms(low, 4.0, 12.0) / band_rms(all, 4.0, 12.0), 1.0, 1e-6);
+    EXPECT_GE(low.most_above, all.power.tail(all.power.size() - low.power.size()).maxCoeff());
+    EXPECT_NEAR(peak_frequency(low, 0.3), peak_frequency(all, 0.3), 1e-9);
+    for (std::int64_t i = 0; i < n; ++i)
+      x(i, 2) += 2.0 * std::sin(kTurn * 30.0 * static_cast<double>(i) / 240.0);
+    EXPECT_TRUE(std::isnan(peak_frequency(periodogram_of(x, 240.0, 12.0), 0.3)));
+    EXPECT_NEAR(peak_frequency(periodogram_of(x, 240.0), 0.3), 30.0, 0.05);
+  }
+}
+
 TEST(PeakFrequency, IsFoundBetweenTheLinesOfThePeriodogram) {
   const auto x = testing::sampled(
       500, 100.0, [](double t) { return Eigen::Vector3d(std::sin(kTurn * 5.137 * t), 0.0, 2.0 * t); });

@@ -14,6 +14,30 @@ namespace {
 constexpr std::size_t kMostEntries = 2000;
 constexpr std::array<std::string_view, 4> kQuantities{"number", "length", "angle", "mass"};
 
+Status check_bodies(const SegmentDefinition& d, const std::set<std::string>& frames) {
+  std::set<std::string> names;
+  for (const auto& b : d.bodies) {
+    if (b.name.empty() || !names.insert(b.name).second)
+      return fail(Code::bad_input, fmt::format("body '{}': every body needs a name of its own", b.name));
+    if (!frames.contains(b.segment))
+      return fail(Code::bad_input, fmt::format("body '{}': no segment is called '{}'", b.name, b.segment));
+  }
+  for (const auto& j : d.joints) {
+    for (const auto& end : {j.parent, j.child})
+      if (!frames.contains(end))
+        return fail(Code::bad_input, fmt::format("joint '{}': no segment is called '{}'", j.name, end));
+    if (j.bodies.empty())
+      return fail(Code::bad_input, fmt::format("joint '{}': no body is beyond it", j.name));
+    std::set<std::string> beyond;
+    for (const auto& b : j.bodies)
+      if (!names.contains(b) || !beyond.insert(b).second)
+        return fail(Code::bad_input, names.contains(b)
+                                         ? fmt::format("joint '{}': body '{}' stands there twice", j.name, b)
+                                         : fmt::format("joint '{}': no body is called '{}'", j.name, b));
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<SubjectQuantity> subject_quantity_of(std::string_view word) {
@@ -28,7 +52,7 @@ std::string_view to_string(SubjectQuantity quantity) {
 
 Status SegmentDefinition::check() const {
   if (const auto entries = parameters.size() + points.size() + landmarks.size() + segments.size() +
-                           angles.size() + values.size();
+                           angles.size() + values.size() + bodies.size() + joints.size();
       entries > kMostEntries)
     return fail(Code::bad_input, fmt::format("{} entries; expected {} at most", entries, kMostEntries));
   std::set<std::pair<std::string, InTrial>> named;
@@ -73,6 +97,13 @@ Status SegmentDefinition::check() const {
                   fmt::format("landmark '{}': no segment is called '{}'", l.name, l.segment));
   for (const auto& v : values)
     if (auto s = output(v.name); !s) return s;
+  if (auto s = check_bodies(*this, frames); !s) return s;
+  for (const auto& b : bodies)
+    if (!b.ground_reaction.empty())
+      if (auto s = output(b.ground_reaction); !s) return s;
+  for (const auto& j : joints)
+    for (const auto* what : {"Force", "Moment", "Power"})
+      if (auto s = output(j.name + what); !s) return s;
   if (angles.empty() && values.empty() && std::ranges::none_of(points, &Point::written) &&
       std::ranges::none_of(landmarks, &Landmark::written))
     return fail(Code::bad_input,

@@ -43,6 +43,7 @@ struct SegmentDefinition {
     SubjectQuantity quantity = SubjectQuantity::number;  ///< what it measures
     std::optional<Formula> measured;                     ///< of markers
     bool measured_anywhere = false;     ///< without a static trial, over the recording itself
+    bool measured_here = false;         ///< over the recording itself, whether there is a static trial or not
     std::optional<Formula> formula;     ///< of other parameters
     bool zero_is_unknown = false;       ///< files write 0 for what was not measured
     std::optional<Formula> formula_sd;  ///< standard deviation of a value that is given or from a file
@@ -98,6 +99,34 @@ struct SegmentDefinition {
     Formula formula;                                     ///< of anything
   };
 
+  /// A rigid part of the body with mass, for forces and moments at joints.
+  struct Body {
+    std::string name;                 ///< "LTibia"; a segment may have the same
+    std::string segment;              ///< whose axes are its principal axes
+    Formula mass;                     ///< kg
+    Formula centre;                   ///< of mass, a point
+    std::array<Formula, 3> gyration;  ///< radii of gyration about its axes through the centre, m
+    std::vector<Formula> floor;   ///< points with which it touches the floor: heel, toe; empty: it does not
+    std::string ground_reaction;  ///< name of the ground's force on it, among the results; empty: none
+  };
+  /// A component of a vector in axes of a segment.
+  struct AxisComponent {
+    std::string label;  ///< "extension"
+    int axis = 0;       ///< 0, 1, 2
+    double sign = 1.0;  ///< 1 or -1
+  };
+  /// Where a part of the body hangs on the rest: force, moment and power, per mass.
+  struct Joint {
+    std::string name;                       ///< "LKnee": of LKneeForce, LKneeMoment, LKneePower
+    Formula centre;                         ///< a point
+    std::string parent;                     ///< segment on the side of the trunk
+    std::string child;                      ///< segment beyond, in whose axes the vectors are given
+    std::vector<std::string> bodies;        ///< all that are beyond
+    Formula per;                            ///< mass by which the results are divided, kg
+    std::array<AxisComponent, 3> moment{};  ///< of the moment on the child
+    std::array<AxisComponent, 3> force{};   ///< of the force on the child
+  };
+
   std::string title;                  ///< what it is, a line
   std::vector<Parameter> parameters;  ///< in the order of the file
   std::vector<Point> points;          ///< in the order of the file
@@ -105,12 +134,14 @@ struct SegmentDefinition {
   std::vector<Segment> segments;      ///< in the order of the file
   std::vector<Angle> angles;          ///< in the order of the file
   std::vector<Value> values;          ///< in the order of the file
+  std::vector<Body> bodies;           ///< in the order of the file
+  std::vector<Joint> joints;          ///< in the order of the file
   /// Whose way through the laboratory "progression" follows, a point, and the direction that counts where it
   /// covers less than half a metre.
   std::optional<std::pair<Formula, Formula>> progression;
 
-  /// Names are there, no two entries of a trial share one, segments of angles exist, there are 2,000 entries
-  /// at most. Code::bad_input.
+  /// Names are there, no two entries of a trial share one, segments of angles and of bodies and bodies of
+  /// joints exist, there are 2,000 entries at most. Code::bad_input.
   [[nodiscard]] Status check() const;
 };
 

@@ -3,20 +3,18 @@
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "kinemark/core/nearest_name.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/math/smoothing_choice.h"
 #include "kinemark/math/symmetric3.h"
+#include "kinemark/stages/analysis/segments/internal/lacks.h"
 #include "kinemark/stages/analysis/segments/internal/subject.h"
 
 namespace kinemark::analysis {
@@ -253,43 +251,6 @@ Wanted wanted_of(const SegmentDefinition& d, bool is_static) {
   return out;
 }
 
-std::string lack_sentence(const SegmentDefinition& d, const std::set<std::string>& lacks,
-                          const std::vector<std::string>& without, const std::vector<std::string>& markers) {
-  std::vector<std::string> parts;
-  for (const auto& name : lacks) {
-    if (std::ranges::find(d.parameters, name, &SegmentDefinition::Parameter::name) != d.parameters.end()) {
-      parts.push_back(fmt::format("value of '{}'", name));
-    } else if (const auto l = std::ranges::find(d.landmarks, name, &SegmentDefinition::Landmark::name);
-               l != d.landmarks.end()) {
-      parts.push_back(fmt::format("landmark '{}' of the trial '{}'", name, l->trial));
-    } else if (name == "progression") {
-      parts.emplace_back("direction of progression");
-    } else {
-      const auto near = nearest_names(name, markers, 1);
-      const bool label = !near.empty() && near.front() == name;
-      parts.push_back(
-          fmt::format("{} '{}'{}", label ? "sample of marker" : "marker", name,
-                      near.empty() || label ? "" : fmt::format(" (there is '{}')", near.front())));
-    }
-  }
-  return fmt::format("Not computed: {}; there is no {}.", fmt::join(without, ", "),
-                     fmt::join(parts, ", no "));
-}
-
-std::vector<std::string> lack_sentences(const SegmentDefinition& d, const Wanted& wanted,
-                                        const SegmentGraph& graph, const std::vector<std::string>& markers) {
-  std::vector<std::pair<std::set<std::string>, std::vector<std::string>>> groups;
-  for (std::size_t i = 0; i < wanted.names.size(); ++i) {
-    if (graph.lacks[i].empty()) continue;
-    auto at = std::ranges::find(groups, graph.lacks[i], &decltype(groups)::value_type::first);
-    if (at == groups.end()) at = groups.insert(groups.end(), {graph.lacks[i], {}});
-    at->second.push_back(wanted.names[i]);
-  }
-  std::vector<std::string> out;
-  for (const auto& [lacks, without] : groups) out.push_back(lack_sentence(d, lacks, without, markers));
-  return out;
-}
-
 // Where the second angle of a sequence comes near gimbal lock.
 void note_gimbal_lock(const SegmentDefinition& d, SegmentMotion& motion) {
   for (const auto& series : motion.angles) {
@@ -334,7 +295,7 @@ Result<SegmentMotion> compute_segments(const SegmentDefinition& definition, cons
   if (!graph) return std::unexpected(graph.error());
 
   SegmentMotion out{.time = markers.time};
-  out.warnings = lack_sentences(definition, wanted, *graph, markers.names);
+  out.warnings = internal::lack_sentences(definition, wanted.names, *graph, markers.names);
   std::vector<std::string> points;
   std::vector<Target> targets;
   out.angles.reserve(definition.angles.size());

@@ -50,6 +50,7 @@ struct SegmentSeries {
   std::string name;                                   ///< of the definition
   std::vector<std::string> labels;                    ///< n; empty: n is 1
   SubjectQuantity quantity = SubjectQuantity::angle;  ///< of all components
+  std::string unit = {};                              ///< "N m/kg"; empty: that of the quantity
   Array<double> value;                                ///< F x n, SI; NaN where missing
   Array<double> sd;                                   ///< F x n, SI
   Array<data::SampleState> state;                     ///< F: measured, interpolated (a marker was), missing

@@ -132,7 +132,7 @@ class Finder {
     if (p.formula_sd)
       if (const auto found = number(*p.formula_sd); found.frames > 0) sd = std::abs(found.mean.x());
     if (const auto* given = find_value(input_.given, p)) return take(p, given->value, sd, given->from);
-    if (p.measured && static_)
+    if (p.measured && static_ && !p.measured_here)
       if (const auto found = mean(*p.measured, StepType::number, *static_, true); found.frames > 0)
         return take(p, found.mean.x(), found.sd.x(), "the static trial");
     if (const auto* known = find_value(input_.known, p)) return take(p, known->value, sd, known->from);

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/kinetics/joint_loads.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
+#include "kinemark/math/smoothing_choice.h"
+#include "kinemark/stages/analysis/kinetics/internal/joint_mechanics.h"
+#include "kinemark/stages/analysis/kinetics/internal/smooth_markers.h"
+#include "kinemark/stages/analysis/path/refits.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using internal::FrameValues;
+using internal::JointMechanics;
+using internal::LoadOutputs;
+using internal::SmoothMarkers;
+using State = data::SampleState;
+
+constexpr std::int64_t kLeastRefits = 20;
+constexpr std::uint64_t kPlateStream = 1ULL << 40;
+
+/// Noise of the wrenches that feet bear.
+class FloorNoise {
+ public:
+  explicit FloorNoise(const FloorLoad& load) : load_(load) {
+    const auto frames = load.wrench.force.rows();
+    seen_.assign(at(frames), false);
+    for (const auto& contact : load.contacts) {
+      // Landing and leaving are quicker than noise.
+      const auto edge = contact.count / 8;
+      for (auto f = contact.first + edge; f < contact.first + contact.count - edge; ++f) seen_[at(f)] = true;
+    }
+    const double force = math::noise_from_differences(load.wrench.force, seen_);
+    const double moment = math::noise_from_differences(load.wrench.moment, seen_);
+    force_n_ = std::isfinite(force) ? force : 0.0;
+    moment_nm_ = std::isfinite(moment) ? moment : 0.0;
+    for (const auto& contact : load.contacts)
+      for (auto f = contact.first; f < contact.first + contact.count; ++f) seen_[at(f)] = true;
+  }
+  [[nodiscard]] WrenchTrack refit(std::uint64_t seed, std::uint64_t stream, std::int64_t number) const {
+    return {.force = with_noise(load_.wrench.force, seen_, force_n_, seed, kPlateStream + 2 * stream, number),
+            .moment = with_noise(load_.wrench.moment, seen_, moment_nm_, seed, kPlateStream + 2 * stream + 1,
+                                 number)};
+  }
+
+ private:
+  const FloorLoad& load_;
+  std::vector<bool> seen_;
+  double force_n_ = 0.0, moment_nm_ = 0.0;
+};
+
+/// Sums of refits, about the estimate.
+struct Spread {
+  Eigen::MatrixXd sum, squares;
+
+  void add(const Eigen::MatrixXd& deviation) {
+    if (sum.size() == 0) sum = squares = Eigen::MatrixXd::Zero(deviation.rows(), deviation.cols());
+    sum += deviation;
+    squares += deviation.cwiseAbs2();
+  }
+  [[nodiscard]] double sd(std::int64_t row, std::int64_t column, std::int64_t refits) const {
+    const auto n = static_cast<double>(refits);
+    const double mean = sum(row, column) / n;
+    return std::sqrt(std::max(0.0, squares(row, column) / n - mean * mean) * n / (n - 1.0));
+  }
+};
+
+/// What of a recording an output can be told from.
+class Presence {
+ public:
+  explicit Presence(const data::Trajectories& markers) : markers_(markers) {}
+
+  /// Of a frame for outputs that depend on these markers and on nine frames.
+  [[nodiscard]] State of(const std::set<std::int64_t>& used, std::int64_t f) const {
+    if (f < kDynamicsMargin || f + kDynamicsMargin >= markers_.frames()) return State::missing;
+    State worst = State::measured;
+    for (const auto m : used) {
+      if (!markers_.present(f, m) || !seen_before(m, f - kDynamicsMargin) ||
+          !seen_behind(m, f + kDynamicsMargin))
+        return State::missing;
+      for (auto g = f - kDynamicsMargin; g <= f + kDynamicsMargin; ++g)
+        if (markers_.state[markers_.index(g, m)] != State::measured) worst = State::interpolated;
+    }
+    return worst;
+  }
+
+ private:
+  [[nodiscard]] bool seen_before(std::int64_t m, std::int64_t f) const { return bounds(m).first <= f; }
+  [[nodiscard]] bool seen_behind(std::int64_t m, std::int64_t f) const { return bounds(m).second >= f; }
+  const std::pair<std::int64_t, std::int64_t>& bounds(std::int64_t m) const {
+    const auto found = bounds_.find(m);
+    if (found != bounds_.end()) return found->second;
+    std::pair<std::int64_t, std::int64_t> out{markers_.frames(), -1};
+    for (std::int64_t f = 0; f < markers_.frames(); ++f)
+      if (markers_.present(f, m)) out = {std::min(out.first, f), f};
+    return bounds_.emplace(m, out).first->second;
+  }
+
+  const data::Trajectories& markers_;
+  mutable std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> bounds_;
+};
+
+SegmentSeries series_of(std::string name, std::vector<std::string> labels, std::string unit,
+                        std::int64_t frames) {
+  SegmentSeries out{.name = std::move(name),
+                    .labels = std::move(labels),
+                    .quantity = SubjectQuantity::number,
+                    .unit = std::move(unit)};
+  out.value.assign(at(frames) * out.size(), kNaN);
+  out.sd.assign(at(frames) * out.size(), kNaN);
+  out.state.assign(at(frames), State::missing);
+  return out;
+}
+
+std::vector<std::string> labels_of(const std::array<SegmentDefinition::AxisComponent, 3>& components) {
+  return {components[0].label, components[1].label, components[2].label};
+}
+
+/// The work of find_joint_loads().
+class LoadFinder {
+ public:
+  LoadFinder(const SegmentDefinition& d, const SegmentInput& input, const PlateEvidence& evidence,
+             const JointLoadOptions& options, const LoadOutputs& outputs, const FormulaTracks& tracks)
+      : d_(d),
+        markers_(*input.markers),
+        evidence_(evidence),
+        options_(options),
+        outputs_(outputs),
+        tracks_(tracks),
+        mechanics_(d, tracks, outputs, options),
+        smooth_(markers_, used_markers(), options.segments.noise_sd_m, options.segments.threads) {}
+
+  JointLoads find() {
+    JointLoads out;
+    out.warnings = tracks_.lack_sentences(lacking_names());
+    const auto values = mechanics_.values_of(smooth_.paths());
+    const FloorLoads floor = floor_of(values);
+    std::ranges::copy(floor.notes, std::back_inserter(out.warnings));
+    std::vector<FloorNoise> noise;
+    noise.reserve(feet_.size());
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      noise.emplace_back(floor.feet[i]);
+      for (const auto& contact : floor.feet[i].contacts)
+        out.steps.push_back({.body = d_.bodies[feet_[i]].name,
+                             .plate = evidence_.plates->items[contact.plate].name,
+                             .begin_s = markers_.time.time_s(contact.first),
+                             .end_s = markers_.time.time_s(contact.first + contact.count - 1)});
+    }
+    std::vector<WrenchTrack> loads;
+    for (const auto& foot : floor.feet) loads.push_back(foot.wrench);
+    const auto estimates = all_loads(values, loads);
+    std::vector<Spread> spread(estimates.size());
+    for (std::int64_t k = 0; k < options_.refits; ++k) {
+      const auto again = mechanics_.values_of(smooth_.refit(options_.seed, k));
+      for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = noise[i].refit(options_.seed, i, k);
+      const auto refit = all_loads(again, loads);
+      for (std::size_t i = 0; i < estimates.size(); ++i) spread[i].add(refit[i] - estimates[i]);
+    }
+    store(floor, estimates, spread, values, out);
+    return out;
+  }
+
+ private:
+  [[nodiscard]] std::set<std::int64_t> used_markers() const {
+    std::set<std::int64_t> out;
+    for (std::size_t i = 0; i < outputs_.list.size(); ++i)
+      for (const auto m : tracks_.markers_of(i)) out.insert(m);
+    return out;
+  }
+  // Joints that cannot be computed, by the first thing that each lacks.
+  [[nodiscard]] std::vector<std::string> lacking_names() const {
+    std::vector<std::string> names(outputs_.list.size());
+    const auto blame = [&](std::size_t first, std::size_t end, const std::string& name) {
+      for (auto i = first; i < end; ++i) {
+        if (tracks_.lacks(i).empty()) continue;
+        names[i] += names[i].empty() ? name : ", " + name;
+        return true;
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < d_.joints.size(); ++i) {
+      if (mechanics_.has_joint(i)) continue;
+      const std::string name = d_.joints[i].name + "Moment";
+      const auto& j = outputs_.joints[i];
+      bool found = blame(j.centre, j.per + 1, name);
+      for (const auto& body : d_.joints[i].bodies) {
+        const auto b = mechanics_.index_of_body(body);
+        found = found ||
+                blame(outputs_.bodies[b].mass, outputs_.bodies[b].floor + d_.bodies[b].floor.size(), name);
+      }
+    }
+    return names;
+  }
+
+  FloorLoads floor_of(const FrameValues& values) {
+    std::vector<FootTrack> feet;
+    for (std::size_t b = 0; b < d_.bodies.size(); ++b) {
+      if (!mechanics_.has_foot(b)) continue;
+      feet_.push_back(b);
+      feet.push_back(mechanics_.foot_of(b, values));
+    }
+    return find_floor_loads(*evidence_.plates, evidence_.corners, feet, options_.segments.up);
+  }
+
+  [[nodiscard]] std::vector<Eigen::MatrixXd> all_loads(const FrameValues& values,
+                                                       const std::vector<WrenchTrack>& feet) const {
+    std::vector<const WrenchTrack*> floor(d_.bodies.size(), nullptr);
+    for (std::size_t i = 0; i < feet_.size(); ++i) floor[feet_[i]] = &feet[i];
+    std::vector<Eigen::MatrixXd> out;
+    for (const auto& foot : feet) out.emplace_back(foot.force);
+    for (std::size_t j = 0; j < d_.joints.size(); ++j)
+      if (mechanics_.has_joint(j))
+        out.push_back(mechanics_.loads_of(j, values, floor, markers_.time.rate_hz));
+    return out;
+  }
+
+  // Columns [first, first + labels) of a matrix and of its spread.
+  void fill(SegmentSeries& series, const Eigen::MatrixXd& values, const Spread& spread, std::int64_t first,
+            const std::vector<State>& state, double per) const {
+    for (std::int64_t f = 0; f < values.rows(); ++f) {
+      if (state[at(f)] == State::missing) continue;
+      for (std::size_t k = 0; k < series.size(); ++k) {
+        const auto column = first + static_cast<std::int64_t>(k);
+        const auto i = at(f) * series.size() + k;
+        series.value[i] = values(f, column) / per;
+        if (options_.refits > 0) series.sd[i] = spread.sd(f, column, options_.refits) / per;
+      }
+      series.state[at(f)] =
+          std::isfinite(series.value[at(f) * series.size()]) ? state[at(f)] : State::missing;
+    }
+  }
+
+  void store(const FloorLoads& floor, const std::vector<Eigen::MatrixXd>& estimates,
+             const std::vector<Spread>& spread, const FrameValues& values, JointLoads& out) const {
+    const auto frames = markers_.frames();
+    const Presence presence(markers_);
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      const auto& name = d_.bodies[feet_[i]].ground_reaction;
+      if (name.empty()) continue;
+      std::vector<State> state(at(frames), State::measured);
+      for (std::int64_t f = 0; f < frames; ++f)
+        if (!floor.feet[i].known[at(f)]) state[at(f)] = State::missing;
+      auto series = series_of(name, {"x", "y", "z"}, "N/kg", frames);
+      fill(series, estimates[i], spread[i], 0, state, per_of_body(feet_[i], values));
+      out.series.push_back(std::move(series));
+    }
+    std::size_t at_estimate = feet_.size();
+    for (std::size_t j = 0; j < d_.joints.size(); ++j) {
+      if (!mechanics_.has_joint(j)) continue;
+      const auto state = states_of(j, floor, presence);
+      const auto& joint = d_.joints[j];
+      const auto& estimate = estimates[at_estimate];
+      const auto& deviation = spread[at_estimate++];
+      auto force = series_of(joint.name + "Force", labels_of(joint.force), "N/kg", frames);
+      auto moment = series_of(joint.name + "Moment", labels_of(joint.moment), "N m/kg", frames);
+      auto power = series_of(joint.name + "Power", {}, "W/kg", frames);
+      fill(force, estimate, deviation, 0, state, 1.0);
+      fill(moment, estimate, deviation, 3, state, 1.0);
+      fill(power, estimate, deviation, 6, state, 1.0);
+      for (auto* series : {&force, &moment, &power}) out.series.push_back(std::move(*series));
+    }
+  }
+
+  // Of the first joint beyond which the body is.
+  [[nodiscard]] double per_of_body(std::size_t body, const FrameValues& values) const {
+    for (std::size_t j = 0; j < d_.joints.size(); ++j)
+      if (mechanics_.has_joint(j) &&
+          std::ranges::find(d_.joints[j].bodies, d_.bodies[body].name) != d_.joints[j].bodies.end())
+        return mechanics_.per(j, values);
+    return kNaN;
+  }
+
+  [[nodiscard]] std::vector<State> states_of(std::size_t joint, const FloorLoads& floor,
+                                             const Presence& presence) const {
+    std::set<std::int64_t> used;
+    const auto take = [&](std::size_t first, std::size_t end) {
+      for (auto i = first; i < end; ++i)
+        for (const auto m : tracks_.markers_of(i)) used.insert(m);
+    };
+    take(outputs_.joints[joint].centre, outputs_.joints[joint].per + 1);
+    std::vector<const FloorLoad*> loads;
+    for (const auto& name : d_.joints[joint].bodies) {
+      const auto b = mechanics_.index_of_body(name);
+      take(outputs_.bodies[b].mass, outputs_.bodies[b].floor + d_.bodies[b].floor.size());
+      const auto foot = std::ranges::find(feet_, b);
+      if (foot != feet_.end()) loads.push_back(&floor.feet[at(foot - feet_.begin())]);
+    }
+    std::vector<State> out(at(markers_.frames()));
+    for (std::int64_t f = 0; f < markers_.frames(); ++f) {
+      out[at(f)] = presence.of(used, f);
+      for (const auto* load : loads)
+        if (!load->known[at(f)]) out[at(f)] = State::missing;
+    }
+    return out;
+  }
+
+  const SegmentDefinition& d_;
+  const data::Trajectories& markers_;
+  const PlateEvidence& evidence_;
+  const JointLoadOptions& options_;
+  const LoadOutputs& outputs_;
+  const FormulaTracks& tracks_;
+  JointMechanics mechanics_;
+  SmoothMarkers smooth_;
+  std::vector<std::size_t> feet_;  // bodies that plates can bear
+};
+
+}  // namespace
+
+Status JointLoadOptions::check() const {
+  if (auto s = segments.check(); !s) return s;
+  if (!(gravity >= 0.0) || !std::isfinite(gravity))
+    return fail(Code::usage, fmt::format("gravity of {:g} m/s^2: expected 0 or more", gravity));
+  if (refits != 0 && refits < kLeastRefits)
+    return fail(Code::usage, fmt::format("{} refits: expected 0 or at least {}", refits, kLeastRefits));
+  return {};
+}
+
+Result<JointLoads> find_joint_loads(const SegmentDefinition& definition, const SegmentInput& input,
+                                    const PlateEvidence& evidence, const JointLoadOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = definition.check(); !s) return std::unexpected(s.error());
+  if (definition.joints.empty() || evidence.plates == nullptr || evidence.plates->items.empty())
+    return JointLoads{};
+  const LoadOutputs outputs(definition);
+  const auto tracks = FormulaTracks::create(definition, input, options.segments, outputs.list);
+  if (!tracks) return std::unexpected(tracks.error());
+  return LoadFinder(definition, input, evidence, options, outputs, *tracks).find();
+}
+
+}  // namespace kinemark::analysis
