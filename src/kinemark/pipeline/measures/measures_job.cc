@@ -12,7 +12,6 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/page_file.h"
-#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/measured_recording.h"
