@@ -37,6 +37,11 @@ def run(*arguments):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=600, check=False)
 
 
+def said(made):
+    """The exit status, and what a failure says last."""
+    return f"{made.returncode}" if made.returncode == 0 else f"{made.returncode}: {(made.stderr.strip().splitlines() or [''])[-1]}"
+
+
 def write_circle(path, draw, radius_mm, turn_s):
     """A marker that goes around a circle, with noise of half a millimetre, as TRC."""
     lines = [f"PathFileType\t4\t(X/Y/Z)\t{path.name}", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
@@ -70,7 +75,7 @@ def compare(folder, top, files):
     outputs = {"-o": "measures", "--write-events": "events", "--write-cycles": "cycles"}
     tables = [part for option, name in outputs.items() for part in (option, folder / f"{name}.csv")]
     made = run("analyze", top, *OPTIONS, *tables, "--jobs", "2", "--threads", "2")
-    row(made.returncode == 0, "a folder of 12 recordings", "exit status 0", f"{made.returncode} {made.stderr.strip()[-100:]}")
+    row(made.returncode == 0, "a folder of 12 recordings", "exit status 0", said(made))
     ones = {option: [] for option in outputs}
     for path in files:
         for option in outputs:
@@ -82,7 +87,7 @@ def compare(folder, top, files):
         same = sum(a == b for a, b in zip(together, ones[option]))
         row(len(together) > 0 and together == ones[option], f"{name}: lines as in single runs", f"all of {len(ones[option])}", f"{same} of {len(together)}")
     again = run("analyze", top, *OPTIONS, *tables, "--jobs", "1", "--threads", "1", "--force")
-    row(again.returncode == 0 and lines(folder / "measures.csv")[1:] == ones["-o"], "one recording at a time", "the same bytes", "the same" if again.returncode == 0 else again.stderr)
+    row(again.returncode == 0 and lines(folder / "measures.csv")[1:] == ones["-o"], "one recording at a time", "the same bytes", "the same" if again.returncode == 0 else said(again))
 
 
 def judge_bad_file(folder, top):
@@ -104,7 +109,7 @@ def judge_groups(folder):
         ("spm", ("spm", folder / "cycles.csv", "--subject", "participant", "--group", "group", *of), 0),
     ):
         made = run("groups", *arguments, "--json")
-        row(made.returncode == status and bool(made.stdout), f"groups {name} of the tables as they are", "exit status 0", f"{made.returncode} {made.stderr.strip()[-120:]}")
+        row(made.returncode == status and bool(made.stdout), f"groups {name} of the tables as they are", "exit status 0", said(made))
         if name == "retest" and made.returncode == 0:
             tested = json.loads(made.stdout)["measures"]
             names = {one["measure"] for one in tested}

@@ -119,7 +119,7 @@ class Measures(CommandTest):
             (("--region", "late=900-950"), 3, "lies outside the recording"),
             (("--between", "Strike"), 3, "the recording has no events"),
             (("--refits", "5"), 2, "need 0 (no intervals) or at least 39"),
-            (("-o", self.folder / "a.xlsx"), 2, "measures are written as .csv or .json"),
+            (("-o", self.folder / "a.xlsx"), 2, "measures are written as .csv, .json or .nwb"),
             (("--select", "NOSE"), 3, "NOSE"),
         ):
             with self.subTest(words=words):

@@ -83,8 +83,8 @@ TEST_F(RunMotionMeasures, IntervalsOfAnIkMotionAndItsFiles) {
   const auto* exact = find(*truth, "joint_range", "knee_angle_r");
   EXPECT_LT(std::abs(knee.value - exact->value), 4.0 * knee.sd + 0.01);
   const auto text = io::read_text(at("m.csv")).value();
-  EXPECT_THAT(text, HasSubstr("file,subject,context,region,cycle"));
-  EXPECT_THAT(text, HasSubstr("Q.mot,hip_flexion_r and knee_angle_r,"));
+  EXPECT_THAT(text, HasSubstr("file,participant,session,trial,subject,context,region,cycle"));
+  EXPECT_THAT(text, HasSubstr("Q.mot,,,Q,hip_flexion_r and knee_angle_r,"));
   EXPECT_EQ(outcome->inputs.size(), 3u) << "model, motion, deviations";
   EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("no standard deviations"))));
   std::filesystem::remove(at("Q_sd.sto"));

@@ -118,8 +118,8 @@ std::string rhythms_text(const std::vector<analysis::PathRhythm>& rhythms) {
                        rhythm.verdict);
     for (const auto& event : rhythm.events)
       out += fmt::format(
-          "  {:<15} {:8.3f} {} s\n", analysis::to_string(event.kind), event.time_s,
-          std::isfinite(event.sd_s) ? fmt::format("+- {:.3f}", event.sd_s) : std::string("        "));
+          "  {:<15} {:9.4f} {} s\n", analysis::to_string(event.kind), event.time_s,
+          std::isfinite(event.sd_s) ? fmt::format("+- {:.4f}", event.sd_s) : std::string("         "));
   }
   return out;
 }

@@ -70,7 +70,7 @@ TEST(EventTable, ARecordingGetsThemInPlaceOfItsOwnOfTheKind) {
 TEST(EventTable, SaysToPeopleAndProgramsWhyThereAreNoCycles) {
   const auto text = rhythms_text(rhythms());
   EXPECT_THAT(text, HasSubstr("RFIN, reach: not periodic: it does not come back"));
-  EXPECT_THAT(text, HasSubstr("  Movement Start     0.900 +- 0.004 s\n"));
+  EXPECT_THAT(text, HasSubstr("  Movement Start     0.9000 +- 0.0040 s\n"));
   EXPECT_THAT(text, HasSubstr("LFIN: 4 cycles of 0.800 s"));
   const auto json = rhythms_json(rhythms());
   EXPECT_FALSE(json[0]["periodic"].get<bool>());

@@ -11,6 +11,7 @@
 #include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
 
 namespace kinemark::pipeline {

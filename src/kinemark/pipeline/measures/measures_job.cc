@@ -13,7 +13,6 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/page_file.h"
-#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"

@@ -31,9 +31,12 @@ struct RecordingName {
 
 /// A table of participants, as BIDS has it, or of files.
 struct Participants {
-  io::TidyTable table;                                                 ///< as read
-  std::int64_t file = -1, participant = -1, session = -1, trial = -1;  ///< columns; -1: not there
-  std::vector<std::int64_t> more;                                      ///< columns that are passed on
+  io::TidyTable table;             ///< as read
+  std::int64_t file = -1;          ///< column that names files; -1: there is none
+  std::int64_t participant = -1;   ///< column of who was recorded; -1: there is none
+  std::int64_t session = -1;       ///< column of when; -1: there is none
+  std::int64_t trial = -1;         ///< column of which trial; -1: there is none
+  std::vector<std::int64_t> more;  ///< columns that are passed on
 };
 
 /// Read a table whose column `participant_id` (or `participant`) names who; beside it may be `session_id`

@@ -266,21 +266,24 @@ struct Version {
   std::vector<std::vector<double>> curves;  // one for each span
 };
 
-// How far a path goes on from cycle to cycle, m/s: from the first start of one to the last.
+// How far a path goes on from cycle to cycle, m/s: from the mean place of its first cycle to that of its
+// last, which do not depend on where in the cycle it begins.
 Eigen::RowVector3d travel_of(const PathSamples& path, const Layout& layout,
                              const std::vector<double>& times) {
-  double first = kNaN, last = kNaN;
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (layout.instants[i].kind == PathEventKind::cycle_start)
-      first = std::fmin(first, times[i]), last = std::fmax(last, times[i]);
-  if (!(last > first)) return Eigen::RowVector3d::Zero();
-  const auto place = [&](double s) -> Eigen::RowVector3d {
-    const double sample = std::clamp(s * path.rate_hz, 0.0, static_cast<double>(path.count() - 1));
-    const auto before = std::min<std::int64_t>(path.count() - 2, static_cast<std::int64_t>(sample));
-    const double later = sample - static_cast<double>(before);
-    return (1.0 - later) * path.x.row(before) + later * path.x.row(before + 1);
-  };
-  return (place(last) - place(first)) / (last - first);
+  if (layout.sorts.empty() || layout.sorts.front().context != "cycle") return Eigen::RowVector3d::Zero();
+  std::vector<std::pair<double, Eigen::RowVector3d>> means;  // middle of the cycle, s, and its mean place
+  const Eigen::VectorXd unused = Eigen::VectorXd::Zero(path.count());
+  for (const auto s : layout.sorts.front().spans) {
+    const double begin = times[layout.spans[s].begin], end = times[layout.spans[s].end];
+    const auto over = curves_over(path, path.x, unused, begin, end);
+    if (!std::isfinite(over.front())) continue;
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::int64_t p = 0; p + 1 < kPoints; ++p) sum[axis] += over[at(axis * kPoints + p)];
+    means.emplace_back(0.5 * (begin + end), sum / static_cast<double>(kPoints - 1));
+  }
+  if (means.size() < 2) return Eigen::RowVector3d::Zero();
+  return (means.back().second - means.front().second) / (means.back().first - means.front().first);
 }
 
 Version version_of(const PathSamples& path, const Layout& layout, const Eigen::Vector3d& axis, bool travels) {

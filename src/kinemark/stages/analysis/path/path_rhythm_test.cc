@@ -143,7 +143,14 @@ TEST(PathRhythm, AWalkHasItsCyclesWithoutTheWay) {
   const auto found = rhythm_of(testing::recording_of(testing::sampled(600, 100.0, walk), 100.0, 5e-4, 3));
   ASSERT_TRUE(found.periodic) << found.verdict;
   const auto& x = found.curves.front();
-  for (std::int64_t c = 1; c < x.count(); ++c) EXPECT_NEAR(x(c, 50), x(0, 50), 5e-3);
+  // The mean place of a cycle stays where it was; a stride is 1.44 m.
+  std::vector<double> means;
+  for (std::int64_t c = 0; c < x.count(); ++c) {
+    means.push_back(0.0);
+    for (std::int64_t p = 0; p < 100; ++p) means.back() += 0.01 * x(c, p);
+  }
+  ASSERT_GE(means.size(), 3u);
+  for (const double mean : means) EXPECT_NEAR(mean, means.front(), 2e-3);
 }
 
 TEST(PathRhythm, WhatHappensInALongGapIsLeftOut) {

@@ -121,8 +121,9 @@ Period period_of(const SeriesMatrix& v, double rate_hz) {
 double likeness_after(const SeriesMatrix& v, double rate_hz, double lag_s) {
   const std::int64_t n = v.rows();
   const double lag = lag_s * rate_hz;
-  const auto first = std::max<std::int64_t>(1, std::llround(0.9 * lag)), last = std::llround(1.1 * lag);
-  if (!(lag > 0.0) || last >= n) return 0.0;
+  if (!(lag > 0.0 && 1.1 * lag + 1.0 < static_cast<double>(n))) return 0.0;
+  const std::int64_t first = std::max<std::int64_t>(1, std::llround(0.9 * lag)),
+                     last = std::llround(1.1 * lag);
   const Eigen::RowVector3d mean = v.colwise().mean();
   const auto step = 1 + n * (last - first + 1) / 20'000'000;
   double best = 0.0;
