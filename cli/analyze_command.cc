@@ -88,8 +88,8 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
 }
 
 // Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
-constexpr std::array kOfMarkers{"--drop",      "--rate",   "--noise", "--edits", "--keep-defects",
-                                "--angles",    "--emg",    "--emg-max", "--write-emg", "--write-emg-cycles",
+constexpr std::array kOfMarkers{"--drop",         "--rate", "--noise",   "--edits",     "--keep-defects",
+                                "--angles",       "--emg",  "--emg-max", "--write-emg", "--write-emg-cycles",
                                 "--participants", "--jobs"};
 // Those of a gait report, which stands beside measures, not beside tables of a motion.
 constexpr std::array kOfReports{"--figures",      "--figure-formats", "--report",

@@ -145,7 +145,33 @@ bool is_power(Quantity quantity) {
   return quantity == Quantity::power || quantity == Quantity::power_per_mass;
 }
 
-// "HipMoment x": a joint, moment or power, a component.
+/// Components of moments by name, and what those of the other sign are called.
+struct MomentAxis {
+  std::string_view up, down;
+  std::int64_t column;
+};
+constexpr std::array kMomentAxes = {
+    MomentAxis{"extension", "flexion", 0},   MomentAxis{"plantarflexion", "dorsiflexion", 0},
+    MomentAxis{"abduction", "adduction", 1}, MomentAxis{"valgus", "varus", 1},
+    MomentAxis{"eversion", "inversion", 1},  MomentAxis{"external_rotation", "internal_rotation", 2},
+};
+
+// "extension" of "HipMoment_extension": its column, and both signs; false for another word.
+bool name_moment_axis(std::string_view word, GaitQuantity& out) {
+  for (const auto& axis : kMomentAxes) {
+    if (word != axis.up && word != axis.down) continue;
+    out.column = axis.column;
+    out.up = spelled(word == axis.up ? axis.up : axis.down);
+    out.down = spelled(word == axis.up ? axis.down : axis.up);
+    for (auto* text : {&out.up, &out.down})
+      (*text)[0] = static_cast<char>(std::tolower(static_cast<unsigned char>((*text)[0])));
+    out.title += ", " + std::string(kPlanes[static_cast<std::size_t>(axis.column)]);
+    return true;
+  }
+  return false;
+}
+
+// "HipMoment x", "HipMoment_extension": a joint, moment or power, a component.
 bool name_joint_kinetics(const std::string& base, Quantity quantity, GaitQuantity& out) {
   for (std::size_t j = 0; j < kJoints.size(); ++j)
     for (const std::string_view what : {"Moment", "Power"}) {
@@ -159,6 +185,9 @@ bool name_joint_kinetics(const std::string& base, Quantity quantity, GaitQuantit
         out.up = "generated", out.down = "absorbed";
         return true;
       }
+      if (base.size() > begin.size() + 2 && base[begin.size()] == '_' &&
+          name_moment_axis(std::string_view(base).substr(begin.size() + 1), out))
+        return true;
       if (axis < 'x' || axis > 'z' || base.size() != begin.size() + 2) return out.row = -1, true;
       out.column = axis - 'x';
       out.title += ", " + std::string(kPlanes[static_cast<std::size_t>(axis - 'x')]);

@@ -82,6 +82,26 @@ TEST(GaitQuantities, MomentsAndPowersStandByJointAndPlane) {
   EXPECT_EQ(gait_quantity("vertical_ground_reaction", Quantity::force).title, "Vertical ground reaction");
 }
 
+TEST(GaitQuantities, MomentsOfSegmentsStandWithTheirSigns) {
+  const auto hip = gait_quantity("LHipMoment_abduction", Quantity::moment_per_mass);
+  EXPECT_EQ(hip.title, "Hip moment, frontal");
+  EXPECT_EQ(hip.row, 0);
+  EXPECT_EQ(hip.column, 1);
+  EXPECT_EQ(hip.up, "abduction");
+  EXPECT_EQ(hip.down, "adduction");
+  EXPECT_EQ(hip.side, Side::left);
+  const auto ankle = gait_quantity("RAnkleMoment_plantarflexion", Quantity::moment_per_mass);
+  EXPECT_EQ(ankle.row, 2);
+  EXPECT_EQ(ankle.column, 0);
+  EXPECT_EQ(ankle.down, "dorsiflexion");
+  const auto knee = gait_quantity("RKneeMoment_internal_rotation", Quantity::moment_per_mass);
+  EXPECT_EQ(knee.column, 2);
+  EXPECT_EQ(knee.up, "internal rotation");
+  EXPECT_EQ(knee.down, "external rotation");
+  EXPECT_EQ(gait_quantity("RKneePower", Quantity::power_per_mass).row, 3);
+  EXPECT_EQ(gait_quantity("RKneeMoment_sideways", Quantity::moment_per_mass).row, -1);
+}
+
 TEST(GaitQuantities, TorquesOfCoordinatesPointWhereTheirAnglesDo) {
   const auto hip = gait_quantity("hip_flexion_r_moment", Quantity::moment);
   EXPECT_EQ(hip.title, "Hip flexion, moment");

@@ -11,8 +11,10 @@
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
+#include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
+#include "kinemark/pipeline/measures/recording_name.h"
 
 namespace kinemark::pipeline {
 
@@ -60,21 +62,23 @@ Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& 
                           const std::vector<data::CycleCurves>& curves, const std::vector<SheetInput>& inputs,
                           GaitPageFacts facts, JobOutcome& outcome) {
   const auto name = path.filename().string();
+  const auto recording = name_of_recording(path);
+  const auto events = events_of(*gait_, trial.markers.time);
   std::vector<std::filesystem::path> targets;
   std::vector<ResultFile> files;
   data::Trial recorded;
   if (const auto& target = job_.gait.write_events; !target.empty()) {
     targets.push_back(target);
     if (ending_of(target) == ".c3d") {
-      recorded = with_events(trial, *gait_);
+      recorded = with_events(trial, events);
       files.push_back(marker_file(target, recorded));
     } else {
-      files.push_back(text_file(target, [&] { return events_csv(*gait_, trial.markers.time, name); }));
+      files.push_back(text_file(target, [&] { return events_csv(events, recording); }));
     }
   }
   if (const auto& target = job_.gait.write_cycles; !target.empty()) {
     targets.push_back(target);
-    files.push_back(text_file(target, [&] { return curves_csv(curves, name); }));
+    files.push_back(text_file(target, [&] { return curves_csv({{"", curves}}, recording); }));
   }
   if (!files.empty()) {
     auto staging = Staging::create(targets, job_.force, others_);

@@ -197,7 +197,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   auto read = job.gait.sheet.norms;
   const auto norms = read_gait_norms(read);
   if (!norms) return std::unexpected(norms.error());
-  for (const auto& path : {job.input, job.edits, job.gait.angles, job.participants_file}) read.push_back(path);
+  for (const auto& path : {job.input, job.edits, job.gait.angles, job.participants_file})
+    read.push_back(path);
   auto staging = Staging::create(targets, job.force, read);
   if (!staging) return std::unexpected(staging.error());
   auto page = PageFile::begin(job.report, {job.input, job.edits, job.output}, job.force);

@@ -52,6 +52,8 @@ std::string_view table_unit(const SegmentSeries& series) {
 
 data::Quantity quantity_of(const SegmentSeries& series) {
   if (series.quantity == SubjectQuantity::angle) return data::Quantity::angle;
+  if (series.unit == "N m/kg") return data::Quantity::moment_per_mass;
+  if (series.unit == "W/kg") return data::Quantity::power_per_mass;
   return series.quantity == SubjectQuantity::length ? data::Quantity::length : data::Quantity::ratio;
 }
 

@@ -201,11 +201,17 @@ Status draw_walking(const SegmentsJob& job, const data::Trial& recording, GaitDr
   outcome.gait = drawing.gait();
   std::ranges::copy(outcome.gait->notes, std::back_inserter(outcome.warnings));
   std::vector<SheetInput> inputs;
-  for (const auto& series : angle_series(outcome.motion))
+  SeriesList list = series_of(outcome.motion);
+  for (const auto& series : outcome.loads.series)
+    if (series.name.ends_with("Moment") || series.name.ends_with("Power")) list.push_back(&series);
+  for (const auto& series : cycle_series(list, outcome.motion.time))
     add_series(series, outcome.gait->cycles, "", inputs);
   std::vector<data::CycleCurves> curves;
   for (const auto& input : inputs) curves.push_back(input.curves);
-  add_recorded_kinetics(job.input, recording, *outcome.gait, inputs);
+  // Moments that the recording holds give way to those that were computed.
+  data::Trial plates = recording;
+  if (!outcome.loads.series.empty()) plates.channels = {};
+  add_recorded_kinetics(job.input, plates, *outcome.gait, inputs);
   return drawing.write(job.input, recording, curves, inputs,
                        {.angles_from = outcome.title, .inputs = outcome.inputs}, outcome);
 }
