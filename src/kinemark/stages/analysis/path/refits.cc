@@ -17,11 +17,12 @@
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kHighestCutOff = 0.45;    // cycles per sample
-constexpr std::int64_t kPilotRefits = 40;  // that tell the energy of noise
-constexpr std::int64_t kColumns = 12;      // that are smoothed side by side
-constexpr std::int64_t kNoiseRows = 256;   // whose noise is made at once
-constexpr double kLocal_s = 0.15;          // farthest neighbour that tells local energy
+constexpr double kHighestCutOff = 0.45;          // cycles per sample
+constexpr std::int64_t kPilotRefits = 40;        // that tell the energy of noise
+constexpr std::int64_t kColumns = 12;            // that are smoothed side by side, at most
+constexpr std::int64_t kBatchSamples = 1 << 18;  // at once, so that an hour needs no more memory
+constexpr std::int64_t kNoiseRows = 256;         // whose noise is made at once
+constexpr double kLocal_s = 0.15;                // farthest neighbour that tells local energy
 constexpr std::uint64_t kPilotStream = 1ULL << 62;
 
 // White noise of a deviation, on the samples that are seen.
@@ -39,7 +40,10 @@ math::DifferenceSmoother smoother_of(const Recording& recording, double factor) 
 }
 
 // Recordings smoothed at once, so that their columns fill the smoother's vectors.
-std::int64_t batch_of(std::int64_t axes) { return kColumns / std::gcd(kColumns, axes); }
+std::int64_t batch_of(const SeriesMatrix& path) {
+  const std::int64_t most = kColumns / std::gcd(kColumns, path.cols());
+  return std::clamp<std::int64_t>(kBatchSamples / std::max<std::int64_t>(1, path.rows()), 1, most);
+}
 
 // Noise of one recording added to as many columns from `column` on as `axes` says.
 void add_noise(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const Noise& noise,
@@ -122,7 +126,7 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(axes);
   const Noise white{
       .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = seed, .stream = stream ^ kPilotStream};
-  const std::int64_t batch = batch_of(axes);
+  const std::int64_t batch = batch_of(fit);
   for (std::int64_t begin = 0; begin < kPilotRefits; begin += batch) {
     const std::int64_t in_batch = std::min(batch, kPilotRefits - begin);
     SeriesMatrix deviations = simulated(fit, white, begin, in_batch);
@@ -167,7 +171,7 @@ void for_each_batch(const Recording& recording, const SeriesMatrix& path, const 
   if (numbers.least_too) least.emplace(smoother_of(recording, kLeastSmooth));
   const Noise noise{
       .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = numbers.seed, .stream = numbers.stream};
-  const std::int64_t batch = batch_of(path.cols());
+  const std::int64_t batch = batch_of(path);
   RefitBatch out;
   for (out.first = 0; out.first < numbers.count; out.first += batch) {
     out.count = std::min(batch, numbers.count - out.first);
