@@ -173,6 +173,22 @@ class Loads(CommandTest):
         for row in part[10:-10]:
             self.assertAlmostEqual(float(row["value"]), float(whole[row["time_s"]]), delta=0.02)
 
+    def test_gait_page_draws_the_moments_that_were_computed(self):
+        page = self.folder / "gait.html"
+        _, out, _ = self.analyze("--refits", "0", "--report", page, "--write-cycles", self.folder / "cycles.csv")
+        text = page.read_text(encoding="utf-8")
+        for title in ("Hip moment, sagittal", "Knee moment, frontal", "Ankle power", "Knee flexion", "Vertical ground reaction"):
+            self.assertIn(title, text)
+        self.assertIn("N m/kg", text)
+        self.assertIn("plantarflexion", text)
+        # The cycle's curve is the table's column between its strikes.
+        with (self.folder / "cycles.csv").open(newline="", encoding="utf-8") as file:
+            cycle = [row for row in csv.DictReader(file) if row["measure"] == "LAnkleMoment_plantarflexion" and row["cycle"] == "Left 1"]
+        self.assertGreater(len(cycle), 90)
+        peak = max(float(row["value"]) for row in cycle if row["value"])
+        column = [float(row["value"]) for row in self.series(out, "LAnkleMoment", "plantarflexion") if row["value"]]
+        self.assertTrue(any(abs(peak - value) < 0.02 for value in column))
+
     def test_a_static_trial_has_none(self):
         still = real_file("btk-others/PiG_Calibration3_FF.c3d")
         out = self.folder / "still"

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
@@ -189,6 +190,73 @@ TEST(JointLoads, StandingLegHoldsThePlatesForce) {
   EXPECT_EQ(found.steps[0].plate, "plate 1");
   EXPECT_NEAR(found.steps[0].begin_s, 0.4, 1e-12);
   EXPECT_THAT(found.warnings, ElementsAre(HasSubstr("Shank: on the floor without a plate")));
+}
+
+// The laboratory's axes are anybody's choice: y up, as cameras and OpenSim have it.
+TEST(JointLoads, AnotherVerticalGivesTheSame) {
+  const auto upright = swing(0.0, 1);
+  auto turned = upright;
+  const Matrix3d turn = Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
+  for (std::int64_t f = 0; f < kSwingFrames; ++f)
+    for (std::int64_t m = 0; m < 5; ++m) turned.x(f, m) = turn * Vector3d(upright.x(f, m));
+  const auto loaded = [](const Matrix3d& r) {
+    auto plates = idle_plate();
+    for (std::int64_t f = 40; f < 260; ++f) {
+      Eigen::Map<Vector3d>(plates.items[0].force.data() + 3 * f) = r * Vector3d(5.0, 2.0, 100.0);
+      Eigen::Map<Vector3d>(plates.items[0].moment.data() + 3 * f) = r * Vector3d(0.0, 0.0, 3.0);
+      Eigen::Map<Vector3d>(plates.items[0].point.data() + 3 * f) = r * Vector3d(0.05, 0.0, kHeight - kLength);
+    }
+    return plates;
+  };
+  JointLoadOptions sideways{.refits = 0};
+  sideways.segments.up = (turn * Vector3d::UnitZ()).array().round();
+  const auto a = loads_of(upright, loaded(Matrix3d::Identity()), {.refits = 0});
+  const auto b = loads_of(turned, loaded(turn), sideways);
+  for (const auto* name : {"KneeMoment", "KneeForce", "KneePower"}) {
+    const auto &one = series(a, name), &other = series(b, name);
+    ASSERT_EQ(one.value.size(), other.value.size());
+    EXPECT_EQ(std::vector(one.state.begin(), one.state.end()),
+              std::vector(other.state.begin(), other.state.end()));
+    for (std::size_t i = 0; i < one.value.size(); ++i)
+      if (std::isfinite(one.value[i])) EXPECT_NEAR(one.value[i], other.value[i], 1e-9) << name << i;
+  }
+}
+
+TEST(JointLoads, NoiseOfThePlateIsInTheDeviations) {
+  auto markers = swing(0.0, 1);
+  for (std::int64_t f = 0; f < kSwingFrames; ++f)
+    for (std::int64_t m = 0; m < 5; ++m) markers.x(f, m) = Vector3d(markers.x(0, m));
+  auto plates = idle_plate();
+  Random random(77, 0);
+  for (std::int64_t f = 40; f < 260; ++f) {
+    Eigen::Map<Vector3d>(plates.items[0].force.data() + 3 * f) =
+        Vector3d(2.0 * random.gaussian(), 2.0 * random.gaussian(), 100.0 + 2.0 * random.gaussian());
+    Eigen::Map<Vector3d>(plates.items[0].point.data() + 3 * f) = Vector3d(0.05, 0.0, kHeight - kLength);
+  }
+  const auto found = loads_of(markers, plates, {.refits = 99});
+  const auto& force = series(found, "KneeForce");
+  double squares = 0.0;
+  for (std::int64_t f = 100; f < 200; ++f) squares += force.sd[at(3 * f + 2)] * force.sd[at(3 * f + 2)];
+  EXPECT_NEAR(std::sqrt(squares / 100.0), 2.0 / kMass, 0.2);
+}
+
+TEST(JointLoads, ScaleWithTheMassByWhichTheyAreDivided) {
+  auto definition = swinging_shank();
+  const auto markers = swing(0.0, 1);
+  const auto plates = idle_plate();
+  const auto of_mass = [&](const std::string& per) {
+    definition.joints[0].per = of(per);
+    return find_joint_loads(definition, {.markers = &markers}, {.plates = &plates, .corners = {}},
+                            {.refits = 0})
+        .value();
+  };
+  const auto one = of_mass("1"), ten = of_mass("10");
+  for (std::int64_t f = 4; f < kSwingFrames - 4; f += 7) {
+    if (!moves(f)) continue;
+    EXPECT_NEAR(series(one, "KneeMoment").value[at(3 * f)], 10.0 * series(ten, "KneeMoment").value[at(3 * f)],
+                1e-12);
+    EXPECT_NEAR(series(one, "KneePower").value[at(f)], 10.0 * series(ten, "KneePower").value[at(f)], 1e-12);
+  }
 }
 
 TEST(JointLoads, WhatIsNotThereIsNamedOnce) {
