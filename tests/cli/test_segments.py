@@ -164,14 +164,14 @@ class Loads(CommandTest):
 
     def test_a_part_of_a_walk_keeps_its_plates(self):
         _, out, _ = self.analyze("--refits", "0")
-        whole = {row["time_s"]: row["value"] for row in self.series(out, "LAnkleMoment", "plantarflexion")}
+        whole = {round(float(row["time_s"]), 3): row["value"] for row in self.series(out, "LAnkleMoment", "plantarflexion")}
         _, out, found = self.analyze("--refits", "0", "--start", "7.7", "--end", "8.6")
         part = [row for row in self.series(out, "LAnkleMoment", "plantarflexion") if row["value"]]
         self.assertGreater(len(part), 70)
         self.assertEqual([step["plate"] for step in found["steps"] if step["body"] == "LFoot"], ["plate 1"])
         # The foot's length is the mean over the frames that are read.
         for row in part[10:-10]:
-            self.assertAlmostEqual(float(row["value"]), float(whole[row["time_s"]]), delta=0.02)
+            self.assertAlmostEqual(float(row["value"]), float(whole[round(float(row["time_s"]), 3)]), delta=0.02)
 
     def test_gait_page_draws_the_moments_that_were_computed(self):
         page = self.folder / "gait.html"
@@ -180,10 +180,10 @@ class Loads(CommandTest):
         for title in ("Hip moment, sagittal", "Knee moment, frontal", "Ankle power", "Knee flexion", "Vertical ground reaction"):
             self.assertIn(title, text)
         self.assertIn("N m/kg", text)
-        self.assertIn("plantarflexion", text)
+        self.assertIn("plantar", text)
         # The cycle's curve is the table's column between its strikes.
         with (self.folder / "cycles.csv").open(newline="", encoding="utf-8") as file:
-            cycle = [row for row in csv.DictReader(file) if row["measure"] == "LAnkleMoment_plantarflexion" and row["cycle"] == "Left 1"]
+            cycle = [row for row in csv.DictReader(file) if row["curve"] == "LAnkleMoment_plantarflexion" and row["cycle"] == "1"]
         self.assertGreater(len(cycle), 90)
         peak = max(float(row["value"]) for row in cycle if row["value"])
         column = [float(row["value"]) for row in self.series(out, "LAnkleMoment", "plantarflexion") if row["value"]]

@@ -20,6 +20,7 @@
 #include "kinemark/pipeline/body/motion_cycles.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"

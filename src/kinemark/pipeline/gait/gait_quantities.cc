@@ -147,7 +147,8 @@ bool is_power(Quantity quantity) {
 
 /// Components of moments by name, and what those of the other sign are called.
 struct MomentAxis {
-  std::string_view up, down;
+  std::string_view name, opposite;  ///< as tables call it, and the other sign of it
+  std::string_view up, down;        ///< on the axis of a figure
   std::int64_t column;
 };
 constexpr std::array kMomentAxes = {
@@ -159,12 +160,10 @@ constexpr std::array kMomentAxes = {
 // "extension" of "HipMoment_extension": its column, and both signs; false for another word.
 bool name_moment_axis(std::string_view word, GaitQuantity& out) {
   for (const auto& axis : kMomentAxes) {
-    if (word != axis.up && word != axis.down) continue;
+    if (word != axis.name && word != axis.opposite) continue;
     out.column = axis.column;
-    out.up = spelled(word == axis.up ? axis.up : axis.down);
-    out.down = spelled(word == axis.up ? axis.down : axis.up);
-    for (auto* text : {&out.up, &out.down})
-      (*text)[0] = static_cast<char>(std::tolower(static_cast<unsigned char>((*text)[0])));
+    out.up = word == axis.name ? axis.up : axis.down;
+    out.down = word == axis.name ? axis.down : axis.up;
     out.title += ", " + std::string(kPlanes[static_cast<std::size_t>(axis.column)]);
     return true;
   }

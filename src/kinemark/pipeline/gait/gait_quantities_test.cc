@@ -93,11 +93,11 @@ TEST(GaitQuantities, MomentsOfSegmentsStandWithTheirSigns) {
   const auto ankle = gait_quantity("RAnkleMoment_plantarflexion", Quantity::moment_per_mass);
   EXPECT_EQ(ankle.row, 2);
   EXPECT_EQ(ankle.column, 0);
-  EXPECT_EQ(ankle.down, "dorsiflexion");
+  EXPECT_EQ(ankle.down, "dorsi");
   const auto knee = gait_quantity("RKneeMoment_internal_rotation", Quantity::moment_per_mass);
   EXPECT_EQ(knee.column, 2);
-  EXPECT_EQ(knee.up, "internal rotation");
-  EXPECT_EQ(knee.down, "external rotation");
+  EXPECT_EQ(knee.up, "internal");
+  EXPECT_EQ(knee.down, "external");
   EXPECT_EQ(gait_quantity("RKneePower", Quantity::power_per_mass).row, 3);
   EXPECT_EQ(gait_quantity("RKneeMoment_sideways", Quantity::moment_per_mass).row, -1);
 }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"

@@ -49,6 +49,12 @@ constexpr Layout kGridded{.left = 50.0,
                           .tick_size = 10.0,
                           .label_size = 11.0};
 
+// Letters of a panel's title: smaller where it is longer than its panel is wide.
+double title_size(const std::string& title, double width) {
+  constexpr double kSize = 12.0, kBold = 1.15;
+  return std::min(kSize, kSize * width / (kBold * internal::text_width(title, kSize)));
+}
+
 /// Where rows of panels come to lie.
 class FigureDrawing {
  public:
@@ -139,7 +145,9 @@ class FigureDrawing {
       const double left = cell_ * static_cast<double>(c) + layout_.left;
       double line = top + layout_.above;
       if (!panel.title.empty() && layout_.title > 0.0) {
-        canvas.text({left, line + 5.0}, panel.title, {.size = 12.0, .colour = kTitleInk, .bold = true});
+        canvas.text(
+            {left, line + 5.0}, panel.title,
+            {.size = title_size(panel.title, cell_ - layout_.left), .colour = kTitleInk, .bold = true});
         line += layout_.title;
       }
       if (layout_.note > 0.0)
