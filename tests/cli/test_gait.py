@@ -57,7 +57,11 @@ class Gait(CommandTest):
         interval = values["stride_time", "Left"]["interval"]
         self.assertTrue(interval["low"] < STRIDE_S < interval["high"])
         self.assertFalse(reported["gait"]["treadmill"])
-        self.assertTrue(all(0 < e["sd_s"] < 0.1 for e in reported["gait"]["events"]))
+        deviations = [e["sd_s"] for e in reported["gait"]["events"]]
+        known = [sd for sd in deviations if sd is not None]
+        # Of these coarse strikes some refits find none: what more than a tenth of them miss has no SD.
+        self.assertGreater(len(known), 0.8 * len(deviations))
+        self.assertTrue(all(0 < sd < 0.1 for sd in known))
 
     def test_walking_is_measured_without_being_asked_for(self):
         result = self.run_in("analyze", self.file, "--refits", "0")
