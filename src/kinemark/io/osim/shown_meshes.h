@@ -12,8 +12,8 @@
 
 namespace kinemark::io {
 
-/// The meshes that an OpenSim model shows on its bodies, in the order of the file: <attached_geometry> from
-/// 4.0 on, <VisibleObject> with its own scale and pose before, lists of file names before 2.0. What is hidden
+/// The meshes that an OpenSim model shows on its bodies, in the order of the file: "attached_geometry" from
+/// 4.0 on, "VisibleObject" with its own scale and pose before, lists of file names before 2.0. What is hidden
 /// by itself (display preference 0, not visible) and what is attached to the ground is left out. Their files
 /// are not looked at.
 ///
