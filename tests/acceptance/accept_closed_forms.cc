@@ -117,12 +117,14 @@ analysis::PathSamples helix(const Pose& pose, double r, double c) {
 double curvature(Random& random) {
   const Pose pose(random);
   const double r = random.uniform(0.05, 0.4), c = r * random.uniform(0.1, 1.0);
-  return relative(analysis::median_curvature(analysis::bends_of(helix(pose, r, c))), r / (r * r + c * c));
+  return relative(analysis::median_curvature(analysis::curvature_terms_of(helix(pose, r, c))),
+                  r / (r * r + c * c));
 }
 double torsion(Random& random) {
   const Pose pose(random);
   const double r = random.uniform(0.05, 0.4), c = r * random.uniform(0.1, 1.0);
-  return relative(analysis::median_torsion(analysis::bends_of(helix(pose, r, c))), c / (r * r + c * c));
+  return relative(analysis::median_torsion(analysis::curvature_terms_of(helix(pose, r, c))),
+                  c / (r * r + c * c));
 }
 
 // A turn about a line and a slide along it, between two poses of a segment.

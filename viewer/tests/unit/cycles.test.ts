@@ -90,7 +90,7 @@ describe("cyclePlot", () => {
   it("begins at 0 % and ends at 100 %, and breaks where a value is missing", async () => {
     const drawing = cyclePlot(await decodeCycles(encoded()), "knee", "angle (deg)");
     const [whole, broken] = classed(drawing, "cycle").map((c) => c.getAttribute("d")!);
-    expect(whole!.startsWith("M64.0 ")).toBe(true);
+    expect(whole!.startsWith("M92.0 ")).toBe(true);
     expect(/L546\.0 [\d.]+$/.test(whole!)).toBe(true);
     expect(whole!.match(/M/g)!.length).toBe(1);
     expect(broken!.match(/M/g)!.length).toBe(2);

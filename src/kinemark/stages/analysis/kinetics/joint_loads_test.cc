@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using State = data::SampleState;
 
-constexpr double kSwingRate_hz = 100.0, kMass = 2.0, kLength = 0.4, kHeight = 1.0, kPull = 9.81;
+constexpr double kSwingRate_hz = 100.0, kMass = 2.0, kLength = 0.4, kHeight = 1.0, kSwingGravity = 9.81;
 constexpr std::int64_t kSwingFrames = 300;
 
 Formula of(const std::string& text) { return parse_formula(text).value(); }
@@ -84,7 +84,7 @@ data::Trajectories swing(double noise_m, std::uint64_t seed) {
 // The muscles' moment that makes a rod swing so, over its mass; positive extends (forwards, about -y).
 double extension_at(std::int64_t f) {
   const double a = angle_at(f), second = -16.0 * a;
-  return -(kPull * 0.5 * kLength * std::sin(a) + kLength * kLength / 3.0 * second);
+  return -(kSwingGravity * 0.5 * kLength * std::sin(a) + kLength * kLength / 3.0 * second);
 }
 
 data::Wrenches idle_plate() {
@@ -183,7 +183,7 @@ TEST(JointLoads, StandingLegHoldsThePlatesForce) {
   const auto& moment = series(found, "KneeMoment");
   // 100 N in front of a knee extend it: muscles flex against them.
   EXPECT_NEAR(moment.value[3 * 150], -100.0 * 0.05 / kMass, 1e-9);
-  EXPECT_NEAR(series(found, "KneeForce").value[3 * 150 + 2], kPull - 100.0 / kMass, 1e-9);
+  EXPECT_NEAR(series(found, "KneeForce").value[3 * 150 + 2], kSwingGravity - 100.0 / kMass, 1e-9);
   EXPECT_NEAR(series(found, "Ground").value[3 * 150 + 2], 50.0, 1e-12);
   EXPECT_EQ(moment.state[20], State::missing);  // on the floor, and the plate bears nothing
   ASSERT_EQ(found.steps.size(), 1U);

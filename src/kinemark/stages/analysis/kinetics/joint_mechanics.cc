@@ -148,7 +148,7 @@ Eigen::MatrixXd JointMechanics::loads_of(std::size_t joint, const FrameValues& v
   }
   const double per = mean_of(values, at_joint.per);
   const auto child = axes_of(values, at_joint.child), parent = axes_of(values, at_joint.parent);
-  const MatrixX3d bend = angular_velocity(child, rate_hz) - angular_velocity(parent, rate_hz);
+  const MatrixX3d rate = angular_velocity(child, rate_hz) - angular_velocity(parent, rate_hz);
   Eigen::MatrixXd out(frames, 7);
   for (std::int64_t f = 0; f < frames; ++f) {
     const Vector3d centre = point(values[at(f)][at_joint.centre]);
@@ -162,7 +162,7 @@ Eigen::MatrixXd JointMechanics::loads_of(std::size_t joint, const FrameValues& v
       out(f, c) = j.force[k].sign * force_in_child[j.force[k].axis];
       out(f, 3 + c) = j.moment[k].sign * moment_in_child[j.moment[k].axis];
     }
-    out(f, 6) = moment.dot(bend.row(f));
+    out(f, 6) = moment.dot(rate.row(f));
   }
   return out;
 }

@@ -108,8 +108,8 @@ const EllipseAxes& PathFacts::ellipse() const {
 const Diameters& PathFacts::distances() const {
   return once(distances_, [this] { return diameters(path.x); });
 }
-const Bends& PathFacts::bends() const {
-  return once(bends_, [this] { return bends_of(path); });
+const CurvatureTerms& PathFacts::curvature_terms() const {
+  return once(curvature_terms_, [this] { return curvature_terms_of(path); });
 }
 const Eigen::Vector3d& PathFacts::box() const {
   return once(box_, [this] {

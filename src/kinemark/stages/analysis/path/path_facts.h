@@ -65,16 +65,16 @@ class PathFacts {
 
   /// Of a discrete movement the part from 50 ms before onset to 50 ms behind the end; else the stretch.
   [[nodiscard]] const PathSamples& movement() const { return part_ ? *part_ : path; }
-  [[nodiscard]] const Eigen::VectorXd& moving_speed() const;  ///< of the movement, m/s
-  [[nodiscard]] const PrincipalAxes& principal() const;       ///< of the stretch
-  [[nodiscard]] const PathMatrix& along() const;              ///< the stretch along its principal axes, m
-  [[nodiscard]] const Cycles& cycles() const;                 ///< along the settled axis
-  [[nodiscard]] const EllipseAxes& ellipse() const;           ///< in the best-fit plane; NaN of open paths
-  [[nodiscard]] const Diameters& distances() const;           ///< between samples
-  [[nodiscard]] const Bends& bends() const;                   ///< for curvature and torsion
-  [[nodiscard]] const Eigen::Vector3d& box() const;           ///< the smallest, descending, m
-  [[nodiscard]] const Periodogram& periodogram() const;       ///< of the stretch, up to kLowHz
-  [[nodiscard]] double dominant_hz() const;                   ///< above 0.3 Hz, of the stretch
+  [[nodiscard]] const Eigen::VectorXd& moving_speed() const;    ///< of the movement, m/s
+  [[nodiscard]] const PrincipalAxes& principal() const;         ///< of the stretch
+  [[nodiscard]] const PathMatrix& along() const;                ///< the stretch along its principal axes, m
+  [[nodiscard]] const Cycles& cycles() const;                   ///< along the settled axis
+  [[nodiscard]] const EllipseAxes& ellipse() const;             ///< in the best-fit plane; NaN of open paths
+  [[nodiscard]] const Diameters& distances() const;             ///< between samples
+  [[nodiscard]] const CurvatureTerms& curvature_terms() const;  ///< for curvature and torsion
+  [[nodiscard]] const Eigen::Vector3d& box() const;             ///< the smallest, descending, m
+  [[nodiscard]] const Periodogram& periodogram() const;         ///< of the stretch, up to kLowHz
+  [[nodiscard]] double dominant_hz() const;                     ///< above 0.3 Hz, of the stretch
 
  private:
   std::optional<PathSamples> part_;
@@ -84,7 +84,7 @@ class PathFacts {
   mutable std::optional<Cycles> cycles_;
   mutable std::optional<EllipseAxes> ellipse_;
   mutable std::optional<Diameters> distances_;
-  mutable std::optional<Bends> bends_;
+  mutable std::optional<CurvatureTerms> curvature_terms_;
   mutable std::optional<Eigen::Vector3d> box_;
   mutable std::optional<Periodogram> periodogram_;
 };

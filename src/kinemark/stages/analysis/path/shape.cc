@@ -25,11 +25,11 @@ constexpr std::int64_t kBlock = 256;      // samples at once
 using Block = std::array<double, kBlock>;
 
 // |v|^2, |v x a|^2 and (v x a) . j of a block.
-struct BendsBlock {
+struct CurvatureBlock {
   const double *v[3], *a[3], *j[3];
   double *speed_squared, *cross_squared, *triple;
 };
-[[gnu::always_inline]] inline void bend_block(const BendsBlock& of) {
+[[gnu::always_inline]] inline void curvature_block(const CurvatureBlock& of) {
   for (std::int64_t i = 0; i < kBlock; i += kLanes) {
     Lanes v[3], a[3], j[3];
     for (int k = 0; k < 3; ++k) load(v[k], of.v[k] + i), load(a[k], of.a[k] + i), load(j[k], of.j[k] + i);
@@ -324,21 +324,21 @@ Eigen::VectorXd deviations(const PathMatrix& x, const PathMatrix& other) {
   return squared.sqrt().matrix();
 }
 
-Bends bends_of(const PathSamples& path) {
+CurvatureTerms curvature_terms_of(const PathSamples& path) {
   const std::int64_t n = path.count();
   Eigen::ArrayXd squared = path.v.col(0).array().square();
   for (int k = 1; k < 3; ++k) squared += path.v.col(k).array().square();
   const double least = n > 0 ? kMoving * kMoving * squared.maxCoeff() : 0.0;
-  Bends out;
+  CurvatureTerms out;
   for (auto* values : {&out.speed_squared, &out.cross_squared, &out.triple}) values->resize(at(n + 1));
   Block speed_squared, cross_squared, triple;
   Eigen::Matrix<double, kBlock, 9> rest;  // the last samples, made a block
   std::size_t kept = 0;
   for (std::int64_t i = 0; i < n; i += kBlock) {
     const std::int64_t count = std::min(kBlock, n - i);
-    BendsBlock block{.speed_squared = speed_squared.data(),
-                     .cross_squared = cross_squared.data(),
-                     .triple = triple.data()};
+    CurvatureBlock block{.speed_squared = speed_squared.data(),
+                         .cross_squared = cross_squared.data(),
+                         .triple = triple.data()};
     for (int k = 0; k < 3; ++k) {
       block.v[k] = path.v.col(k).data() + i, block.a[k] = path.a.col(k).data() + i;
       block.j[k] = path.j.col(k).data() + i;
@@ -350,7 +350,7 @@ Bends bends_of(const PathSamples& path) {
       block.v[k] = rest.col(k).data(), block.a[k] = rest.col(3 + k).data(),
       block.j[k] = rest.col(6 + k).data();
     }
-    run_wide<bend_block>(block);
+    run_wide<curvature_block>(block);
     for (std::size_t k = 0; k < at(count); ++k) {
       // Written in any case, kept where it moves.
       out.speed_squared[kept] = speed_squared[k];
@@ -369,38 +369,38 @@ Eigen::Map<const Eigen::ArrayXd> array_of(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-std::vector<double> curvatures(const Bends& bends) {
-  std::vector<double> out(bends.speed_squared.size());
-  const auto squared = array_of(bends.speed_squared), cross = array_of(bends.cross_squared);
+std::vector<double> curvatures(const CurvatureTerms& terms) {
+  std::vector<double> out(terms.speed_squared.size());
+  const auto squared = array_of(terms.speed_squared), cross = array_of(terms.cross_squared);
   Eigen::Map<Eigen::ArrayXd>(out.data(), squared.size()) = cross.sqrt() / (squared * squared.sqrt());
   return out;
 }
 
 }  // namespace
 
-double median_curvature(const Bends& bends) { return math::median(curvatures(bends)); }
+double median_curvature(const CurvatureTerms& terms) { return math::median(curvatures(terms)); }
 
-double median_torsion(const Bends& bends) {
-  std::vector<double> values(bends.triple.size());
+double median_torsion(const CurvatureTerms& terms) {
+  std::vector<double> values(terms.triple.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[kept] = std::abs(bends.triple[i]) / bends.cross_squared[i];
-    kept += bends.cross_squared[i] > 0.0;
+    values[kept] = std::abs(terms.triple[i]) / terms.cross_squared[i];
+    kept += terms.cross_squared[i] > 0.0;
   }
   values.resize(kept);
   return math::median(values);
 }
 
-double power_law_exponent(const Bends& bends) {
-  if (bends.speed_squared.size() < 3) return kNaN;
-  std::vector<double> speed = bends.speed_squared, curvature = curvatures(bends);
+double power_law_exponent(const CurvatureTerms& terms) {
+  if (terms.speed_squared.size() < 3) return kNaN;
+  std::vector<double> speed = terms.speed_squared, curvature = curvatures(terms);
   for (double& value : curvature) value = std::max(value, 1e-9);
   math::logarithms(speed);  // twice the logarithm of the speed
   math::logarithms(curvature);
   const auto along = array_of(speed);
-  const Eigen::ArrayXd bend = array_of(curvature) - array_of(curvature).mean();
-  const double spread = bend.square().sum();
-  return spread > 0.0 ? -0.5 * (bend * along).sum() / spread : kNaN;
+  const Eigen::ArrayXd centred = array_of(curvature) - array_of(curvature).mean();
+  const double spread = centred.square().sum();
+  return spread > 0.0 ? -0.5 * (centred * along).sum() / spread : kNaN;
 }
 
 }  // namespace kinemark::analysis

@@ -82,22 +82,22 @@ struct OuterSamples {
 [[nodiscard]] Eigen::VectorXd deviations(const PathMatrix& x, const PathMatrix& other);
 
 /// What curvature and torsion are made of, at the samples faster than a tenth of the peak speed.
-struct Bends {
+struct CurvatureTerms {
   std::vector<double> speed_squared;  ///< |v|^2, m^2/s^2
   std::vector<double> cross_squared;  ///< |v x a|^2, m^4/s^6
   std::vector<double> triple;         ///< (v x a) . j, m^3/s^6
 };
 /// Cost: n.
-[[nodiscard]] Bends bends_of(const PathSamples& path);
+[[nodiscard]] CurvatureTerms curvature_terms_of(const PathSamples& path);
 
 /// Median over the samples faster than a tenth of the peak speed of |v x a| / |v|^3, 1/m.
-[[nodiscard]] double median_curvature(const Bends& bends);
+[[nodiscard]] double median_curvature(const CurvatureTerms& terms);
 
 /// Median over the same samples, those with a curvature, of |(v x a) . j| / |v x a|^2, 1/m.
-[[nodiscard]] double median_torsion(const Bends& bends);
+[[nodiscard]] double median_torsion(const CurvatureTerms& terms);
 
 /// The exponent b of |v| ~ curvature^-b by least squares of the logarithms over the same samples: 1/3 of a
 /// harmonic ellipse (Lacquaniti, Terzuolo & Viviani 1983).
-[[nodiscard]] double power_law_exponent(const Bends& bends);
+[[nodiscard]] double power_law_exponent(const CurvatureTerms& terms);
 
 }  // namespace kinemark::analysis

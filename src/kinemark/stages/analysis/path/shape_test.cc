@@ -212,14 +212,14 @@ TEST(SmallestBox, IsNeverLargerThanThatOfThePrincipalAxes) {
 TEST(Curvature, AndTorsionOfAHelixAreThoseOfItsFormula) {
   // r / (r^2 + c^2), c / (r^2 + c^2) with pitch c = speed along the axis over turning speed.
   const double r = 0.3, c = 0.2 / 4.0;
-  EXPECT_NEAR(median_curvature(bends_of(helix())), r / (r * r + c * c), 1e-9);
-  EXPECT_NEAR(median_torsion(bends_of(helix())), c / (r * r + c * c), 1e-7);
+  EXPECT_NEAR(median_curvature(curvature_terms_of(helix())), r / (r * r + c * c), 1e-9);
+  EXPECT_NEAR(median_torsion(curvature_terms_of(helix())), c / (r * r + c * c), 1e-7);
 }
 
 TEST(PowerLaw, ExponentOfAHarmonicEllipseIsAThird) {
   const auto path = tilted(
       808, 400.0, [](double t) { return Eigen::Vector3d(0.2 * std::cos(5 * t), 0.07 * std::sin(5 * t), 0); });
-  EXPECT_NEAR(power_law_exponent(bends_of(path)), 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(power_law_exponent(curvature_terms_of(path)), 1.0 / 3.0, 1e-9);
 }
 
 }  // namespace
