@@ -147,8 +147,8 @@ bool is_power(Quantity quantity) {
 
 /// Components of moments by name, and what those of the other sign are called.
 struct MomentAxis {
-  std::string_view name, opposite;  ///< as tables call it, and the other sign of it
-  std::string_view up, down;        ///< on the axis of a figure
+  std::string_view name, opposite;  // as tables call it, and the other sign of it
+  std::string_view up, down;        // on the axis of a figure
   std::int64_t column;
 };
 constexpr std::array kMomentAxes = {
