@@ -152,9 +152,12 @@ struct MomentAxis {
   std::int64_t column;
 };
 constexpr std::array kMomentAxes = {
-    MomentAxis{"extension", "flexion", 0},   MomentAxis{"plantarflexion", "dorsiflexion", 0},
-    MomentAxis{"abduction", "adduction", 1}, MomentAxis{"valgus", "varus", 1},
-    MomentAxis{"eversion", "inversion", 1},  MomentAxis{"external_rotation", "internal_rotation", 2},
+    MomentAxis{"extension", "flexion", "extension", "flexion", 0},
+    MomentAxis{"plantarflexion", "dorsiflexion", "plantar", "dorsi", 0},
+    MomentAxis{"abduction", "adduction", "abduction", "adduction", 1},
+    MomentAxis{"valgus", "varus", "valgus", "varus", 1},
+    MomentAxis{"eversion", "inversion", "eversion", "inversion", 1},
+    MomentAxis{"external_rotation", "internal_rotation", "external", "internal", 2},
 };
 
 // "extension" of "HipMoment_extension": its column, and both signs; false for another word.
