@@ -28,138 +28,41 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-// Corners of a hull from a to b, counter-clockwise, without these two, of points that may lie outside of that
-// edge (quickhull, Barber et al. 1996).
-void add_corners(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Points& points, Points& hull) {
-  const Eigen::Vector2d* farthest = nullptr;
-  double most = 0.0;
-  for (const auto& p : points)
-    if (const double outside = -turn(a, b, p); outside > most) most = outside, farthest = &p;
-  if (farthest == nullptr) return;
-  const Eigen::Vector2d c = *farthest;
-  Points before, behind;
-  for (const auto& p : points)
-    if (turn(a, c, p) < 0.0)
-      before.push_back(p);
-    else if (turn(c, b, p) < 0.0)
-      behind.push_back(p);
-  add_corners(a, c, before, hull);
-  hull.push_back(c);
-  add_corners(c, b, behind, hull);
-}
-
-// Points in a plane, u and w, filled up with the first of them to whole vectors.
-struct PlanePart {
-  std::vector<double> u, w;
-};
-constexpr std::size_t kCorners = 8;
-constexpr double kTurnU[kCorners] = {1, 1, 0, -1, -1, -1, 0, 1},
-                 kTurnW[kCorners] = {0, 1, 1, 1, 0, -1, -1, -1};
-
-// The farthest points along eight directions: their numbers.
-[[gnu::always_inline]] inline void find_octagon(const double* u, const double* w, std::int64_t n,
-                                                std::size_t* corners) {
-  for (std::size_t k = 0; k < kCorners; ++k) {
-    Lanes most, where, here{0.0, 1.0, 2.0, 3.0};
-    spread(most, -INFINITY), spread(where, 0.0);
-    for (std::int64_t i = 0; i < n; i += kLanes) {
-      Lanes x, y;
-      load(x, u + i), load(y, w + i);
-      const Lanes along = kTurnU[k] * x + kTurnW[k] * y;
-      const LaneBits better = along > most;
-      most = better ? along : most;
-      where = better ? here : where;
-      here += static_cast<double>(kLanes);
-    }
-    int best = 0;
-    for (int l = 1; l < kLanes; ++l)
-      if (most[l] > most[best]) best = l;
-    corners[k] = static_cast<std::size_t>(where[best]);
-  }
-}
-
-// How far points lie inside of some lines: the least of a u + b w + c, and of which line.
-struct Line {
-  double a, b, c;
-};
-[[gnu::always_inline]] inline void find_inside(const double* u, const double* w, std::int64_t n,
-                                               const Line* lines, std::size_t count, double* inside,
-                                               double* which) {
-  for (std::int64_t i = 0; i < n; i += kLanes) {
-    Lanes x, y, least, where, number;
-    load(x, u + i), load(y, w + i);
-    spread(least, INFINITY), spread(where, 0.0), spread(number, 0.0);
-    for (std::size_t k = 0; k < count; ++k) {
-      const Lanes side = lines[k].a * x + lines[k].b * y + lines[k].c;
-      const LaneBits less = side < least;
-      least = less ? side : least;
-      where = less ? number : where;
-      number += 1.0;
-    }
-    store(inside + i, least), store(which + i, where);
-  }
-}
-
-// Convex hull of points in a plane, counter-clockwise: the farthest along eight directions, and what lies
-// outside of the octagon that these make, each point outside of one edge.
-Points hull_of(const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
-  const std::int64_t n = u.size(), room = (n + kLanes - 1) / kLanes * kLanes;
-  PlanePart part{.u = std::vector<double>(at(room), u[0]), .w = std::vector<double>(at(room), w[0])};
-  std::copy_n(u.data(), n, part.u.begin()), std::copy_n(w.data(), n, part.w.begin());
-  std::size_t corners[kCorners];
-  run_wide<find_octagon>(static_cast<const double*>(part.u.data()), static_cast<const double*>(part.w.data()),
-                         room, &corners[0]);
-  Line lines[kCorners];
-  Points ends;
-  for (const std::size_t k : corners)
-    if (const Eigen::Vector2d p(part.u[k], part.w[k]); ends.empty() || p != ends.back()) ends.push_back(p);
-  if (ends.size() > 1 && ends.back() == ends.front()) ends.pop_back();
-  if (ends.size() < 2) return ends;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const Eigen::Vector2d edge = ends[(k + 1) % ends.size()] - ends[k];
-    lines[k] = {.a = -edge.y(), .b = edge.x(), .c = edge.y() * ends[k].x() - edge.x() * ends[k].y()};
-  }
-  std::vector<double> inside(at(room)), which(at(room));
-  run_wide<find_inside>(static_cast<const double*>(part.u.data()), static_cast<const double*>(part.w.data()),
-                        room, static_cast<const Line*>(&lines[0]), ends.size(), inside.data(), which.data());
-  std::array<Points, kCorners> outside;
-  for (std::size_t i = 0; i < at(n); ++i)
-    if (inside[i] < 0.0) outside[static_cast<std::size_t>(which[i])].emplace_back(part.u[i], part.w[i]);
+// Convex hull, counter-clockwise (Andrew 1979).
+Points hull_of(Points points) {
+  std::ranges::sort(points, [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
   Points hull;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    hull.push_back(ends[k]);
-    add_corners(ends[k], ends[(k + 1) % ends.size()], outside[k], hull);
-  }
+  const auto go_along = [&hull](const auto& from, std::size_t least) {
+    for (const auto& point : from) {
+      while (hull.size() > least && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
+      hull.push_back(point);
+    }
+  };
+  go_along(points, 1);
+  const std::size_t lower = hull.size();
+  std::ranges::reverse(points);
+  points.erase(points.begin());
+  go_along(points, lower);
+  if (hull.size() > 1) hull.pop_back();
   return hull;
 }
 
-// Direction of one side of the least rectangle around a hull: what lies farthest along an edge and from it
-// goes round with the edge (Toussaint 1983).
+// Direction of one side of the least rectangle around a hull.
 Eigen::Vector2d best_side(const Points& hull) {
   Eigen::Vector2d best(1.0, 0.0);
   double least = INFINITY;
-  const std::size_t n = hull.size();
-  std::size_t ahead = 0, across = 0, behind = 0;
-  bool placed = false;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d edge = hull[(i + 1) % n] - hull[i];
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
     if (!(edge.norm() > 0.0)) continue;
     const Eigen::Vector2d u = edge.normalized(), w(-u.y(), u.x());
-    if (!placed) {
-      for (std::size_t k = 0; k < n; ++k) {
-        if (u.dot(hull[k]) > u.dot(hull[ahead])) ahead = k;
-        if (w.dot(hull[k]) > w.dot(hull[across])) across = k;
-        if (u.dot(hull[k]) < u.dot(hull[behind])) behind = k;
-      }
-      placed = true;
+    double u0 = INFINITY, u1 = -INFINITY, w0 = INFINITY, w1 = -INFINITY;
+    for (const auto& p : hull) {
+      u0 = std::min(u0, u.dot(p)), u1 = std::max(u1, u.dot(p));
+      w0 = std::min(w0, w.dot(p)), w1 = std::max(w1, w.dot(p));
     }
-    const auto go_on = [&](std::size_t& at, const Eigen::Vector2d& along) {
-      for (std::size_t steps = 0; steps < n && along.dot(hull[(at + 1) % n]) >= along.dot(hull[at]); ++steps)
-        at = (at + 1) % n;
-    };
-    go_on(ahead, u), go_on(across, w), go_on(behind, -u);
-    const double area = (u.dot(hull[ahead]) - u.dot(hull[behind])) * (w.dot(hull[across]) - w.dot(hull[i]));
-    if (area < least) least = area, best = u;
+    if ((u1 - u0) * (w1 - w0) < least) least = (u1 - u0) * (w1 - w0), best = u;
   }
   return best;
 }
@@ -449,7 +352,10 @@ Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal
   for (int unchanged = 0, k = 2, step = 0; unchanged < 3 && step < 60; ++step, k = (k + 2) % 3) {
     // The rectangle across axis k, in the plane of the two others.
     const Eigen::Vector3d first = axes.col((k + 1) % 3), second = axes.col((k + 2) % 3);
-    const Points hull = hull_of(centred * first, centred * second);
+    const Eigen::VectorXd u = centred * first, w = centred * second;
+    Points points;
+    for (Eigen::Index i = 0; i < u.size(); ++i) points.emplace_back(u[i], w[i]);
+    const Points hull = hull_of(std::move(points));
     const Eigen::Vector2d side = best_side(hull), other(-side.y(), side.x());
     Eigen::Matrix3d turned = axes;
     turned.col((k + 1) % 3) = side.x() * first + side.y() * second;
