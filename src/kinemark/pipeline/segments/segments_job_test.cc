@@ -202,8 +202,9 @@ TEST_F(SegmentsJobTest, EachColumnIsASeriesWithItsDeviations) {
   job_.noise_sd_m = 0.001;
   const auto outcome = run_segments(job_);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  const auto table = angles_table(outcome->motion);
-  const auto series = angle_series(outcome->motion);
+  const auto list = series_of(outcome->motion);
+  const auto table = series_table(list, outcome->motion.time, "angles");
+  const auto series = cycle_series(list, outcome->motion.time);
   ASSERT_EQ(series.size(), table.columns.size());
   const auto knee = std::ranges::find(series, "knee_flexion", &analysis::CycleSeries::id);
   ASSERT_NE(knee, series.end());

@@ -151,8 +151,13 @@ TEST(JointLoads, RefitsAreTheSameForAnyNumberOfThreads) {
   JointLoadOptions one{.refits = 20}, two{.refits = 20};
   two.segments.threads = 2;
   const auto a = loads_of(markers, idle_plate(), one), b = loads_of(markers, idle_plate(), two);
-  for (std::int64_t f = 50; f < 60; ++f)
+  std::int64_t compared = 0;
+  for (std::int64_t f = 4; f < kSwingFrames - 4; ++f) {
+    if (!moves(f)) continue;
     EXPECT_EQ(series(a, "KneeMoment").sd[at(3 * f)], series(b, "KneeMoment").sd[at(3 * f)]);
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
 }
 
 TEST(JointLoads, GapIsMissingAndItsNeighboursAreInterpolated) {

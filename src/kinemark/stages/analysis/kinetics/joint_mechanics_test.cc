@@ -165,6 +165,7 @@ TEST_F(TwoRods, FloorUnderTheLowerRodIsBorneByBothJoints) {
 }
 
 TEST_F(TwoRods, JointWithoutItsBodyIsNotThere) {
+  d_.parameters.push_back({.name = "Unknown", .quantity = SubjectQuantity::mass});
   d_.bodies[1].mass = formula("Unknown * 2");
   const LoadOutputs outputs(d_);
   const auto tracks = FormulaTracks::create(d_, {.markers = &markers_}, {}, outputs.list);
