@@ -82,7 +82,7 @@ TEST_F(GaitDrawingTest, WritesWhatIsAskedFor) {
     EXPECT_FALSE(text_of(name).empty()) << name;
   }
   EXPECT_THAT(text_of("gait.html"), HasSubstr("Angles: a test."));
-  EXPECT_THAT(text_of("events.csv"), HasSubstr("walk.trc,Left,Foot Strike"));
+  EXPECT_THAT(text_of("events.csv"), HasSubstr("walk.trc,,,walk,,Left,,Foot Strike"));
 }
 
 TEST_F(GaitDrawingTest, TheDrawnMeanIsTheCurveThatWasPutIn) {
