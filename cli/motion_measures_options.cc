@@ -47,10 +47,7 @@ int run_motion_measures_command(const CommonOptions& common, const pipeline::Ana
   job.couple = arguments.couple;
   job.normalize = arguments.normalize;
   if (!analysis.error_bars) job.refits = 0;
-  job.gait = measures.gait;
-  job.figures = measures.figures;
-  job.figure_formats = measures.figure_formats;
-  job.report = measures.report;
+  static_cast<pipeline::GaitOutputs&>(job) = measures;
   return run_job(common, "motion", job, pipeline::run_motion_measures, print_motion_measures);
 }
 

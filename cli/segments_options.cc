@@ -72,10 +72,7 @@ int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job
   job.selection = measures.job.selection;
   job.keep_defects = measures.job.keep_defects;
   job.noise_sd_m = 1e-3 * measures.noise_mm;
-  job.gait = measures.job.gait;
-  job.figures = measures.job.figures;
-  job.figure_formats = measures.job.figure_formats;
-  job.report = measures.job.report;
+  static_cast<pipeline::GaitOutputs&>(job) = measures.job;
   job.refits = measures.job.refits;
   job.level = measures.job.level;
   return run_job(common, "files", job, pipeline::run_segments, print_segments);

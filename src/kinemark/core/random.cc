@@ -7,15 +7,6 @@
 
 namespace kinemark {
 
-std::uint64_t mix64(std::uint64_t z) {
-  z ^= z >> 30;
-  z *= 0xBF58476D1CE4E5B9ULL;
-  z ^= z >> 27;
-  z *= 0x94D049BB133111EBULL;
-  z ^= z >> 31;
-  return z;
-}
-
 Random::Random(std::uint64_t seed, std::uint64_t stream)
     : key_(mix64(seed) ^ mix64(stream + 0x632BE59BD9B4E019ULL)) {}
 

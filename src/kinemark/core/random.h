@@ -7,7 +7,14 @@
 namespace kinemark {
 
 /// Finaliser of SplitMix64 (Steele, Lea & Flood 2014), a bijection of 64-bit words.
-[[nodiscard]] std::uint64_t mix64(std::uint64_t z);
+[[nodiscard]] constexpr std::uint64_t mix64(std::uint64_t z) {
+  z ^= z >> 30;
+  z *= 0xBF58476D1CE4E5B9ULL;
+  z ^= z >> 27;
+  z *= 0x94D049BB133111EBULL;
+  z ^= z >> 31;
+  return z;
+}
 
 /// Seeded, counter-based random numbers: the i-th draw depends on (seed, stream, i) only, so streams can be
 /// drawn in any order and by any number of threads with the same values.

@@ -121,16 +121,6 @@ constexpr std::array kCosine{1.0,
   for (std::int64_t k = i; k < count; ++k) values[k] = w[k - i];
 }
 
-// As core/random.cc has it, here so that it is inlined.
-inline std::uint64_t mixed(std::uint64_t z) {
-  z ^= z >> 30;
-  z *= 0xBF58476D1CE4E5B9ULL;
-  z ^= z >> 27;
-  z *= 0x94D049BB133111EBULL;
-  z ^= z >> 31;
-  return z;
-}
-
 }  // namespace
 
 void fill_normals(std::uint64_t seed, std::uint64_t stream, std::int64_t first, std::span<double> out) {
@@ -144,8 +134,8 @@ void fill_normals(std::uint64_t seed, std::uint64_t stream, std::int64_t first, 
   for (std::int64_t begin = 0; begin < count; begin += 2 * kBlock) {
     const std::int64_t pairs = std::min(kBlock, (count - begin + 1) / 2);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kBlock); ++i, counter += 2 * kStep) {
-      a[i] = static_cast<std::int64_t>(mixed(counter));
-      b[i] = static_cast<std::int64_t>(mixed(counter + kStep));
+      a[i] = static_cast<std::int64_t>(mix64(counter));
+      b[i] = static_cast<std::int64_t>(mix64(counter + kStep));
     }
     run_wide<polar>(static_cast<const std::int64_t*>(a.data()), static_cast<const std::int64_t*>(b.data()),
                     squared.data(), cosines.data(), sines.data());

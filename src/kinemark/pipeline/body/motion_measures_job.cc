@@ -40,10 +40,7 @@ namespace {
 GaitDrawingJob drawing_of(const MotionMeasuresJob& job) {
   GaitDrawingJob out;
   static_cast<JobSettings&>(out) = job;
-  out.gait = job.gait;
-  out.figures = job.figures;
-  out.figure_formats = job.figure_formats;
-  out.report = job.report;
+  static_cast<GaitOutputs&>(out) = job;
   out.refits = job.refits;
   out.level = job.level;
   return out;

@@ -20,14 +20,10 @@ namespace kinemark::pipeline {
 /// What `kinemark analyze MOTION --model M` is asked to measure: ids of analysis::body_definitions(), regions
 /// whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output is a
 /// .csv, .json or .nwb.
-struct MotionMeasuresJob : MotionFiles, MeasureChoice {
+struct MotionMeasuresJob : MotionFiles, MeasureChoice, GaitOutputs {
   std::vector<std::string> select;  ///< coordinates; * is any text, ? any letter; empty: all that can move
   std::vector<std::string> couple;  ///< "A,B": coordinates whose coupling is measured
   bool normalize = false;           ///< kinetics per mass, momentum over mass, speed and height
-  GaitRequest gait;                 ///< whose events (of the .c3d of `forces`), norms, pairs, cycles
-  std::filesystem::path figures;    ///< folder for figures over the gait cycle
-  std::string figure_formats;       ///< as parse_figure_formats()
-  std::filesystem::path report;     ///< gait report, .html
 };
 
 /// Warnings: what was left out or taken otherwise.

@@ -37,7 +37,8 @@ const Ends* ends_in(const io::TidyTable& table) {
   return found == kEnds.end() ? nullptr : found;
 }
 
-// The band between its points; NaN outside.
+// The band between its points; NaN outside, and beside a point without a value: std::lerp() would give the
+// other end's.
 std::pair<double, double> band_at(const NormBand& norm, double where) {
   const auto above = std::ranges::lower_bound(norm.at, where);
   if (above == norm.at.end()) return {kNaN, kNaN};
@@ -45,7 +46,8 @@ std::pair<double, double> band_at(const NormBand& norm, double where) {
   if (*above == where) return {norm.low[i], norm.high[i]};
   if (i == 0) return {kNaN, kNaN};
   const double part = (where - norm.at[i - 1]) / (norm.at[i] - norm.at[i - 1]);
-  return {std::lerp(norm.low[i - 1], norm.low[i], part), std::lerp(norm.high[i - 1], norm.high[i], part)};
+  const auto between = [&](const auto& ends) { return ends[i - 1] + part * (ends[i] - ends[i - 1]); };
+  return {between(norm.low), between(norm.high)};
 }
 
 BesideNorm compare(const NormBand& norm, const CurveGroups& groups, std::size_t group, std::int64_t curve) {

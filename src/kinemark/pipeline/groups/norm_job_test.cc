@@ -61,6 +61,14 @@ TEST_F(NormJobTest, PointsBeyondTheBandAreNotCompared) {
               HasSubstr("no point of the curves (percent 0 to 100) lies within those of"));
 }
 
+TEST_F(NormJobTest, PointsBesideOneWithoutAValueAreNotCompared) {
+  const auto holed = write("holed.csv", "percent,low,high\n0,0,30\n50,,\n100,0,30\n");
+  const auto outcome = run_norm({.norm = holed, .inputs = {curves_}});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->curves[0].points, 2);  // at 0 and at 100, not at 25 and 50
+  EXPECT_EQ(outcome->curves[0].outside, 0);
+}
+
 TEST_F(NormJobTest, OneOfSeveralBandsIsChosen) {
   const auto two = write("two.csv", "age,percent,low,high\n5,0,0,1\n5,100,0,1\n40,0,0,30\n40,100,0,30\n");
   const auto both = run_norm({.norm = two, .inputs = {curves_}});

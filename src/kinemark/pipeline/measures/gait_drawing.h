@@ -19,15 +19,11 @@
 
 namespace kinemark::pipeline {
 
-/// What of walking is drawn and written. Paths that are empty are not used.
-struct GaitDrawingJob : JobSettings {
-  GaitRequest gait;               ///< whose events, norms, pairs; write_events and write_cycles
-  std::filesystem::path figures;  ///< folder
-  std::string figure_formats;     ///< as parse_figure_formats()
-  std::filesystem::path report;   ///< page, .html
-  std::int64_t refits = 99;       ///< behind each interval of the measures; 0: none
-  double level = 0.95;            ///< of these intervals
-  double noise_sd_m = 0.0;        ///< of markers, per axis; 0: found from the samples
+/// How walking is measured for what is drawn and written of it.
+struct GaitDrawingJob : JobSettings, GaitOutputs {
+  std::int64_t refits = 99;  ///< behind each interval of the measures; 0: none
+  double level = 0.95;       ///< of these intervals
+  double noise_sd_m = 0.0;   ///< of markers, per axis; 0: found from the samples
 
   /// Whether anything is asked for.
   [[nodiscard]] bool wanted() const {

@@ -39,6 +39,14 @@ struct GaitRequest {
   [[nodiscard]] Status check(bool drawn = false) const;
 };
 
+/// What of walking is written and drawn. Paths that are empty are not used.
+struct GaitOutputs {
+  GaitRequest gait;               ///< whose events, norms, pairs; files of events and cycles
+  std::filesystem::path figures;  ///< folder for figures
+  std::string figure_formats;     ///< as parse_figure_formats(); empty: all that this program can write
+  std::filesystem::path report;   ///< page, .html
+};
+
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
 /// @param drawn  as GaitRequest::check()
 [[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);

@@ -24,23 +24,19 @@
 namespace kinemark::pipeline {
 
 /// What `kinemark analyze` is asked to do with a recording of markers: ids of paths, of walking ("gait": all
-/// of these), of plates ("plates") and of EMG ("emg"), regions beside those of the journal. Paths that are
-/// empty are not used.
-struct MeasuresJob : JobSettings, MeasureChoice {
+/// of these), of plates ("plates") and of EMG ("emg"), regions beside those of the journal; figures and page
+/// are of paths, too. Paths that are empty are not used.
+struct MeasuresJob : JobSettings, MeasureChoice, GaitOutputs {
   std::filesystem::path input;  ///< marker file
   double rate_hz = 0.0;         ///< for a file that tells none; 0: not given
   std::filesystem::path
       edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
   Selection selection;  ///< which markers, which frames
-  std::filesystem::path output;   ///< .csv, .json or .nwb
-  std::filesystem::path figures;  ///< folder for figures; empty: none are written
-  std::string figure_formats;     ///< as parse_figure_formats(); empty: all that this program can write
-  std::filesystem::path report;   ///< page to write as well, .html
-  double noise_sd_m = 0.0;        ///< per axis; 0: found from the samples
-  bool keep_defects = false;      ///< measure what screening calls spikes, swaps, stuck too
-  GaitRequest gait;               ///< walking
-  EmgRequest emg;                 ///< electromyograms
-  std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
+  std::filesystem::path output;             ///< .csv, .json or .nwb
+  double noise_sd_m = 0.0;                  ///< per axis; 0: found from the samples
+  bool keep_defects = false;                ///< measure what screening calls spikes, swaps, stuck too
+  EmgRequest emg;                           ///< electromyograms
+  std::filesystem::path participants_file;  ///< table to join to the rows, as read_participants()
   std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };
 

@@ -180,10 +180,7 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
 GaitDrawingJob drawing_of(const SegmentsJob& job) {
   GaitDrawingJob out;
   static_cast<JobSettings&>(out) = job;
-  out.gait = job.gait;
-  out.figures = job.figures;
-  out.figure_formats = job.figure_formats;
-  out.report = job.report;
+  static_cast<GaitOutputs&>(out) = job;
   out.refits = job.refits;
   out.level = job.level;
   out.noise_sd_m = job.noise_sd_m;

@@ -23,7 +23,7 @@
 namespace kinemark::pipeline {
 
 /// What `kinemark analyze --segments` is asked to do. Paths that are empty are not used.
-struct SegmentsJob : JobSettings {
+struct SegmentsJob : JobSettings, GaitOutputs {
   std::filesystem::path input;         ///< marker file
   double rate_hz = 0.0;                ///< for a file that tells none; 0: not given
   Selection selection;                 ///< which markers and frames
@@ -36,10 +36,6 @@ struct SegmentsJob : JobSettings {
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
   bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
   std::filesystem::path output;        ///< folder; empty: nothing is written
-  GaitRequest gait;                    ///< whose events, norms, pairs; files of events and cycles
-  std::filesystem::path figures;       ///< folder for figures over the gait cycle
-  std::string figure_formats;          ///< as parse_figure_formats()
-  std::filesystem::path report;        ///< gait report, .html
   std::int64_t refits = 99;            ///< behind deviations of loads and intervals of walking; 0: none
   double level = 0.95;                 ///< of these intervals
 };

@@ -3,10 +3,10 @@
 #include "kinemark/stages/analysis/kinetics/chain_dynamics.h"
 
 #include <Eigen/Geometry>
-#include <array>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/stages/analysis/path/path_samples.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -15,29 +15,26 @@ using Eigen::Matrix3d;
 using Eigen::MatrixX3d;
 using Eigen::Vector3d;
 
-// Fornberg 1988, eighth order: of neighbours 1 to 4, and of the sample itself.
-constexpr std::array<double, 4> kFirst{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-constexpr std::array<double, 4> kSecond{8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
-constexpr double kSecondOfItself = -205.0 / 72;
-
 Vector3d axial(const Matrix3d& m) {
   return 0.5 * Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
 }
 
-Vector3d velocity_at(const std::vector<Matrix3d>& axes, std::int64_t f, double rate_hz) {
-  Matrix3d rate = Matrix3d::Zero();
-  for (std::int64_t k = 1; k <= kDynamicsMargin; ++k)
-    rate += kFirst[at(k - 1)] * (axes[at(f + k)] - axes[at(f - k)]);
-  return axial(rate * axes[at(f)].transpose()) * rate_hz;
+// Frames [kDerivativeMargin, frames - kDerivativeMargin) of the axes' nine numbers, column by column.
+PathSamples differentiated(const std::vector<Matrix3d>& axes, double rate_hz) {
+  const auto frames = std::ssize(axes);
+  SeriesMatrix x(frames, 9);
+  for (std::int64_t f = 0; f < frames; ++f)
+    x.row(f) = Eigen::Map<const Eigen::RowVectorXd>(axes[at(f)].data(), 9);
+  return differentiate(x, kDerivativeMargin, frames - 2 * kDerivativeMargin, rate_hz);
 }
 
-// R'' R^T = [alpha] + [w][w], of which the second part is symmetric.
-Vector3d acceleration_at(const std::vector<Matrix3d>& axes, std::int64_t f, double rate_hz) {
-  Matrix3d rate = kSecondOfItself * axes[at(f)];
-  for (std::int64_t k = 1; k <= kDynamicsMargin; ++k)
-    rate += kSecond[at(k - 1)] * (axes[at(f + k)] + axes[at(f - k)]);
-  return axial(rate * axes[at(f)].transpose()) * rate_hz * rate_hz;
+// R' R^T = [w]; R'' R^T = [alpha] + [w][w], of which the second part is symmetric.
+Vector3d turning(const PathMatrix& rates, std::int64_t i, const Matrix3d& axes) {
+  const Eigen::RowVectorXd numbers = rates.row(i);
+  return axial(Eigen::Map<const Matrix3d>(numbers.data()) * axes.transpose());
 }
+
+bool too_short(std::int64_t frames) { return frames <= 2 * kDerivativeMargin; }
 
 }  // namespace
 
@@ -60,15 +57,17 @@ WrenchTrack inertial_wrench(const BodyTrack& body, const Vector3d& gravity, doub
   const std::int64_t frames = body.centre.rows();
   WrenchTrack out{.force = MatrixX3d::Constant(frames, 3, kNaN),
                   .moment = MatrixX3d::Constant(frames, 3, kNaN)};
+  if (too_short(frames)) return out;
   const Vector3d inertia = body.mass * body.gyration.cwiseAbs2();
-  for (std::int64_t f = kDynamicsMargin; f < frames - kDynamicsMargin; ++f) {
-    Vector3d second = kSecondOfItself * body.centre.row(f).transpose();
-    for (std::int64_t k = 1; k <= kDynamicsMargin; ++k)
-      second += kSecond[at(k - 1)] * (body.centre.row(f + k) + body.centre.row(f - k)).transpose();
-    const Vector3d force = body.mass * (gravity - second * rate_hz * rate_hz);
+  const auto centre =
+      differentiate(SeriesMatrix(body.centre), kDerivativeMargin, frames - 2 * kDerivativeMargin, rate_hz);
+  const auto axes = differentiated(body.axes, rate_hz);
+  for (std::int64_t i = 0; i < centre.count(); ++i) {
+    const std::int64_t f = i + kDerivativeMargin;
+    const Vector3d force = body.mass * (gravity - Vector3d(centre.a.row(i)));
     const Matrix3d& r = body.axes[at(f)];
-    const Vector3d w = r.transpose() * velocity_at(body.axes, f, rate_hz);
-    const Vector3d alpha = r.transpose() * acceleration_at(body.axes, f, rate_hz);
+    const Vector3d w = r.transpose() * turning(axes.v, i, r);
+    const Vector3d alpha = r.transpose() * turning(axes.a, i, r);
     const Vector3d momentum = inertia.cwiseProduct(w);
     const Vector3d rate = inertia.cwiseProduct(alpha) + w.cross(momentum);
     out.force.row(f) = force;
@@ -80,8 +79,10 @@ WrenchTrack inertial_wrench(const BodyTrack& body, const Vector3d& gravity, doub
 MatrixX3d angular_velocity(const std::vector<Matrix3d>& axes, double rate_hz) {
   const auto frames = std::ssize(axes);
   MatrixX3d out = MatrixX3d::Constant(frames, 3, kNaN);
-  for (std::int64_t f = kDynamicsMargin; f < frames - kDynamicsMargin; ++f)
-    out.row(f) = velocity_at(axes, f, rate_hz);
+  if (too_short(frames)) return out;
+  const auto rates = differentiated(axes, rate_hz);
+  for (std::int64_t i = 0; i < rates.count(); ++i)
+    out.row(i + kDerivativeMargin) = turning(rates.v, i, axes[at(i + kDerivativeMargin)]);
   return out;
 }
 

@@ -9,9 +9,6 @@
 
 namespace kinemark::analysis {
 
-/// Frames on either side of one that its derivatives need.
-inline constexpr std::int64_t kDynamicsMargin = 4;
-
 /// A rigid body in F frames, in the laboratory.
 struct BodyTrack {
   double mass = 0.0;                                   ///< kg

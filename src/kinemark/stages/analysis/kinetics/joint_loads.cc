@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "kinemark/math/smoothing_choice.h"
 #include "kinemark/stages/analysis/kinetics/internal/joint_mechanics.h"
 #include "kinemark/stages/analysis/kinetics/internal/smooth_markers.h"
+#include "kinemark/stages/analysis/path/path_samples.h"
 #include "kinemark/stages/analysis/path/refits.h"
 
 namespace kinemark::analysis {
@@ -79,36 +79,30 @@ struct Spread {
 /// What of a recording an output can be told from.
 class Presence {
  public:
-  explicit Presence(const data::Trajectories& markers) : markers_(markers) {}
+  explicit Presence(const data::Trajectories& markers)
+      : markers_(markers), seen_(at(markers.markers()), {markers.frames(), -1}) {
+    for (std::int64_t f = 0; f < markers.frames(); ++f)
+      for (std::int64_t m = 0; m < markers.markers(); ++m)
+        if (markers.present(f, m)) seen_[at(m)] = {std::min(seen_[at(m)].first, f), f};
+  }
 
   /// Of a frame for outputs that depend on these markers and on nine frames.
   [[nodiscard]] State of(const std::set<std::int64_t>& used, std::int64_t f) const {
-    if (f < kDynamicsMargin || f + kDynamicsMargin >= markers_.frames()) return State::missing;
+    const std::int64_t begin = f - kDerivativeMargin, last = f + kDerivativeMargin;
+    if (begin < 0 || last >= markers_.frames()) return State::missing;
     State worst = State::measured;
     for (const auto m : used) {
-      if (!markers_.present(f, m) || !seen_before(m, f - kDynamicsMargin) ||
-          !seen_behind(m, f + kDynamicsMargin))
+      if (!markers_.present(f, m) || seen_[at(m)].first > begin || seen_[at(m)].second < last)
         return State::missing;
-      for (auto g = f - kDynamicsMargin; g <= f + kDynamicsMargin; ++g)
+      for (auto g = begin; g <= last; ++g)
         if (markers_.state[markers_.index(g, m)] != State::measured) worst = State::interpolated;
     }
     return worst;
   }
 
  private:
-  [[nodiscard]] bool seen_before(std::int64_t m, std::int64_t f) const { return bounds(m).first <= f; }
-  [[nodiscard]] bool seen_behind(std::int64_t m, std::int64_t f) const { return bounds(m).second >= f; }
-  const std::pair<std::int64_t, std::int64_t>& bounds(std::int64_t m) const {
-    const auto found = bounds_.find(m);
-    if (found != bounds_.end()) return found->second;
-    std::pair<std::int64_t, std::int64_t> out{markers_.frames(), -1};
-    for (std::int64_t f = 0; f < markers_.frames(); ++f)
-      if (markers_.present(f, m)) out = {std::min(out.first, f), f};
-    return bounds_.emplace(m, out).first->second;
-  }
-
   const data::Trajectories& markers_;
-  mutable std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> bounds_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> seen_;  // first and last frame of each marker
 };
 
 SegmentSeries series_of(std::string name, std::vector<std::string> labels, std::string unit,
