@@ -26,7 +26,7 @@ std::string table_cell(const std::optional<double>& value) {
 std::string bound(const StudyRow& row) {
   if (row.at_least && row.at_most) return fmt::format("{:.4g} to {:.4g}", *row.at_least, *row.at_most);
   if (row.at_least) return fmt::format(">= {:.4g}", *row.at_least);
-  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "no bound";
+  return row.at_most ? fmt::format("<= {:.4g}", *row.at_most) : "figure";
 }
 
 constexpr std::array<std::string_view, 4> kExpectations{"right value", "Cramer-Rao bound",
@@ -115,7 +115,10 @@ std::string column_text(const StudyTable& table) {
       out += fmt::format("{}{}", before, kMeanings[i]);
       before = "; ";
     }
-  return out + "; bound: what is asked of ours";
+  out += "; bound: what is asked of ours";
+  if (!std::ranges::all_of(table.rows, &StudyRow::has_bound))
+    out += ", figure: a number of which nothing is asked";
+  return out;
 }
 
 std::string missed_text(const StudyTable& table) {
@@ -127,8 +130,12 @@ std::string missed_text(const StudyTable& table) {
     missed += fmt::format("{}{}", count++ > 0 ? "; " : "", row.quantity);
   }
   if (asked == 0) return "";
-  if (count == 0) return fmt::format("None of {} bounds is missed.", asked);
-  return fmt::format("{} of {} bounds {} missed: {}.", count, asked, count == 1 ? "is" : "are", missed);
+  const auto free = table.rows.size() - asked;
+  const auto figures =
+      free == 0 ? "" : fmt::format(" {} more {} no bound.", free, free == 1 ? "row has" : "rows have");
+  if (count == 0) return fmt::format("None of {} bounds is missed.{}", asked, figures);
+  return fmt::format("{} of {} bounds {} missed: {}.{}", count, asked, count == 1 ? "is" : "are", missed,
+                     figures);
 }
 
 std::string study_text(const StudyTable& table) {

@@ -24,7 +24,8 @@ enum class Expectation : std::uint8_t {
 /// "right value", "Cramer-Rao bound", "Cramer-Rao bound of a frame alone", "predicted SD".
 [[nodiscard]] std::string_view to_string(Expectation expectation);
 
-/// One line of a study's table. Values that are not available are absent.
+/// One line of a study's table. Values that are not available are absent. A row without a bound is a figure:
+/// it cannot fail, and is called so.
 struct StudyRow {
   std::string quantity, unit;
   std::optional<double> paper;    ///< as published
@@ -61,7 +62,8 @@ struct StudyTable {
 [[nodiscard]] std::string column_text(const StudyTable& table);
 /// The expected value as displayed: "0.41 CR", "2 SD", "68.3"; empty without one.
 [[nodiscard]] std::string expected_text(const StudyRow& row);
-/// "2 of 59 bounds are missed: A; B." or "None of 59 bounds is missed."; empty without a bound.
+/// "2 of 59 bounds are missed: A; B." or "None of 59 bounds is missed.", and " 12 more rows have no bound."
+/// where there are such; empty without a bound.
 [[nodiscard]] std::string missed_text(const StudyTable& table);
 /// The table as text with aligned columns, a line that explains them, and one that counts.
 [[nodiscard]] std::string study_text(const StudyTable& table);

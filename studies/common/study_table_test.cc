@@ -59,6 +59,7 @@ TEST(StudyTable, SaysTheSameInJsonAndInWords) {
   const auto text = study_text(table);
   EXPECT_THAT(text, HasSubstr("<= 3"));
   EXPECT_THAT(text.substr(text.find("share")), HasSubstr("FAILS"));
+  EXPECT_THAT(text, Not(HasSubstr("figure")));
   EXPECT_THAT(text.substr(0, text.find("share")), Not(HasSubstr("FAILS")));
 }
 
@@ -81,7 +82,7 @@ TEST(StudyTable, ColumnsAreAsWideAsTheirWidestCell) {
   };
   EXPECT_EQ(end_of(head, "ours"), end_of(second, "1.235e+05"));
   EXPECT_EQ(end_of(head, "bound"), end_of(second, "0.5 to 2"));
-  EXPECT_EQ(end_of(head, "bound"), end_of(first, "no bound"));
+  EXPECT_EQ(end_of(head, "bound"), end_of(first, "figure"));
   EXPECT_EQ(first.find(" 1 ", long_name.size()), first.find_last_of('1') - 1);  // the value, not the unit
   EXPECT_THAT(legend, HasSubstr("asked of ours"));
 }
@@ -104,7 +105,8 @@ TEST(StudyTable, WithoutABoundNothingPasses) {
   EXPECT_TRUE(json["rows"][0]["bound"].is_null());
   EXPECT_TRUE(json["pass"].is_null());
   EXPECT_TRUE(table.pass()) << "no bound is missed either: exit status 0";
-  EXPECT_THAT(study_text(table), HasSubstr("no bound"));
+  EXPECT_THAT(study_text(table), HasSubstr("  figure\n"));
+  EXPECT_THAT(study_text(table), HasSubstr("figure: a number of which nothing is asked"));
 }
 
 TEST(StudyTable, CountsTheBoundsThatAreMissedByName) {
@@ -112,8 +114,10 @@ TEST(StudyTable, CountsTheBoundsThatAreMissedByName) {
       missed{.quantity = "c", .ours = 3.0, .at_most = 2.0},
       none{.quantity = "d", .ours = std::nan(""), .at_least = 0.0};
   EXPECT_EQ(missed_text({.seeds = {1}, .rows = {free}}), "");
-  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free}}), "None of 1 bounds is missed.");
-  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free, missed}}), "1 of 2 bounds is missed: c.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free}}),
+            "None of 1 bounds is missed. 1 more row has no bound.");
+  EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, free, free, missed}}),
+            "1 of 2 bounds is missed: c. 2 more rows have no bound.");
   EXPECT_EQ(missed_text({.seeds = {1}, .rows = {kept, missed, none}}), "2 of 3 bounds are missed: c; d.");
   EXPECT_THAT(study_text({.seeds = {1}, .rows = {kept, missed}}), testing::EndsWith("missed: c.\n"));
 }
