@@ -55,6 +55,7 @@ lint:  ## clang-tidy on what changed, layers, licences, READMEs, layout
 	tools/check_public_headers.py
 	tools/check_spdx.py
 	tools/check_readmes.py
+	tools/check_sentences.py
 	tools/check_tidy --jobs $(JOBS)
 
 docs:  ## API documentation of the public headers: build/release/docs/html/index.html

@@ -364,6 +364,7 @@ STAGES = {
     "layers": (script(sys.executable, "tools/check_layers.py"), 0.1),
     "licences": (script(sys.executable, "tools/check_spdx.py"), 0.1),
     "readmes": (script(sys.executable, "tools/check_readmes.py"), 0.1),
+    "sentences": (script(sys.executable, "tools/check_sentences.py"), 0.1),
     "lines": (script(sys.executable, "tools/count_lines.py"), 0.1),
     "public-headers": (script(sys.executable, "tools/check_public_headers.py"), 0.1),
     "tools": (tools, 0.5),
