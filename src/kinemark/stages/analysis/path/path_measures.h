@@ -12,6 +12,7 @@
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
+#include "kinemark/stages/analysis/path/path_noise.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::analysis {
@@ -40,18 +41,19 @@ struct PathMeasures {
   std::vector<PathCurves> curves;   ///< of each marker and region, where asked for
   std::vector<PathRhythm> rhythms;  ///< of each marker and region, where asked for; their measures are among
                                     ///< those above, behind the others of their stretch
-  std::vector<std::string> warnings;  ///< markers and regions that could not be measured, and noise that
-                                      ///< disagrees with what was stated, a sentence each
+  std::vector<PathNoise> noises;    ///< of the markers that are measured
+  std::vector<std::string>
+      warnings;  ///< noise_sentences(), then markers and regions that could not be measured
 };
 
 /// Measure the paths of all markers (docs/theory/measures.md).
 ///
-/// Order and cut-off of the smoother come from the data (choose_smoothing()), the noise from sixth
-/// differences. A value is that of the path smoothed with kLessSmooth times this cut-off, less the mean
-/// deviation that refits of simulated noise around a pilot path have; its interval is the pivot of these
-/// deviations. Edges of 80 ms at both ends of the recording are not measured. Samples that are missing or
-/// made are no samples here: they are gaps of the smoother, and their share is told. Values are NaN, with a
-/// remark, where a measure is not determined.
+/// Order and cut-off of the smoother come from the data (choose_smoothing()), the noise, whatever its colour,
+/// from their spectrum above the movement (find_path_noise()). A value is that of the path smoothed with
+/// kLessSmooth times this cut-off, less the mean deviation that refits of simulated noise around a pilot path
+/// have; its interval is the pivot of these deviations. Edges of 80 ms at both ends of the recording are not
+/// measured. Samples that are missing or made are no samples here: they are gaps of the smoother, and their
+/// share is told. Values are NaN, with a remark, where a measure is not determined.
 ///
 /// @return  Code::usage as options.check(); Code::bad_input where the recording has no rate or no marker, or
 /// a
