@@ -76,7 +76,7 @@ def agreement(folder, data):
             f"{angle[0]:.5f} deg ({angle[1]}), {centre[0]:.5f} mm ({centre[1]}), {numbers} numbers")
         row("It agrees with the file's own" in said and results["comparison"]["agrees"], f"agreement is said, {path.stem}",
             "in the summary line, and in JSON", results["comparison"]["sentence"])
-        row("Assumed, and carried in the deviations: " in said and "MarkerDiameter 14 mm (SD 2)" in said, f"the assumed diameter is said, {path.stem}",
+        row("Assumed, and carried in the deviations: " in said and "MarkerDiameter 14 mm (SD 2" in said, f"the assumed diameter is said, {path.stem}",
             "14 mm (SD 2)", next((line for line in said.splitlines() if line.startswith("Assumed")), "not said")[:80])
 
 

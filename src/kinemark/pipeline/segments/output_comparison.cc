@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -244,7 +245,7 @@ class Explainer {
         continue;
       ShownParameter other{
           .name = used.name, .quantity = used.quantity, .used = used.value, .from = used.from};
-      if (used.assumed)
+      if (used.assumed && input_.static_trial != nullptr)
         for (const double choice : p->choices)
           if (choice != used.value) other.value = choice;
       if (used.from == "the static trial")
@@ -363,14 +364,20 @@ std::vector<std::string> OutputComparison::findings() const {
                     fmt::join(causes, "; "), causes.size() == 1 ? "it" : "them",
                     explanation.angle_rad / kDegree, explanation.point_m * 1e3));
   if (!varying.empty()) {
+    const auto times = [](const ShownParameter& p) {
+      return p.spread / (p.quantity == SubjectQuantity::length ? kVaries_m : kVaries_rad);
+    };
+    auto most = varying;
+    std::ranges::stable_sort(most, std::greater(), times);
+    if (most.size() > 3) most.resize(3);
     std::vector<std::string> list;
-    for (const auto& p : varying)
+    for (const auto& p : most)
       list.push_back(fmt::format("{} by +-{}", p.name, shown_value(p.quantity, p.spread)));
+    const auto more = varying.size() - most.size();
     out.push_back(
-        fmt::format("Markers were changed after the file's model ran on them: by its outputs, what is "
-                    "constant in the model "
-                    "varies within the trial: {}.",
-                    fmt::join(list, ", ")));
+        fmt::format("Markers were changed after the file's model ran on them: by its outputs, what is constant in "
+                    "the model varies within the trial: {}{}.",
+                    fmt::join(list, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   if (out.empty())
     out.emplace_back(

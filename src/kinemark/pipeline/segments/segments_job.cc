@@ -354,8 +354,9 @@ std::string assumed_measures(const analysis::SegmentMotion& motion) {
   std::vector<std::string> list;
   for (const auto& p : motion.parameters)
     if (p.assumed && p.sd > 0.0)
-      list.push_back(fmt::format("{} {:.4g} {} (SD {:.2g})", p.name, p.value / per_shown(p.quantity),
-                                 shown_unit(p.quantity), p.sd / per_shown(p.quantity)));
+      list.push_back(fmt::format("{} {:.4g} {} (SD {:.2g}{})", p.name, p.value / per_shown(p.quantity),
+                                 shown_unit(p.quantity), p.sd / per_shown(p.quantity),
+                                 p.from.ends_with("outputs") ? "; by " + p.from : ""));
   return fmt::format("{}", fmt::join(list, ", "));
 }
 

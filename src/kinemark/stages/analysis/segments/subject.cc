@@ -237,9 +237,10 @@ class Finder {
     return std::nullopt;
   }
   static bool agree(const ShownParameter& shown) {
-    constexpr double kOneAngle_rad = 0.02, kOneLength_m = 0.0005;
-    const double one = shown.quantity == SubjectQuantity::length ? kOneLength_m : kOneAngle_rad;
-    return shown.spread < one && shown.disagreement < one;
+    constexpr double kOneAngle_rad = 0.02, kOneLength_m = 0.0005, kSpread_m = 0.002;
+    if (shown.quantity == SubjectQuantity::length)
+      return shown.spread < kSpread_m && shown.disagreement < kOneLength_m;
+    return shown.spread < kOneAngle_rad && shown.disagreement < kOneAngle_rad;
   }
 
   // The choice with which `chosen_by` come out of the static trial as files hold them; none, or all: not
