@@ -166,8 +166,8 @@ data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide&
     out.verdict = data::SkinVerdict::follows;
     out.description = fmt::format(
         "The markers' shape follows the posture, the same in {} of {}: {:.0f} % of it (own slide about {:.1f} mm "
-        "per rad). This moves the {} by about {:.1f} mm and is in the error bar.",
-        evidence.shape.alike, count, 100.0 * evidence.shape.explained, mm(out.own_slide_m), "joint",
+        "per rad). This moves the joint by about {:.1f} mm and is in the error bar.",
+        evidence.shape.alike, count, 100.0 * evidence.shape.explained, mm(out.own_slide_m),
         mm(slide.moves_m));
   } else if (evidence.movements >= kEnough && evidence.shape.p_value > kDoubtful && slide.none > kNoneLikely) {
     out.verdict = data::SkinVerdict::none_seen;

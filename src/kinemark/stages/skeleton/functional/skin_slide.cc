@@ -41,6 +41,7 @@ constexpr double kLeastNoise = 0.7;        ///< of the noise's variance over tha
 constexpr double kSlide_m = 0.03;          ///< wide prior of coefficients, for the first residual alone
 constexpr double kLeveragePower = 0.5, kLeastLeft = 0.05;
 constexpr std::int64_t kLeastParts = 3, kMostParts = 12;
+constexpr double kLeastMotion_rad = 0.035;  ///< SD of a posture that could tell anything
 
 /// A segment's own slide, and what it and a common slide of unit size do to the joint's place.
 struct Side {
@@ -300,7 +301,7 @@ SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
   if (static_cast<std::int64_t>(clusters.frames.size()) < kLeastSlideFrames) return out;
   const auto posture = internal::posture_of(parent, child, motion, clusters.frames,
                                             samples.trajectories.time.rate_hz);
-  if (static_cast<std::int64_t>(posture.frames.size()) < kLeastSlideFrames || !(posture.sd_rad(0) > 0.0))
+  if (static_cast<std::int64_t>(posture.frames.size()) < kLeastSlideFrames || !(posture.sd_rad(0) > kLeastMotion_rad))
     return out;
   const GapModel model = internal::gap_model(parent, child, motion, posture);
   const auto side = [&](const SegmentPoses& poses, const Cluster& cluster, const Eigen::Vector3d& joint) {

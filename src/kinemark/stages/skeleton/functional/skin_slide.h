@@ -23,7 +23,8 @@ namespace kinemark::skeleton {
 /// which the gap tells as far as it can: on a grid, integrated out. All of it is carried to the joint by the
 /// lever from the markers. What does not deform is taken not to slide.
 struct SkinSlide {
-  /// false: too few frames show all markers (40), or a gap of no more than rounding (0.1 um); all below is zero
+  /// false: too few frames show all markers (40), a motion of no more than 2 deg (SD), or a gap of no more than
+  /// rounding (0.1 um); all below is zero
   bool known = false;
   /// own slide of a marker, per axis, m per rad: RMS over what is likely
   double own_parent_m = 0.0, own_child_m = 0.0;
