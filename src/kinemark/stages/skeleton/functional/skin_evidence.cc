@@ -139,7 +139,7 @@ SkinEvidence find_skin(const Samples& samples, const SegmentPoses& parent, const
   };
   const Prediction above = shape(parent, clusters.parent), below = shape(child, clusters.child);
   out.shape = above.p_value < below.p_value ? above : below;
-  out.shape.p_value = std::min(1.0, 2.0 * out.shape.p_value);
+  if (!std::isnan(out.shape.p_value)) out.shape.p_value = std::min(1.0, 2.0 * out.shape.p_value);
   Eigen::MatrixX3d gap(X.rows(), 3);
   for (Eigen::Index i = 0; i < gap.rows(); ++i) {
     const auto f = posture.frames[at(i)];

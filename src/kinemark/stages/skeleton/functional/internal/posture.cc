@@ -23,6 +23,7 @@ constexpr double kBlock_s = 0.2;
 constexpr double kLag_s = 0.1;
 constexpr double kLeastStep = 0.5;  ///< a step of this many SDs from frame to frame is no path in time
 constexpr double kMovementSmooth_s = 0.25, kLeastMovement_s = 0.8;
+constexpr double kSwing = 0.5;  ///< of the first component's SD: what is less is no movement
 
 /// Means weighted by a normal density of `sigma` frames, the ends reflected.
 Eigen::MatrixXd smoothed(const Eigen::MatrixXd& in, double sigma) {
@@ -97,6 +98,51 @@ void fill_terms(Posture& posture, const Eigen::Vector3d& kept) {
   }
 }
 
+/// A movement begins where the distance from the median posture, smoothed, rises through its mean: arcs of
+/// many directions.
+std::vector<int> rises_of_distance(const Posture& posture) {
+  const auto n = posture.component.rows();
+  std::vector<int> out(at(n), 0);
+  Eigen::RowVector3d median;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::VectorXd column = posture.component.col(k);
+    median(k) = math::median({column.data(), at(n)});
+  }
+  const Eigen::VectorXd far = (posture.component.rowwise() - median).rowwise().norm();
+  const Eigen::VectorXd path = smoothed(far, kMovementSmooth_s / posture.step_s);
+  const double mean = path.mean();
+  Eigen::Index last = 0;
+  int movement = 0;
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    out[at(i)] = movement;
+    if (!(path(i) < mean) || !(path(i + 1) >= mean)) continue;
+    if (static_cast<double>(i - last) * posture.step_s <= kLeastMovement_s) continue;
+    ++movement;
+    last = i;
+  }
+  out.back() = movement;
+  return out;
+}
+
+/// A movement begins where the first component, having been low, rises beyond half an SD: to and fro about one
+/// axis.
+std::vector<int> swings_of_first(const Posture& posture) {
+  const auto n = posture.component.rows();
+  std::vector<int> out(at(n), 0);
+  const double bound = kSwing * posture.sd_rad(0);
+  bool low = false;
+  int movement = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (posture.component(i, 0) < -bound) low = true;
+    if (low && posture.component(i, 0) > bound) {
+      low = false;
+      ++movement;
+    }
+    out[at(i)] = movement;
+  }
+  return out;
+}
+
 }  // namespace
 
 Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const RelativeMotion& motion,
@@ -131,27 +177,9 @@ Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const 
 
 std::vector<int> movements_of(const Posture& posture) {
   const auto n = posture.component.rows();
-  std::vector<int> out(at(n), 0);
-  if (!posture.in_time || n < 3) return out;
-  Eigen::RowVector3d median;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::VectorXd column = posture.component.col(k);
-    median(k) = math::median({column.data(), at(n)});
-  }
-  const Eigen::VectorXd far = (posture.component.rowwise() - median).rowwise().norm();
-  const Eigen::VectorXd path = smoothed(far, kMovementSmooth_s / posture.step_s);
-  const double mean = path.mean();
-  Eigen::Index last = 0;
-  int movement = 0;
-  for (Eigen::Index i = 0; i + 1 < n; ++i) {
-    out[at(i)] = movement;
-    if (!(path(i) < mean) || !(path(i + 1) >= mean)) continue;
-    if (static_cast<double>(i - last) * posture.step_s <= kLeastMovement_s) continue;
-    ++movement;
-    last = i;
-  }
-  out.back() = movement;
-  return out;
+  if (!posture.in_time || n < 3) return std::vector<int>(at(n), 0);
+  auto far = rises_of_distance(posture), swings = swings_of_first(posture);
+  return far.back() >= swings.back() ? far : swings;
 }
 
 }  // namespace kinemark::skeleton::internal
