@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/recording/markers_recording.h"
@@ -55,7 +56,8 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .force_plates = trial.force_plates.size(),
                         .events = trial.events.size(),
                         .labels = markers.names,
-                        .channels = describe_channels(trial.channels)};
+                        .channels = describe_channels(trial.channels),
+                        .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);

@@ -42,6 +42,8 @@ struct MarkerFileFacts {
   std::vector<std::string> labels;               ///< of the markers
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
   std::vector<ChannelFacts> channels;            ///< points that are no markers
+  std::string filtered;                          ///< by what markers were smoothed, and whether the samples
+                         ///< from before are there; empty: the file tells of no filter
 };
 
 /// Of a table (.mot, .sto).

@@ -35,6 +35,9 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
     if (facts) {
       checked.warnings = std::move(facts->warnings);
       checked.facts = std::move(facts->facts);
+      if (const auto* markers = std::get_if<MarkerFileFacts>(&*checked.facts);
+          markers != nullptr && !markers->filtered.empty())
+        checked.notes.push_back(markers->filtered);
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
     } else {
       checked.error = std::move(facts.error());

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -265,6 +266,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   JointsOutcome outcome;
   outcome.input = std::move(input->file);
   outcome.markers = trial.markers.names;
+  if (auto note = data::note_on_noise(trial.markers); !note.empty() && job.noise_sd_m == 0.0)
+    outcome.warnings.push_back(std::move(note));
   const std::string name = job.input.string();
   if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(name, s.error());
   if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());

@@ -12,6 +12,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/file_hash.h"
@@ -291,6 +292,8 @@ class ScaleRun {
     if (!model) return fail_at(job_.model.string(), model.error());
     const auto axes = bring_into_axes(job_.axes, path, input->trial, *model);
     if (!axes) return std::unexpected(axes.error());
+    if (const auto note = data::note_on_noise(input->trial.markers); !note.empty())
+      out_.warnings.push_back(fmt::format("{}: {}", path.string(), note));
     if (!axes->note.empty()) out_.warnings.push_back(fmt::format("{}: {}", path.string(), axes->note));
     out = std::move(input->trial.markers);
     return {};
