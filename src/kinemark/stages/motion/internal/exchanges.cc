@@ -81,6 +81,8 @@ std::vector<Exchange> take_mutual(std::vector<Outlier>& outliers) {
       rest.push_back(o);
       rest.back().first_frame = o.first_frame + static_cast<std::int64_t>(i);
       rest.back().last_frame = o.first_frame + static_cast<std::int64_t>(end) - 1;
+      if (rest.back().last_frame - rest.back().first_frame != o.last_frame - o.first_frame)
+        rest.back().partner = -1;  // beside the frames in which both were in each other's positions
       i = end;
     }
   outliers = std::move(rest);

@@ -91,6 +91,7 @@ TEST_F(Exchanges, OnlyFramesInWhichBothNameEachOtherAreMutual) {
   EXPECT_EQ(found[0].frames.back(), 20);
   ASSERT_EQ(outliers.size(), 4U);
   EXPECT_EQ(outliers[0].last_frame, 11) << "what only one of them names stays";
+  EXPECT_EQ(outliers[0].partner, -1) << "it does not lie where the other should";
   EXPECT_EQ(outliers[1].first_frame, 21);
   EXPECT_EQ(outliers[2].last_frame, 20);
 }

@@ -24,15 +24,16 @@ using Eigen::VectorXd;
 constexpr double kLessKnown = 2.0;          // times the variance with all markers: the limb lost what held it
 constexpr double kOpen = 0.25;              // rad^2 or m^2: beyond it a coordinate is not determined anyway
 constexpr double kParallel = 0.95;          // correlation of two directions that lead to the same rivals
-constexpr int kDirections = 4;              // of one frame
+constexpr int kDirections = 8;              // of one frame
 constexpr std::array kWays{0.5, 1.1, 1.8};  // rad or m along each, both ways
 constexpr double kFarthest = 2.6;           // rad or m, of any coordinate
 constexpr double kDiffers = 0.12;           // rad or m, and ...
 constexpr double kDiffersInSd = 3.0;        // ... so many deviations: another pose
 constexpr double kWorse = 36.0;             // chi-square by which a rival may fit worse
 constexpr double kTemper = 0.25;            // of a chi-square in nats: markers' errors last for many frames
-constexpr std::size_t kMostRivals = 5;
+constexpr std::size_t kMostRivals = 8;
 constexpr double kLeastSd_m = 0.3e-3;  // of a marker
+constexpr int kRoundsOfRivals = 3;
 constexpr double kShutLoopSd_m = 1e-5;
 constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
 constexpr double kLeastStep = 2e-3;  // rad or m
@@ -204,7 +205,8 @@ class Rivals {
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
       const double ratio = now.variance[i] / whole_(i, i);
-      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown) found.emplace_back(-ratio, i);
+      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown && now.variance[i] < kOpen)
+        found.emplace_back(-ratio, i);
     }
     std::ranges::sort(found);
     std::vector<Eigen::Index> out;
@@ -356,21 +358,27 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
                                            SolvedFrames& solved, std::vector<std::uint8_t>& changed) {
   changed.assign(at(problem.frames), 0);
   std::vector<RivalPose> left;
-  Rivals rivals(problem, options, markers, variances, solved);
-  rivals.find();
-  rivals.weigh();
-  for (std::int64_t f = 0; f < problem.frames; ++f) {
-    auto& here = rivals.of(f);
-    if (here.size() < 2) continue;
-    const auto best =
-        static_cast<std::size_t>(std::ranges::max_element(here, {}, &Candidate::probability) - here.begin());
-    if (best > 0 || here.front().state != solved.states.col(f)) {
-      changed[at(f)] = 1;
-      walk.put(markers, f, here[best].state, solved);
+  bool again = true;
+  // A frame may have the wrong pose in two limbs, and its rivals the right one in one of them.
+  for (int round = 0; round < kRoundsOfRivals && again; ++round) {
+    again = false;
+    left.clear();
+    Rivals rivals(problem, options, markers, variances, solved);
+    rivals.find();
+    rivals.weigh();
+    for (std::int64_t f = 0; f < problem.frames; ++f) {
+      auto& here = rivals.of(f);
+      const auto best = static_cast<std::size_t>(
+          std::ranges::max_element(here, {}, &Candidate::probability) - here.begin());
+      if (here[best].state != solved.states.col(f)) {
+        changed[at(f)] = 1;
+        again = true;
+        walk.put(markers, f, here[best].state, solved);
+      }
+      for (std::size_t k = 0; k < here.size(); ++k)
+        if (k != best && here[k].probability > kLeastProbability)
+          left.push_back({.frame = f, .state = std::move(here[k].state), .probability = here[k].probability});
     }
-    for (std::size_t k = 0; k < here.size(); ++k)
-      if (k != best && here[k].probability > kLeastProbability)
-        left.push_back({.frame = f, .state = std::move(here[k].state), .probability = here[k].probability});
   }
   return left;
 }
