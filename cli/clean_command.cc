@@ -138,6 +138,8 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
                     "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--without-unfiltered", arguments->without_unfiltered,
                     "Do not keep the samples from before the filter beside the smoothed ones");
+  command->add_flag("!--keep-exchanges", job.exchange_back,
+                    "Leave markers that carry each other's label as they are; told all the same");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   command->add_option(

@@ -60,12 +60,13 @@ std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
 /// Look for what the recorder did, and do about it what the job says.
 Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
   auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
+                                                  .exchange_back = job.exchange_back,
                                                   .reject_defects = job.reject_defects,
                                                   .sure = internal::kRejectConfidence});
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
   account.names = outcome.trial.markers.names;
-  account.defects = internal::settle_defects(job.reject_defects, std::move(screening->defects));
+  account.defects = internal::settle_defects(job, std::move(screening->defects));
   account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(job.recorder_made, account.upsampling);
   outcome.warnings = std::move(screening->warnings);

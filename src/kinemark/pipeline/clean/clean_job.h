@@ -24,6 +24,7 @@ struct CleanJob : JobSettings {
   std::filesystem::path edits;   ///< journal of edits, applied before all else; "beside": the one beside the
                                  ///< recording, if there is one; empty: none
   RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
+  bool exchange_back = true;  ///< markers that surely carry each other's label get their own; else only told
   bool reject_defects = false;  ///< spikes, swaps, stuck and false samples become `rejected`, then gaps
   trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled
   trajectory::SmoothOptions filter;                                    ///< how positions are smoothed
@@ -43,6 +44,9 @@ struct CleanOutcome : JobOutcome {
 /// none. Screening and the search for upsampling only tell unless the job says otherwise; gaps are filled
 /// only with a gap method. A recording that was smoothed before and keeps the samples from before is smoothed
 /// from those; one that does not is smoothed once more, and a warning says so. Progress counts markers.
+/// none. Screening and the search for upsampling only tell unless the job says otherwise, but
+/// for labels that were exchanged, which go back; gaps are filled
+/// only with a gap method. Progress counts markers.
 [[nodiscard]] Result<CleanOutcome> run_clean(const CleanJob& job);
 
 }  // namespace kinemark::pipeline

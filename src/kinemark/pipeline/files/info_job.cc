@@ -13,6 +13,7 @@
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/pipeline/files/marker_input.h"
 
 namespace kinemark::pipeline {
@@ -62,6 +63,10 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);
   out.warnings = trial.warnings;
+  if (!job.find_exchanges || !input->rate_known) return {};
+  const auto swaps = find_label_swaps(trial);
+  if (!swaps) return std::unexpected(swaps.error());
+  for (const auto& swap : sure_swaps(*swaps)) out.warnings.push_back(sentence_of(swap, markers.time));
   return {};
 }
 

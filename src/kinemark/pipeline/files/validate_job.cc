@@ -28,6 +28,7 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
   for (const auto& file : job.files) {
     InfoJob info;
     info.file = file;
+    info.find_exchanges = true;
     info.rate_hz = io::needs_rate(file) ? job.rate_hz : 0.0;
     auto facts = run_info(info);
     CheckedFile& checked = out.files.emplace_back();

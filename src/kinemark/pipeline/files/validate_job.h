@@ -38,8 +38,8 @@ struct ValidateOutcome : JobOutcome {
   [[nodiscard]] int exit_status() const;  ///< the highest of all files
 };
 
-/// Read every file as run_info() does. Succeeds whatever the files are like; progress counts files, and a
-/// caller that stops it ends with Code::cancelled.
+/// Read every file as run_info() does, and look for markers that carry each other's label. Succeeds whatever
+/// the files are like; progress counts files, and a caller that stops it ends with Code::cancelled.
 [[nodiscard]] Result<ValidateOutcome> run_validate(const ValidateJob& job);
 
 }  // namespace kinemark::pipeline

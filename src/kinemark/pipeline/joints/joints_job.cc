@@ -63,6 +63,7 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   const auto screening = screen_markers(trial, {.find_upsampling = !job.keep_upsampled,
                                                 .recorder_made = RecorderMade::missing,
                                                 .find_defects = !job.keep_defects,
+                                                .exchange_back = true,
                                                 .reject_defects = true,
                                                 .most_rejected = kMostDefects,
                                                 .made_first = true});
@@ -71,6 +72,8 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   if (screening->made_left_out > 0)
     warnings.push_back(
         fmt::format("{} samples that the recorder interpolated were left out.", screening->made_left_out));
+  for (const auto& swap : screening->exchanged)
+    warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
   const auto& sure = screening->sure;
   if (sure.empty()) return {};
   if (!screening->rejected) {
