@@ -3,6 +3,7 @@
 #include "kinemark/pipeline/scale/scale_json.h"
 
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/foundations/foundation_gate.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -91,6 +92,11 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
   report["joints"] = outcome.joints;
   report["muscles"] = muscles(outcome.muscles);
   report["lost"] = outcome.lost;
+  if (!outcome.static_trials.empty()) {
+    report["static_trials"] = ordered_json::array();
+    for (const auto& trial : outcome.static_trials)
+      report["static_trials"].push_back(foundation_json(trial.file, trial.judgement));
+  }
   if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);
   if (outcome.placed) {
     ordered_json placed = ordered_json::array();

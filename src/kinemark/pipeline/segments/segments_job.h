@@ -19,6 +19,7 @@
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
+#include "kinemark/stages/motion/foundations/judge.h"
 
 namespace kinemark::pipeline {
 
@@ -40,13 +41,14 @@ struct SegmentsJob : JobSettings, GaitOutputs {
   double level = 0.95;                 ///< of these intervals
 };
 
-/// Warnings: what was left out or could not be computed.
+/// Warnings: what was left out or could not be computed. Gate: static_trial.
 struct SegmentsOutcome : JobOutcome {
   std::vector<data::InputFile> inputs;  ///< all that were read
   std::string title;                    ///< of the definition
   analysis::SegmentMotion motion;       ///< what it gives
   analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
+  std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
   std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
 };
 
@@ -61,7 +63,8 @@ struct SegmentsOutcome : JobOutcome {
 [[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
 
 /// "definition", "inputs", "parameters", "angles", "loads", "steps" (on plates), "cross_talk" (a list of
-/// "name", "correlation", "varus_deg", "flexion_deg", "suspicious", "sentence"), "written", "warnings".
+/// "name", "correlation", "varus_deg", "flexion_deg", "suspicious", "sentence"), "static_trial", "written",
+/// "warnings".
 [[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
 
 }  // namespace kinemark::pipeline
