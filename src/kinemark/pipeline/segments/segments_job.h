@@ -43,12 +43,12 @@ struct SegmentsJob : JobSettings, GaitOutputs {
 
 /// Warnings: what was left out or could not be computed. Gate: static_trial.
 struct SegmentsOutcome : JobOutcome {
-  std::vector<data::InputFile> inputs;  ///< all that were read
-  std::string title;                    ///< of the definition
-  analysis::SegmentMotion motion;       ///< what it gives
-  analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
-  std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
   std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
+  std::vector<data::InputFile> inputs;                      ///< all that were read
+  std::string title;                                        ///< of the definition
+  analysis::SegmentMotion motion;                           ///< what it gives
+  analysis::JointLoads loads;  ///< where the definition has joints and the recording plates
+  std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
   std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
 };
 

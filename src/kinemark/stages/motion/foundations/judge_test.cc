@@ -30,16 +30,23 @@ const data::ModelDescription& human() {
   return kHuman;
 }
 
+/// Three normal numbers, drawn in order.
+Vector3d some_vector(Random& random) {
+  Vector3d out;
+  for (int a = 0; a < 3; ++a) out[a] = random.gaussian();
+  return out;
+}
+
 /// A subject of another size whose markers were placed by hand.
 data::ModelDescription subject(std::uint64_t seed) {
-  Random random(seed);
+  Random random(seed, 0);
   data::ModelDescription out = human();
   std::vector<Vector3d> factors;
-  const double size = 1.0 + 0.06 * random.normal();
+  const double size = 1.0 + 0.06 * random.gaussian();
   for (std::size_t b = 0; b < out.bodies.size(); ++b) factors.push_back(Vector3d::Constant(size));
   apply_factors(out, factors, false);
   for (auto& marker : out.markers)
-    for (int a = 0; a < 3; ++a) marker.x_in_body[a] += 0.005 * random.normal();
+    for (int a = 0; a < 3; ++a) marker.x_in_body[a] += 0.005 * random.gaussian();
   return out;
 }
 
@@ -48,7 +55,7 @@ data::Trajectories frames(const data::ModelDescription& description, std::int64_
                           std::uint64_t seed) {
   const auto model = model::Model::compile(description).value();
   model::Workspace w(model);
-  Random random(seed);
+  Random random(seed, 0);
   std::vector<std::string> names;
   for (const auto& marker : description.markers) names.push_back(marker.name);
   auto out = data::Trajectories::all_missing(names, {.rate_hz = 100.0, .frames = count});
@@ -57,11 +64,12 @@ data::Trajectories frames(const data::ModelDescription& description, std::int64_
     if (f == 0 || spread > 0.1)
       for (int c = 0; c < model.coordinate_count(); ++c) {
         const auto& coordinate = description.coordinates[at(c)];
-        q[c] = coordinate.default_value + (coordinate.is_rotation && c > 5 ? spread * random.normal() : 0.0);
+        q[c] =
+            coordinate.default_value + (coordinate.is_rotation && c > 5 ? spread * random.gaussian() : 0.0);
       }
     model::kinematics(model, w, model::state_from_coordinates(model, q));
     for (std::int64_t m = 0; m < out.markers(); ++m) {
-      out.x(f, m) = w.marker.col(m) + 0.0005 * Vector3d(random.normal(), random.normal(), random.normal());
+      out.x(f, m) = w.marker.col(m) + 0.0005 * some_vector(random);
       out.state[out.index(f, m)] = data::SampleState::measured;
     }
   }

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <string_view>
 
 #include "kinemark/core/index.h"
@@ -18,7 +17,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// What a body's name tells of it. Turns about x, y, z: SD in degrees.
 struct BodyKind {
@@ -80,13 +78,6 @@ const BodyKind* kind_of(const std::string& stem) {
   return found == kKinds.end() ? nullptr : &*found;
 }
 
-/// The model in its default pose.
-struct Posed {
-  model::Model compiled;
-  model::Workspace w;
-  Matrix3d standing_from_world = Matrix3d::Identity();  // x forward, y up, z to the right
-};
-
 /// Up against gravity, right as the markers' names tell, else the model's z.
 Matrix3d standing_axes(const data::ModelDescription& model, const model::Workspace& w) {
   const Vector3d up = model.gravity.norm() > 1e-9 ? Vector3d(-model.gravity.normalized()) : Vector3d::UnitY();
@@ -126,7 +117,7 @@ StandingBody::Segment segment_of(const std::string& name, StandingBody& body) {
   // Clavicles and scapulae go with the trunk, which both sides share.
   if (size == "trunk") out.size = internal::add_size(body, size, Side::middle);
   if (!kind->width.empty()) out.width = internal::add_size(body, std::string(kind->width), Side::middle);
-  out.turn_sd = kDegree * Vector3d(kind->turn_deg[0], kind->turn_deg[1], kind->turn_deg[2]);
+  out.turn_sd = internal::kDegree * Vector3d(kind->turn_deg[0], kind->turn_deg[1], kind->turn_deg[2]);
   out.joint_common_sd = kind->joint_common;
   out.joint_own_sd = kind->joint_own;
   return out;

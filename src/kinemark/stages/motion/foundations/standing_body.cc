@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "kinemark/core/index.h"
 #include "kinemark/stages/motion/foundations/internal/body_parts.h"
@@ -13,7 +12,6 @@ namespace kinemark::motion {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct PartEntry {
   BodyPart part;
@@ -62,7 +60,7 @@ class Builder {
     out.name = words + std::string(entry.name);
     out.side = side;
     out.joint_in_parent = side == Side::left ? mirrored(entry.joint) : entry.joint;
-    out.turn_sd = kDegree * entry.turn_deg;
+    out.turn_sd = internal::kDegree * entry.turn_deg;
     out.joint_common_sd = entry.joint_common;
     out.joint_own_sd = entry.joint_own;
     out.size = internal::add_size(body, std::string(entry.name), side);

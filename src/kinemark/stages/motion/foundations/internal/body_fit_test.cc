@@ -59,10 +59,10 @@ TEST(BodyFit, ASizeIsFoundNotTakenForMisplacedMarkers) {
 
 TEST(BodyFit, MovesWithTheLaboratory) {
   const auto body = body_of_names(kNames);
-  Random random(4);
+  Random random(4, 0);
   SeenFrame here = standing_frame(body, 1.05, Eigen::Matrix3d::Identity(), Vector3d::Zero());
   for (Eigen::Index m = 0; m < here.x.cols(); ++m)
-    for (int a = 0; a < 3; ++a) here.x(a, m) += 0.01 * random.normal();
+    for (int a = 0; a < 3; ++a) here.x(a, m) += 0.01 * random.gaussian();
   SeenFrame there = here;
   there.x = some_turn(2.0) * here.x;
   there.x.colwise() += Vector3d(4, 5, -6);
