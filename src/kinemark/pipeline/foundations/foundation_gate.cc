@@ -50,6 +50,7 @@ nlohmann::ordered_json foundation_json(const std::string& file,
       one["shift_m"] = {finding.shift_m.x(), finding.shift_m.y(), finding.shift_m.z()};
       one["shift_sd_m"] = {finding.shift_sd_m.x(), finding.shift_sd_m.y(), finding.shift_sd_m.z()};
     }
+    one["by_movement"] = finding.by_movement;
     one["score"] = finding.score;
     one["rivals"] = finding.rivals;
     one["sentence"] = motion::describe(finding, file);

@@ -23,7 +23,7 @@ namespace kinemark::pipeline {
     std::span<const data::Trajectories* const> movements, JobOutcome& outcome);
 
 /// "judged" (names), "movements", "findings": each "marker", "partner" or null, "shift_m" and "shift_sd_m"
-/// (forward, up, to the right), "score", "rivals", "sentence".
+/// (forward, up, to the right), "by_movement", "score", "rivals", "sentence".
 [[nodiscard]] nlohmann::ordered_json foundation_json(const std::string& file,
                                                      const motion::FoundationJudgement& judgement);
 

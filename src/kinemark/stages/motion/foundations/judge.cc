@@ -199,6 +199,14 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
       frame.x.col(best.first).swap(frame.x.col(best.second));
     }
   }
+  if (!moving.empty() && !out.findings.empty()) {
+    const auto alone = judge_foundation(body, still, {}, options);
+    if (!alone) return std::unexpected(alone.error());
+    for (auto& finding : out.findings)
+      finding.by_movement = std::ranges::none_of(alone->findings, [&](const FoundationFinding& other) {
+        return other.marker == finding.marker && other.partner == finding.partner;
+      });
+  }
   return out;
 }
 
@@ -218,6 +226,7 @@ std::string describe(const FoundationFinding& finding, const std::string& record
     out = fmt::format("{} lies {:.0f} mm (SD {:.0f}) from where it should in {}: {}", finding.marker,
                       1e3 * shift.norm(), 1e3 * length_sd(shift, finding.shift_sd_m), recording, join(parts));
   }
+  if (finding.by_movement) out += ", as the movement shows it";
   if (!finding.rivals.empty()) out += fmt::format(" (or: {})", join(finding.rivals));
   return out;
 }

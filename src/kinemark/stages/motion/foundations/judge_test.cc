@@ -157,6 +157,10 @@ TEST(Judge, AMovementShowsWhatTheStaticTrialAloneCannot) {
   EXPECT_EQ(judgement.movements, 1);
   ASSERT_EQ(judgement.findings.size(), 1);
   EXPECT_EQ(judgement.findings[0].marker, "RTHI");
+  EXPECT_THAT(describe(judgement.findings[0], "cal.c3d"), HasSubstr("as the movement shows it"));
+  exchange(still, "LTOE", "LHEE");
+  for (const auto& finding : by_names(still, &movement).findings)
+    EXPECT_EQ(finding.by_movement, finding.marker == "RTHI") << describe(finding, "cal.c3d");
 }
 
 TEST(Judge, ThighWandsAtDifferentHeightsAreAsPrescribed) {

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-data::ModelDescription human() {
+data::ModelDescription own_model() {
   return io::read_osim(testing_support::project_folder() / "models" / "human.osim").value();
 }
 
@@ -51,12 +51,14 @@ TEST(StandingBody, SidesMirrorEachOther) {
     EXPECT_EQ(other.name.substr(1), marker.name.substr(1));
     EXPECT_LT((standing(body, other.name) - mirrored(standing(body, marker.name))).norm(), 1e-12);
   }
-  for (const auto& size : body.sizes)
-    if (size.mirror >= 0) EXPECT_EQ(body.sizes[at(size.mirror)].mirror, &size - body.sizes.data());
+  for (std::size_t s = 0; s < body.sizes.size(); ++s) {
+    if (body.sizes[s].mirror < 0) continue;
+    EXPECT_EQ(body.sizes[at(body.sizes[s].mirror)].mirror, static_cast<int>(s));
+  }
 }
 
 TEST(StandingBody, AModelStandsAsItsNamesSay) {
-  const auto model = body_of_model(human());
+  const auto model = body_of_model(own_model());
   ASSERT_TRUE(model) << model.error().message;
   std::vector<std::string> names;
   for (const auto& marker : model->markers) names.push_back(marker.name);
@@ -70,7 +72,7 @@ TEST(StandingBody, AModelStandsAsItsNamesSay) {
 }
 
 TEST(StandingBody, AModelsMarkersPairAcrossSides) {
-  const auto body = body_of_model(human()).value();
+  const auto body = body_of_model(own_model()).value();
   int paired = 0;
   for (const auto& marker : body.markers) {
     if (marker.mirror < 0) continue;
@@ -83,7 +85,7 @@ TEST(StandingBody, AModelsMarkersPairAcrossSides) {
 }
 
 TEST(StandingBody, BodiesThatDoNotTurnBelongToTheirCarrier) {
-  const auto body = body_of_model(human()).value();
+  const auto body = body_of_model(own_model()).value();
   for (const auto& segment : body.segments) {
     EXPECT_NE(segment.name, "thorax");
     EXPECT_NE(segment.name, "clavicle_r");

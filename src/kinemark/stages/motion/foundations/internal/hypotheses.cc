@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kElsewhere_m = 1.0;     // SD of a marker that may be anywhere
 constexpr double kUsualShift_m = 0.060;  // 1 SD per axis of markers that were put elsewhere
+constexpr double kLeastGain = 1.0;       // of a shift that is fitted in full; over the least misfit it is 8
 constexpr double kLeastMisfit = 0.12;    // few markers fit better than they are placed
 
 double log_det(const Matrix3d& m) { return std::log(std::max(1e-300, m.determinant())); }
@@ -93,6 +94,7 @@ void add_near_exchanges(const StandingBody& body, const SharedPrior& prior, cons
       if (fit.rows[at(a)] >= 0 && fit.rows[at(b)] >= 0)
         near.push_back({.first = a, .second = b, .gain = far(a, a) + far(b, b) - far(a, b) - far(b, a)});
   std::ranges::stable_sort(near, std::greater{}, &Hypothesis::gain);
+  std::erase_if(near, [](const Hypothesis& h) { return !(h.gain > 0.0); });
   if (near.size() > most) near.resize(most);
   for (const auto& h : near)
     if (std::ranges::none_of(out, [&](const auto& o) { return o.first == h.first && o.second == h.second; }))
@@ -122,12 +124,13 @@ std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& pri
       exchanges.push_back({.first = a, .second = b, .gain = -change});
     }
   }
-  const auto best = [&](std::vector<Hypothesis>& list) {
+  const auto best = [&](std::vector<Hypothesis>& list, double least) {
+    std::erase_if(list, [&](const Hypothesis& h) { return !(h.gain > least); });
     std::ranges::stable_sort(list, std::greater{}, &Hypothesis::gain);
     if (list.size() > static_cast<std::size_t>(most)) list.resize(static_cast<std::size_t>(most));
   };
-  best(shifts);
-  best(exchanges);
+  best(shifts, kLeastGain);
+  best(exchanges, 0.0);
   add_near_exchanges(body, prior, frame, static_cast<std::size_t>(most), exchanges);
   std::vector<Hypothesis> all;
   const double seen = static_cast<double>(none.by_pose.rows());
