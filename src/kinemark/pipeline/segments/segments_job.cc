@@ -24,6 +24,7 @@
 #include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
 #include "kinemark/pipeline/segments/modelled_points.h"
@@ -269,6 +270,19 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
   return {};
 }
 
+/// The static trial by the names of its markers, and against the recording, before anything is built on it.
+Status judge_static(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
+  if (job.static_trial.empty()) return {};
+  const auto& still = files.static_trial ? files.static_trial->markers : files.recording.markers;
+  std::vector<const data::Trajectories*> movements;
+  if (files.static_trial) movements.push_back(&files.recording.markers);
+  auto judgement = judge_static_trial(job.static_trial.filename().string(),
+                                      motion::body_of_names(still.names), still, movements, outcome);
+  if (!judgement) return std::unexpected(judgement.error());
+  outcome.static_trial = std::move(*judgement);
+  return {};
+}
+
 GaitDrawingJob drawing_of(const SegmentsJob& job) {
   GaitDrawingJob out;
   static_cast<JobSettings&>(out) = job;
@@ -323,6 +337,7 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   outcome.title = definition->title.empty() ? job.definition : definition->title;
   auto files = read_files(job, outcome);
   if (!files) return std::unexpected(files.error());
+  if (auto s = judge_static(job, *files, outcome); !s) return std::unexpected(s.error());
   const auto up = up_of(job, files->recording);
   if (!up) return std::unexpected(up.error());
   analysis::SegmentInput input;
@@ -389,6 +404,7 @@ nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
                                  {"flexion_deg", found.flexion_rad / kDegree},
                                  {"suspicious", found.suspicious()},
                                  {"sentence", found.sentence(name)}});
+  if (outcome.static_trial) out["static_trial"] = foundation_json("the static trial", *outcome.static_trial);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());
   out["warnings"] = outcome.warnings;

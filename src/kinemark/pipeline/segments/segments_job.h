@@ -20,6 +20,7 @@
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
+#include "kinemark/stages/motion/foundations/judge.h"
 
 namespace kinemark::pipeline {
 
@@ -41,12 +42,13 @@ struct SegmentsJob : JobSettings, GaitOutputs {
   double level = 0.95;                 ///< of these intervals
 };
 
-/// Warnings: what was left out or could not be computed.
+/// Warnings: what was left out or could not be computed. Gate: static_trial.
 struct SegmentsOutcome : JobOutcome {
-  std::vector<data::InputFile> inputs;  ///< all that were read
-  std::string title;                    ///< of the definition
-  analysis::SegmentMotion motion;       ///< what it gives
-  analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
+  std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
+  std::vector<data::InputFile> inputs;                      ///< all that were read
+  std::string title;                                        ///< of the definition
+  analysis::SegmentMotion motion;                           ///< what it gives
+  analysis::JointLoads loads;  ///< where the definition has joints and the recording plates
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
   OutputComparison comparison;  ///< beside angles and centres that the file holds; empty: it holds none
   std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
@@ -67,7 +69,7 @@ struct SegmentsOutcome : JobOutcome {
 
 /// "definition", "inputs", "parameters", "comparison" (where the file holds outputs), "angles", "loads",
 /// "steps" (on plates), "cross_talk" (a list of "name", "correlation", "varus_deg", "flexion_deg",
-/// "suspicious", "sentence"), "written", "warnings".
+/// "suspicious", "sentence"), "static_trial", "written", "warnings".
 [[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
 
 }  // namespace kinemark::pipeline
