@@ -24,9 +24,9 @@ TEST(NoisesJson, OfAFilterHasItsFormAndCutOff) {
   EXPECT_EQ(json[0]["subject"], "KNE");
   EXPECT_EQ(json[0]["kind"], "filtered");
   EXPECT_EQ(json[0]["filter"]["form"], "quintic spline");
-  EXPECT_DOUBLE_EQ(json[0]["filter"]["cutoff_hz"], 6.1);
-  EXPECT_NEAR(json[0]["sd_mm"], 0.1, 1e-9);
-  EXPECT_FALSE(json[0]["slow_noise_unknown"]);
+  EXPECT_DOUBLE_EQ(json[0]["filter"]["cutoff_hz"].get<double>(), 6.1);
+  EXPECT_NEAR(json[0]["sd_mm"].get<double>(), 0.1, 1e-9);
+  EXPECT_FALSE(json[0]["slow_noise_unknown"].get<bool>());
   EXPECT_TRUE(json[0]["found_mm"].is_null());
   EXPECT_FALSE(json[0].contains("correlation"));
   EXPECT_FALSE(json[0].contains("stated_mm"));
@@ -39,9 +39,9 @@ TEST(NoisesJson, OfCorrelatedNoiseHasItsTime) {
   noise.slow_sd_m = {.low = 1e-4, .middle = 3e-4, .high = 9e-4};
   const auto json = noises_json({&noise, 1});
   EXPECT_EQ(json[0]["source"], "stated");
-  EXPECT_NEAR(json[0]["correlation_time_s"], 0.095, 0.001);
-  EXPECT_DOUBLE_EQ(json[0]["stated_mm"], 1.0);
-  EXPECT_TRUE(json[0]["slow_noise_unknown"]);
+  EXPECT_NEAR(json[0]["correlation_time_s"].get<double>(), 0.095, 0.001);
+  EXPECT_DOUBLE_EQ(json[0]["stated_mm"].get<double>(), 1.0);
+  EXPECT_TRUE(json[0]["slow_noise_unknown"].get<bool>());
   EXPECT_FALSE(json[0].contains("filter"));
 }
 
