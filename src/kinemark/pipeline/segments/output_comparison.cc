@@ -374,10 +374,10 @@ std::vector<std::string> OutputComparison::findings() const {
     for (const auto& p : most)
       list.push_back(fmt::format("{} by +-{}", p.name, shown_value(p.quantity, p.spread)));
     const auto more = varying.size() - most.size();
-    out.push_back(
-        fmt::format("Markers were changed after the file's model ran on them: by its outputs, what is constant in "
-                    "the model varies within the trial: {}{}.",
-                    fmt::join(list, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
+    out.push_back(fmt::format(
+        "Markers were changed after the file's model ran on them: by its outputs, what is constant in "
+        "the model varies within the trial: {}{}.",
+        fmt::join(list, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   if (out.empty())
     out.emplace_back(

@@ -100,7 +100,8 @@ TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
 }
 
 TEST(SubjectValues, AreReadFromAParameterFile) {
-  const auto values = parse_mp("!MKR\n$LLegLength = 920\r\n$LThighRotation=0.1\n$Other = 3\n", "Ann.mp", measures());
+  const auto values =
+      parse_mp("!MKR\n$LLegLength = 920\r\n$LThighRotation=0.1\n$Other = 3\n", "Ann.mp", measures());
   ASSERT_TRUE(values);
   ASSERT_EQ(values->size(), 2U);
   EXPECT_NEAR((*values)[0].value, 0.92, 1e-12);
@@ -112,7 +113,8 @@ TEST(SubjectValues, AreReadFromAParameterFile) {
 
 TEST(SubjectValues, AreMendedWhereNoBodyHasThem) {
   const auto mended = [](double leg, double turn, std::size_t notes) {
-    std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"}, {"LThighRotation", turn, "a.c3d"}};
+    std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"},
+                                               {"LThighRotation", turn, "a.c3d"}};
     std::vector<std::string> warnings;
     mend_units(values, measures(), warnings);
     EXPECT_EQ(warnings.size(), notes);

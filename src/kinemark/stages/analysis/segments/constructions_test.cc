@@ -54,7 +54,8 @@ TEST(Chord, IsMissingWhereTheWandIsNearerThanItsOffsetAllows) {
   const double least = d * 0.5 * t / std::sqrt(1.0 + s * s * t * t);  // half way up
   EXPECT_TRUE(chord({0, 1.001 * least, 0.2}, marker, proximal, d, turn).allFinite());
   EXPECT_TRUE(chord({0, 0.999 * least, 0.2}, marker, proximal, d, turn).hasNaN());
-  EXPECT_TRUE(chord({0, 0.999 * least, 0.2}, marker, proximal, d).allFinite()) << "without a turn it is there";
+  EXPECT_TRUE(chord({0, 0.999 * least, 0.2}, marker, proximal, d).allFinite())
+      << "without a turn it is there";
   EXPECT_TRUE(chord({0, 0.1, 0.2}, marker, proximal, d, 1.6).hasNaN()) << "beyond 90 deg";
 }
 

@@ -386,11 +386,15 @@ SegmentDefinition with_parameters(std::vector<SegmentDefinition::Parameter> para
 // An offset that the static trial measures with an assumed size takes back its error.
 TEST(SegmentMotion, AnAssumedMeasureIsOneErrorOfAllThatFollowsFromIt) {
   const auto d = with_parameters(
-      {{.name = "size", .quantity = SubjectQuantity::length, .formula = of("0.014"), .assumed_sd = of("0.002")},
+      {{.name = "size",
+        .quantity = SubjectQuantity::length,
+        .formula = of("0.014"),
+        .assumed_sd = of("0.002")},
        {.name = "offset", .quantity = SubjectQuantity::length, .measured = of("distance(P1, P2) - size")}},
       {"size", "offset + size", "offset - size"});
   const auto markers = movement(20);
-  const auto motion = compute_segments(d, {.markers = &markers, .static_trial = &markers}, {.noise_sd_m = 1e-9});
+  const auto motion =
+      compute_segments(d, {.markers = &markers, .static_trial = &markers}, {.noise_sd_m = 1e-9});
   ASSERT_TRUE(motion) << motion.error().message;
   EXPECT_TRUE(used(*motion, "size")->assumed && used(*motion, "size")->constant);
   EXPECT_EQ(used(*motion, "size")->from, "assumed");
@@ -410,9 +414,11 @@ TEST(SegmentMotion, AnAssumedMeasureIsOneErrorOfAllThatFollowsFromIt) {
 }
 
 TEST(SegmentMotion, TakesASmallerStepWhereGeometryAllowsNoLargerOne) {
-  const auto d = with_parameters(
-      {{.name = "size", .quantity = SubjectQuantity::length, .formula = of("0.01"), .assumed_sd = of("0.02")}},
-      {"sqrt(size)"});
+  const auto d = with_parameters({{.name = "size",
+                                   .quantity = SubjectQuantity::length,
+                                   .formula = of("0.01"),
+                                   .assumed_sd = of("0.02")}},
+                                 {"sqrt(size)"});
   const auto markers = movement(3);
   const auto motion = compute_segments(d, {.markers = &markers}, {.noise_sd_m = 1e-9});
   ASSERT_TRUE(motion);
@@ -448,10 +454,12 @@ TEST(SegmentMotion, OutputsInTheFileTellWhatNobodyStates) {
 }
 
 TEST(SegmentMotion, AChoiceIsTheOneWithWhichTheStaticTrialGivesWhatFilesHold) {
-  const auto d = with_parameters(
-      {{.name = "flat", .formula = of("1"), .choices = {1.0, 0.0}, .chosen_by = {"offset"}},
-       {.name = "offset", .quantity = SubjectQuantity::length, .measured = of("distance(P1, P2) + flat * 0.1")}},
-      {"offset"});
+  const auto d =
+      with_parameters({{.name = "flat", .formula = of("1"), .choices = {1.0, 0.0}, .chosen_by = {"offset"}},
+                       {.name = "offset",
+                        .quantity = SubjectQuantity::length,
+                        .measured = of("distance(P1, P2) + flat * 0.1")}},
+                      {"offset"});
   const auto markers = movement(1);
   const double plain = (markers.x(0, 1) - markers.x(0, 0)).norm();
   const auto choice = [&](std::vector<SubjectValue> known) {
