@@ -140,8 +140,10 @@ class Contacts {
     }
     if (!stands || std::max(speed[0], speed[1]) < 2.0 * std::min(speed[0], speed[1])) return;
     const auto third = from + (to - from) / 3;
-    if (!inside(plate, upright_, heel(*stands, third), 0.03) ||
-        !inside(plate, upright_, toe(*stands, third), 0.03))
+    // One marker alone has to lie so far inside that the rest of its foot does too.
+    const double grown = paths_.foot(*stands).points ? 0.03 : -0.25;
+    if (!inside(plate, upright_, heel(*stands, third), grown) ||
+        !inside(plate, upright_, toe(*stands, third), grown))
       return;
     std::array<bool, 2> clean{first > 0, last + 1 < static_cast<std::int64_t>(load.n.size())};
     const Side other = data::opposite(*stands);
@@ -188,7 +190,8 @@ std::vector<data::GaitEvent> plate_truth(const data::Trial& trial, const GaitPat
     most = std::max(most, load.most);
     loads.push_back(std::move(load));
   }
-  const Contacts contacts(paths, steps, upright, analysis::run_evidence(paths, steps).stance_share < 0.45);
+  const Contacts contacts(paths, steps, upright,
+                          analysis::run_evidence(paths, steps, {0.0, 0.0}).stance_share < 0.45);
   const double threshold = most > kLeastBody_n && most < kMostBody_n ? kContact_n : kShareOfMost * most;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (loads[i].n.empty() || most == 0.0 || loads[i].most < kSeen * most) continue;

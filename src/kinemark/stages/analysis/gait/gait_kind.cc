@@ -22,7 +22,8 @@ using Eigen::RowVector2d;
 constexpr EnumNames<GaitManner::sprint> kManners{"walk", "run", "sprint"};
 constexpr EnumNames<GaitDirection::sideways> kDirections{"unknown", "forward", "backward", "sideways"};
 
-constexpr double kFlight = 0.03, kBounce_m = 0.01, kShortStance = 0.45, kQuarter = 0.25;
+constexpr double kFlight = 0.03, kBounce_m = 0.01, kShortStance = 0.45, kNoWalk_m_per_s = 2.2,
+                 kQuarter = 0.25;
 constexpr double kSprint_m_per_s = 6.0;
 constexpr double kBelt_m_per_s = 0.12, kBeltOfBody = 0.5;
 constexpr double kLeastStride_m = 0.3, kShort_s = 2.0, kShortSpeed_m_per_s = 0.4;
@@ -180,12 +181,21 @@ std::string_view to_string(GaitManner manner) { return kManners[manner]; }
 std::string_view to_string(GaitDirection direction) { return kDirections[direction]; }
 
 bool RunEvidence::runs() const {
-  return flight_share > kFlight &&
-         (std::isfinite(bounce_m) ? bounce_m < kBounce_m : stance_share < kShortStance);
+  if (!(flight_share > kFlight)) return false;
+  if (std::isfinite(bounce_m)) return bounce_m < kBounce_m;
+  return stance_share < kShortStance || speed_m_per_s > kNoWalk_m_per_s;
 }
 
-RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps) {
+RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground) {
   RunEvidence out;
+  std::int64_t first = 0, last = paths.frames() - 1;
+  while (first < last && !paths.pelvis_known[at(first)]) ++first;
+  while (last > first && !paths.pelvis_known[at(last)]) --last;
+  if (last > first)
+    out.speed_m_per_s = ((paths.pelvis.row(last) - paths.pelvis.row(first)).leftCols<2>() * paths.rate_hz /
+                             static_cast<double>(last - first) -
+                         ground)
+                            .norm();
   std::vector<double> bounces, swings;
   const auto quarter = static_cast<std::int64_t>(kQuarter * steps.stride_s * paths.rate_hz);
   for (const auto& foot : steps.feet)
@@ -218,7 +228,7 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   GaitKind out{.stride_s = steps.stride_s};
   const Kinds kinds(paths, steps, progress);
   const auto [speed, velocity] = kinds.speeds();
-  const auto evidence = run_evidence(paths, steps);
+  const auto evidence = run_evidence(paths, steps, ground.velocity);
   const double seconds = static_cast<double>(paths.frames() - 1) / paths.rate_hz;
   out.speed_m_per_s = speed;
   out.flight_share = evidence.flight_share;

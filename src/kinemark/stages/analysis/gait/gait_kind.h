@@ -50,16 +50,20 @@ struct GaitKind {
 };
 
 /// Whether the feet run: both swing at once for 3 % of the time or more, and the body is lowest, not highest,
-/// over a foot that stands.
+/// over a foot that stands. Where no stance is seen whole, a stance of less than 45 % of a stride decides, or
+/// a body that is faster than 2.2 m/s, at which people no longer walk.
 struct RunEvidence {
   double flight_share = 0.0;   ///< see GaitKind
   double bounce_m = kNaN;      ///< see GaitKind
-  double stance_share = kNaN;  ///< of a stride; decides where no stance is seen whole
+  double stance_share = kNaN;  ///< of a stride
+  double speed_m_per_s =
+      0.0;  ///< of the pelvis over the ground, from the first to the last frame that it is known in
   /// The verdict.
   [[nodiscard]] bool runs() const;
 };
-/// From swings and the height of the pelvis.
-[[nodiscard]] RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps);
+/// From swings and the pelvis.
+[[nodiscard]] RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps,
+                                       const Eigen::RowVector2d& ground);
 
 /// Judge the kind.
 /// @param events  of the markers, ascending in time

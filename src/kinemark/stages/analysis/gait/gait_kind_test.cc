@@ -89,6 +89,11 @@ TEST(GaitKind, NeitherFlightNorASpringAloneIsARun) {
   EXPECT_TRUE((RunEvidence{.flight_share = 0.1, .bounce_m = -0.05, .stance_share = 0.6}.runs()));
   EXPECT_TRUE((RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = 0.4}.runs()));
   EXPECT_FALSE((RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = kNaN}.runs()));
+  EXPECT_TRUE((
+      RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = 0.56, .speed_m_per_s = 2.7}.runs()));
+  EXPECT_FALSE(
+      (RunEvidence{.flight_share = 0.01, .bounce_m = kNaN, .stance_share = 0.56, .speed_m_per_s = 2.7}
+           .runs()));
 }
 
 TEST(GaitKind, ACurveIsATurn) {

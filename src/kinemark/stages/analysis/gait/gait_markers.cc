@@ -210,11 +210,12 @@ class Finder {
       foot(side) = {.heel = choice.rear, .toe = choice.front, .set = choice.set, .passed_over = {}};
       break;
     }
-    for (const auto& [all, best] : {std::pair{&heels, heel}, std::pair{&toes, toe}}) {
-      if (all->empty()) continue;
-      const auto m = best >= 0 ? best : all->front();
-      if (m != foot(side).heel && m != foot(side).toe) foot(side).passed_over.push_back(m);
-    }
+    // Better names that are seen less.
+    for (const auto* const all : {&heels, &toes})
+      for (const auto m : *all) {
+        if (m == foot(side).heel || m == foot(side).toe) break;
+        foot(side).passed_over.push_back(m);
+      }
     for (const auto* const all : {&heels, &toes, &ankles})
       for (const auto m : *all)
         if (frames_seen({m}) == 0) never_seen_.push_back(name(m));
@@ -266,10 +267,12 @@ class Finder {
           "there is no marker of the {} foot that is seen; that foot is not measured", lower(side)));
       return;
     }
-    if (is.set == FootSet::heel_and_toe || is.set == FootSet::by_place) return;
+    if (is.set == FootSet::by_place || (is.set == FootSet::heel_and_toe && is.passed_over.empty())) return;
     std::string said = fmt::format("{} foot: ", lower(side));
     for (const auto m : is.passed_over) said += hidden(m) + "; ";
-    if (is.set == FootSet::ankle_and_toe)
+    if (is.set == FootSet::heel_and_toe)
+      said += fmt::format("{} and {} are used", name(is.heel), name(is.toe));
+    else if (is.set == FootSet::ankle_and_toe)
       said += fmt::format("no marker of the heel is used, {} of the ankle stands for it", name(is.heel));
     else
       said += fmt::format("no marker of the {} is used, {} stands for the whole foot",

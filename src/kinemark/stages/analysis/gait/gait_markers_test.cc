@@ -88,7 +88,10 @@ TEST(GaitMarkers, OfTwoNamesTheOneThatIsSeenIsTaken) {
   auto markers = named({"LHEE", "LCAL", "LTOE", "RHEE", "RTOE", "SACR"});
   EXPECT_EQ(find_gait_markers(markers)->foot(Side::left).heel, 0);
   hide(markers, 0, 20);
-  EXPECT_EQ(find_gait_markers(markers)->foot(Side::left).heel, 1);
+  const auto other = find_gait_markers(markers);
+  EXPECT_EQ(other->foot(Side::left).heel, 1);
+  ASSERT_EQ(other->notes.size(), 1u);
+  EXPECT_EQ(other->notes[0], "left foot: LHEE is hidden from 0.20 to 0.49 s; LCAL and LTOE are used");
 }
 
 TEST(GaitMarkers, SingleLettersAreBelievedInPairsOnly) {

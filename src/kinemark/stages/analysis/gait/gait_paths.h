@@ -34,13 +34,13 @@ struct FootPaths {
 
 /// Feet and pelvis through a recording of n frames.
 struct GaitPaths {
-  double rate_hz = 0.0;             ///< above 0
-  double start_s = 0.0;             ///< time of the first frame
-  std::array<FootPaths, 2> feet;    ///< left, right
-  math::SeriesMatrix pelvis;        ///< n x 3
-  std::vector<bool> pelvis_known;   ///< n; measured, or within a gap of 1 s at most
-  math::SeriesMatrix pelvis_front;  ///< n x 2, from its back to its front, NaN where not measured; 0 rows:
-                                    ///< not known
+  double rate_hz = 0.0;              ///< above 0
+  double start_s = 0.0;              ///< time of the first frame
+  std::array<FootPaths, 2> feet;     ///< left, right
+  math::SeriesMatrix pelvis;         ///< n x 3
+  std::vector<bool> pelvis_known;    ///< n; measured, or within a gap of 1 s at most
+  math::SeriesMatrix pelvis_front;   ///< n x 2, from its back to its front, NaN where not measured; 0 rows:
+                                     ///< not known
   math::SeriesMatrix pelvis_across;  ///< the same from the right to the left of its front
 
   [[nodiscard]] std::int64_t frames() const { return pelvis.rows(); }  ///< n

@@ -31,7 +31,7 @@ double left_along_the_way(const GaitPaths& paths, const Progress& progress) {
 }
 
 void add_events(const GaitPaths& paths, const std::vector<SwingEdge>& edges, MarkerEvents& out) {
-  const bool running = run_evidence(paths, out.steps).runs();
+  const bool running = run_evidence(paths, out.steps, out.ground.velocity).runs();
   for (const auto& edge : edges) {
     if (!edge.seen) {
       ++out.unseen[data::index_of(edge.side)];
