@@ -97,8 +97,9 @@ TEST(C3dUnfiltered, OfIntegersTooToTheStep) {
   const auto t = read_c3d(scratch / "a.c3d").value().markers;
   ASSERT_FALSE(t.unfiltered_in_world.empty());
   for (std::size_t i = 0; i < t.unfiltered_in_world.size(); ++i)
-    if (const double was = trial.markers.unfiltered_in_world[i]; std::isfinite(was))
+    if (const double was = trial.markers.unfiltered_in_world[i]; std::isfinite(was)) {
       EXPECT_NEAR(t.unfiltered_in_world[i], was, 0.6 * 0.902 / 32000.0);
+    }
 }
 
 TEST(C3dUnfiltered, OtherProgramsSeePointsThatSayWhatTheyAre) {
