@@ -90,7 +90,8 @@ TEST(SkinEvidence, AJointThatMovesIsNotSkin) {
   const auto still = look({});
   EXPECT_FALSE(says(still.account, "the joint or the markers"));
   EXPECT_TRUE(std::isnan(still.account.gap_m));
-  EXPECT_FALSE(says(look({.own_slide_m = 0.01}).account, "the joint or the markers")) << "the shape explains the gap";
+  EXPECT_FALSE(says(look({.own_slide_m = 0.01}).account, "the joint or the markers"))
+      << "the shape explains the gap";
 }
 
 TEST(SkinEvidence, NothingIsSaidWhereNothingWasMeasured) {

@@ -24,21 +24,24 @@ struct Fitted {
       : setup(testing::make_swings(swings)),
         score(fit_score(setup.samples, setup.parent, setup.child, setup.task.motion,
                         swings.hinge ? data::JointKind::hinge : data::JointKind::ball)),
-        slide(measure_skin_slide(setup.samples, setup.parent, setup.child, setup.task.motion, score, prior)) {}
+        slide(measure_skin_slide(setup.samples, setup.parent, setup.child, setup.task.motion, score, prior)) {
+  }
 
   /// Error of least squares in the child's axes; for a hinge across the axis.
   [[nodiscard]] Eigen::Vector3d error() const {
     Eigen::Vector3d truth = Eigen::Vector3d::Zero();
     for (const std::int64_t f : setup.task.motion.frames)
       truth += setup.child.to_segment(f, setup.chain.centres[0].col(f));
-    const Eigen::Vector3d off = score.centre.tail<3>() - truth / static_cast<double>(setup.task.motion.frames.size());
+    const Eigen::Vector3d off =
+        score.centre.tail<3>() - truth / static_cast<double>(setup.task.motion.frames.size());
     return off - score.axis_in_child * score.axis_in_child.dot(off);
   }
 };
 
 TEST(SkinSlide, IsNotLookedForInFewFramesOrInExactOnes) {
   const testing::JointSetup exact(testing::make_swings({.noise_sd_m = 0.0}));
-  const auto fit = fit_score(exact.samples, exact.parent, exact.child, exact.task.motion, data::JointKind::ball);
+  const auto fit =
+      fit_score(exact.samples, exact.parent, exact.child, exact.task.motion, data::JointKind::ball);
   EXPECT_FALSE(measure_skin_slide(exact.samples, exact.parent, exact.child, exact.task.motion, fit).known);
   const testing::JointSetup few({.frames = 39, .per_segment = 4, .noise_sd_m = 0.001});
   const auto of_few = fit_score(few.samples, few.parent, few.child, few.task.motion, data::JointKind::ball);
