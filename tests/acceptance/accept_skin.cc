@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Joint centres and axes under skin that follows the posture, on limbs of known bones: coverage, chi-square, error beside SCoRE's,
-// and when the word is said. `accept_skeleton skin PART SUBJECTS SEED`; PART: limbs, word or all.
+// Joint centres and axes under skin that follows the posture, on limbs of known bones: coverage, chi-square,
+// error beside SCoRE's, and when the word is said. `accept_skeleton skin PART SUBJECTS SEED`; PART: limbs,
+// word or all.
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
@@ -53,37 +54,44 @@ struct Tally {
   [[nodiscard]] double beside() const { return std::sqrt(squares / other_squares); }
 };
 
-/// Bounds hold for a hundred subjects; with fewer they are wider by two standard errors of what a subject adds.
-double slack(const Tally& t) { return t.subjects >= 100 ? 0.0 : 2.0 / std::sqrt(static_cast<double>(t.subjects)); }
+/// Bounds hold for a hundred subjects; with fewer they are wider by two standard errors of what a subject
+/// adds.
+double slack(const Tally& t) {
+  return t.subjects >= 100 ? 0.0 : 2.0 / std::sqrt(static_cast<double>(t.subjects));
+}
 
 void coverage(const std::string& what, const Tally& t, double from1, double to1, double from2, double to2) {
   const double more = 35.0 * slack(t);
-  print_row(t.one() >= from1 - more && t.one() <= to1 + more && t.two() >= from2 - 0.6 * more && t.two() <= to2 + 0.6 * more,
-            what + ": coverage", fmt::format("{:.0f} to {:.0f} and {:.0f} to {:.0f} %", from1, to1, from2, to2),
-            fmt::format("{:.0f} and {:.0f} % of {} numbers; error {:.2f}, stated {:.2f}", t.one(), t.two(), t.numbers, 1e3 * t.rms(),
-                        1e3 * t.sd()));
+  print_row(t.one() >= from1 - more && t.one() <= to1 + more && t.two() >= from2 - 0.6 * more &&
+                t.two() <= to2 + 0.6 * more,
+            what + ": coverage",
+            fmt::format("{:.0f} to {:.0f} and {:.0f} to {:.0f} %", from1, to1, from2, to2),
+            fmt::format("{:.0f} and {:.0f} % of {} numbers; error {:.2f}, stated {:.2f}", t.one(), t.two(),
+                        t.numbers, 1e3 * t.rms(), 1e3 * t.sd()));
 }
 
 void chi_square(const std::string& what, const Tally& t, double most) {
-  print_row(t.chi() <= most * (1.0 + 2.0 * slack(t)), what + ": chi-square a degree of freedom", fmt::format("<= {:.1f}", most),
-            fmt::format("{:.2f}, {} subjects", t.chi(), t.subjects));
+  print_row(t.chi() <= most * (1.0 + 2.0 * slack(t)), what + ": chi-square a degree of freedom",
+            fmt::format("<= {:.1f}", most), fmt::format("{:.2f}, {} subjects", t.chi(), t.subjects));
 }
 
 void ratio(const std::string& what, const Tally& t, double most) {
-  print_row(t.beside() <= most * (1.0 + 0.3 * slack(t)), what + ": error over SCoRE's", fmt::format("<= {:.2f}", most),
+  print_row(t.beside() <= most * (1.0 + 0.3 * slack(t)), what + ": error over SCoRE's",
+            fmt::format("<= {:.2f}", most),
             fmt::format("{:.2f} ({:.1f} mm), {} subjects", t.beside(), 1e3 * t.rms(), t.subjects));
 }
 
 void scale(const std::string& what, const Tally& t, double least, double most) {
   const double by = t.sd() / t.rms();
   print_row(by >= least / (1.0 + slack(t)) && by <= most * (1.0 + slack(t)), what + ": stated over true",
-            fmt::format("{:.1f} to {:.1f}", least, most), fmt::format("{:.2f} ({:.3f} mm)", by, 1e3 * t.rms()));
+            fmt::format("{:.1f} to {:.1f}", least, most),
+            fmt::format("{:.2f} ({:.3f} mm)", by, 1e3 * t.rms()));
 }
 
 /// What a cell of subjects shows.
 struct Cell {
-  Tally place, axis, deforming;  ///< deforming: places of hinges where a fifth of the slides' energy deforms
-  int stiff = 0, stiff_said = 0; ///< hinges of which less deforms; those called prior-dominated
+  Tally place, axis, deforming;   ///< deforming: places of hinges where a fifth of the slides' energy deforms
+  int stiff = 0, stiff_said = 0;  ///< hinges of which less deforms; those called prior-dominated
   int said = 0, none_said = 0;
 };
 
@@ -94,7 +102,8 @@ Cell run(Case of, int subjects, std::uint64_t seed) {
     of.seed = seed + static_cast<std::uint64_t>(i);
     const Subject subject = make_subject(of);
     const auto kind = ball ? data::JointChoice::ball : data::JointChoice::hinge;
-    const auto found = skeleton::fit_articulated(subject.markers, subject.layout, {.joint = kind}).value().skeleton;
+    const auto found =
+        skeleton::fit_articulated(subject.markers, subject.layout, {.joint = kind}).value().skeleton;
     const auto score = skeleton::find_joints(subject.markers, subject.layout, {.kind = kind}).value();
     const Comparison c = compare(found, subject);
     out.place.add(c.error, c.covariance, compare(score, subject).error.squaredNorm());
@@ -143,8 +152,8 @@ void limb(Limb of, double range_deg, int subjects, std::uint64_t seed) {
   if (deforming.subjects > 0)
     chi_square(all + ", the axis' place where a fifth of the slide deforms", deforming, 1.6);
   if (stiff > 0)
-    print_row(stiff_said >= 0.9 * stiff - 1.0, all + ", the axis' place where less deforms", "called prior-dominated in >= 90 %",
-              fmt::format("{} of {}", stiff_said, stiff));
+    print_row(stiff_said >= 0.9 * stiff - 1.0, all + ", the axis' place where less deforms",
+              "called prior-dominated in >= 90 %", fmt::format("{} of {}", stiff_said, stiff));
 }
 
 /// What hardly deforms or turns as one body, reported as it is.
@@ -153,9 +162,11 @@ void limits(int subjects, std::uint64_t seed) {
     for (const Skin skin : {Skin::rigid, Skin::plate}) {
       const Case one{.limb = of, .skin = skin, .range_deg = is_ball(of) ? 40.0 : 60.0};
       const Cell cell = run(one, subjects, seed);
-      print_note(name_of(one), fmt::format("{:.0f} and {:.0f} % of {} numbers, chi-square {:.1f}, error {:.1f}, stated {:.1f} mm",
-                                           cell.place.one(), cell.place.two(), cell.place.numbers, cell.place.chi(),
-                                           1e3 * cell.place.rms(), 1e3 * cell.place.sd()));
+      print_note(
+          name_of(one),
+          fmt::format("{:.0f} and {:.0f} % of {} numbers, chi-square {:.1f}, error {:.1f}, stated {:.1f} mm",
+                      cell.place.one(), cell.place.two(), cell.place.numbers, cell.place.chi(),
+                      1e3 * cell.place.rms(), 1e3 * cell.place.sd()));
     }
 }
 
@@ -187,7 +198,10 @@ void small_arcs(int subjects, std::uint64_t seed) {
 data::SkinVerdict verdict_of(const Case& of) {
   const Subject subject = make_subject(of);
   const auto kind = is_ball(of.limb) ? data::JointChoice::ball : data::JointChoice::hinge;
-  return skeleton::find_joints(subject.markers, subject.layout, {.kind = kind}).value().joints[0].skin.verdict;
+  return skeleton::find_joints(subject.markers, subject.layout, {.kind = kind})
+      .value()
+      .joints[0]
+      .skin.verdict;
 }
 
 void word(int subjects, std::uint64_t seed) {
@@ -195,12 +209,13 @@ void word(int subjects, std::uint64_t seed) {
   for (const Limb of : {Limb::hip, Limb::knee})
     for (const double coloured_m : {0.0, 0.003})
       for (int i = 0; i < 5 * subjects / 4; ++i, ++empty)
-        false_ones += verdict_of({.limb = of,
-                                  .skin = coloured_m > 0.0 ? Skin::coloured : Skin::none,
-                                  .slide_m = coloured_m,
-                                  .range_deg = is_ball(of) ? 40.0 : 60.0,
-                                  .noise_m = 0.001,
-                                  .seed = seed + static_cast<std::uint64_t>(i)}) == data::SkinVerdict::follows;
+        false_ones +=
+            verdict_of({.limb = of,
+                        .skin = coloured_m > 0.0 ? Skin::coloured : Skin::none,
+                        .slide_m = coloured_m,
+                        .range_deg = is_ball(of) ? 40.0 : 60.0,
+                        .noise_m = 0.001,
+                        .seed = seed + static_cast<std::uint64_t>(i)}) == data::SkinVerdict::follows;
   print_row(false_ones <= empty / 100, "the word \"skin\" on markers that do not slide", "<= 1 %",
             fmt::format("{} of {}", false_ones, empty));
   for (const double slide_m : {0.005, 0.002}) {
@@ -208,14 +223,16 @@ void word(int subjects, std::uint64_t seed) {
     for (const Limb of : {Limb::hip, Limb::knee})
       for (const Skin skin : kSkins)
         for (int i = 0; i < std::max(subjects / 4, 1); ++i, ++all)
-          found += verdict_of({.limb = of,
-                               .skin = skin,
-                               .slide_m = slide_m,
-                               .range_deg = is_ball(of) ? 40.0 : 60.0,
-                               .noise_m = 0.001,
-                               .seed = seed + 1000 + static_cast<std::uint64_t>(i)}) == data::SkinVerdict::follows;
+          found +=
+              verdict_of({.limb = of,
+                          .skin = skin,
+                          .slide_m = slide_m,
+                          .range_deg = is_ball(of) ? 40.0 : 60.0,
+                          .noise_m = 0.001,
+                          .seed = seed + 1000 + static_cast<std::uint64_t>(i)}) == data::SkinVerdict::follows;
     const double least = slide_m > 0.004 ? 95.0 : 65.0, share = 100.0 * found / all;
-    print_row(share >= least - (all >= 200 ? 0.0 : 10.0), fmt::format("the word \"skin\", slides of {:.0f} mm", 1e3 * slide_m),
+    print_row(share >= least - (all >= 200 ? 0.0 : 10.0),
+              fmt::format("the word \"skin\", slides of {:.0f} mm", 1e3 * slide_m),
               fmt::format(">= {:.0f} %", least), fmt::format("{:.1f} % of {}", share, all));
   }
 }

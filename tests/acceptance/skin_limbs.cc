@@ -39,7 +39,11 @@ Anatomy anatomy(Limb limb) {
   switch (limb) {
     case Limb::hip:
       return {{{0.04, 0.07, 0.11}, {-0.20, 0.07, 0.11}, {-0.02, -0.12, 0.13}, {-0.14, -0.12, 0.13}},
-              {{0.07, 0.03, -0.15}, {0.05, -0.06, -0.22}, {0.08, 0.01, -0.28}, {0.0, 0.08, -0.20}, {0.04, 0.05, -0.34}},
+              {{0.07, 0.03, -0.15},
+               {0.05, -0.06, -0.22},
+               {0.08, 0.01, -0.28},
+               {0.0, 0.08, -0.20},
+               {0.04, 0.05, -0.34}},
               0.4,
               1.0};
     case Limb::shoulder:
@@ -76,7 +80,8 @@ Matrix3d draw33(Random& random) {
 VectorXd slow(Random& random, Eigen::Index frames, double top_hz) {
   VectorXd out = VectorXd::Zero(frames);
   for (int k = 0; k < 12; ++k) {
-    const double hz = top_hz * std::sqrt(random.uniform()), phase = random.uniform(0.0, 2.0 * std::numbers::pi);
+    const double hz = top_hz * std::sqrt(random.uniform()),
+                 phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     const double a = random.gaussian();
     for (Eigen::Index i = 0; i < frames; ++i)
       out(i) += a * std::sin(2.0 * std::numbers::pi * hz * kStep_s * static_cast<double>(i) + phase);
@@ -99,7 +104,7 @@ Motion make_motion(const Case& of, Random& random) {
   for (int m = 0; m < of.movements; ++m) {
     const auto frames = static_cast<int>(2.2 * random.uniform(0.85, 1.15) * kRateHz);
     const double reach = of.range_deg * kRadPerDeg * random.uniform(0.88, 1.12);
-    const double azimuth = of.arcs == Arcs::star ? std::numbers::pi / 3.5 * (m % 7)
+    const double azimuth = of.arcs == Arcs::star  ? std::numbers::pi / 3.5 * (m % 7)
                            : of.arcs == Arcs::two ? std::numbers::pi / 2.0 * (m % 2)
                                                   : 0.0;
     for (int i = 0; i < frames; ++i) {
@@ -196,7 +201,8 @@ MatrixXd curved_slide(Random& random, const Sheet& on) {
   }
   way.rowwise() -= way.colwise().mean().eval();
   way /= std::sqrt(way.squaredNorm() / static_cast<double>(F));
-  const VectorXd gain = by_movement(on.motion, (1.0 + 0.2 * draws(random, on.motion.movements).array()).matrix());
+  const VectorXd gain =
+      by_movement(on.motion, (1.0 + 0.2 * draws(random, on.motion.movements).array()).matrix());
   way = gain.asDiagonal() * way;
   MatrixXd together(kWays, 3), turning(kWays, 3);
   for (int k = 0; k < kWays; ++k) {
@@ -354,10 +360,11 @@ MatrixX3d acceleration_of(const std::vector<Matrix3d>& rotation, const Vector3d&
   const auto F = static_cast<Eigen::Index>(rotation.size());
   MatrixX3d out = MatrixX3d::Zero(F, 3);
   for (Eigen::Index i = 1; i + 1 < F; ++i)
-    out.row(i) = (rotation[at(i)].transpose() *
-                  (rotation[at(i - 1)] * place - 2.0 * (rotation[at(i)] * place) + rotation[at(i + 1)] * place) /
-                  (kStep_s * kStep_s))
-                     .transpose();
+    out.row(i) =
+        (rotation[at(i)].transpose() *
+         (rotation[at(i - 1)] * place - 2.0 * (rotation[at(i)] * place) + rotation[at(i + 1)] * place) /
+         (kStep_s * kStep_s))
+            .transpose();
   out.rowwise() -= out.colwise().mean().eval();
   return out / std::max(std::sqrt(out.squaredNorm() / static_cast<double>(3 * F)), 0.05);
 }
@@ -377,8 +384,9 @@ std::string_view to_string(Limb limb) {
 }
 
 std::string_view to_string(Skin skin) {
-  constexpr std::array<std::string_view, 8> kNames = {"no skin",     "no skin, coloured noise", "linear skin", "skin as one body",
-                                                      "curved skin", "late skin",               "a plate",     "a sheet of skin"};
+  constexpr std::array<std::string_view, 8> kNames = {
+      "no skin", "no skin, coloured noise", "linear skin", "skin as one body", "curved skin", "late skin",
+      "a plate", "a sheet of skin"};
   return kNames[at(static_cast<int>(skin))];
 }
 
@@ -405,7 +413,8 @@ Subject make_subject(const Case& of) {
   Energy energy;
   for (std::size_t s = 0; s < 2; ++s) {
     Sheet sheet(out.bone[s], motion);
-    sheet.acceleration = s == 0 ? MatrixX3d::Zero(F, 3) : acceleration_of(rotation, out.bone[1].rowwise().mean());
+    sheet.acceleration =
+        s == 0 ? MatrixX3d::Zero(F, 3) : acceleration_of(rotation, out.bone[1].rowwise().mean());
     slide[s] = of.slide_m * soft[s] * slide_of(sliding, of.skin, sheet);
     const Energy e = energy_of(slide[s], sheet);
     energy.all += e.all;
@@ -434,7 +443,8 @@ Subject make_subject(const Case& of) {
         x += of.noise_m * draw3(noise);
         if (of.skin == Skin::coloured) {
           coloured.col(column) =
-              i == 0 ? draw3(noise) : Vector3d(keeps * coloured.col(column) + std::sqrt(1.0 - keeps * keeps) * draw3(noise));
+              i == 0 ? draw3(noise)
+                     : Vector3d(keeps * coloured.col(column) + std::sqrt(1.0 - keeps * keeps) * draw3(noise));
           x += of.slide_m * coloured.col(column);
         }
         out.markers.x(i, column) = x;
@@ -459,11 +469,13 @@ Comparison compare(const data::Skeleton& skeleton, const Subject& subject) {
     return out;
   }
   const Vector3d truth = fit.rotation * subject.axis;
-  const Vector3d axis = joint.axis_in_parent.dot(truth) < 0.0 ? Vector3d(-joint.axis_in_parent) : joint.axis_in_parent;
+  const Vector3d axis =
+      joint.axis_in_parent.dot(truth) < 0.0 ? Vector3d(-joint.axis_in_parent) : joint.axis_in_parent;
   Eigen::Matrix<double, 2, 3> across;
   across.row(0) = truth.unitOrthogonal().transpose();
   across.row(1) = truth.cross(truth.unitOrthogonal()).transpose();
-  const Eigen::Matrix<double, 2, 3> to = across * (Matrix3d::Identity() - axis * truth.transpose() / truth.dot(axis));
+  const Eigen::Matrix<double, 2, 3> to =
+      across * (Matrix3d::Identity() - axis * truth.transpose() / truth.dot(axis));
   out.error = to * error;
   out.covariance = to * joint.covariance_in_parent * to.transpose();
   out.tilt = across * axis;

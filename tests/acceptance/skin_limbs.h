@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Limbs of two segments whose markers slide on the bone as skin does: several kinds of skin, none of them that of the
-// estimator.
+// Limbs of two segments whose markers slide on the bone as skin does: several kinds of skin, none of them
+// that of the estimator.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,10 @@ enum class Skin : std::uint8_t {
   coloured,  ///< AR(1) of 0.98 at 100 Hz, marker by marker and axis by axis; no skin
   linear,    ///< in proportion to the posture: each by itself, and 0.7 as much together
   rigid,     ///< the same, nearly all of it as one body, with a turn
-  curved,    ///< sums of tanh of the posture, as a body, as a turn and each; other gains from movement to movement; wanders
-  late,      ///< the cluster along its segment, with a gradient and a natural frequency; accelerations; turns with the segment
+  curved,    ///< sums of tanh of the posture, as a body, as a turn and each; other gains from movement to
+             ///< movement; wanders
+  late,      ///< the cluster along its segment, with a gradient and a natural frequency; accelerations; turns
+             ///< with the segment
   plate,     ///< the whole cluster along its segment, late, and nothing deforms
   sheet,     ///< a field over the segment, so that neighbours slide alike, with play between there and back
 };
@@ -46,9 +48,9 @@ struct Case {
 
 struct Subject {
   data::Trajectories markers;
-  data::SegmentLayout layout;           ///< "parent", "child", "joint"
-  std::array<Eigen::Matrix3Xd, 2> bone; ///< of each segment: markers on the bone, m
-  std::array<Eigen::Vector3d, 2> centre;  ///< of the joint in either bone
+  data::SegmentLayout layout;                      ///< "parent", "child", "joint"
+  std::array<Eigen::Matrix3Xd, 2> bone;            ///< of each segment: markers on the bone, m
+  std::array<Eigen::Vector3d, 2> centre;           ///< of the joint in either bone
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< of a hinge, in both; zero for a ball
   double deforming = 0.0;  ///< share of the slides' energy that no movement as one body explains
 };
@@ -59,8 +61,9 @@ struct Subject {
 
 [[nodiscard]] Subject make_subject(const Case& of);
 
-/// A joint beside its truth in the parent's axes: error and covariance of the numbers that can be known, three of a ball, two
-/// across a hinge's axis at the height of the true point; and the tilts of a hinge's axis.
+/// A joint beside its truth in the parent's axes: error and covariance of the numbers that can be known,
+/// three of a ball, two across a hinge's axis at the height of the true point; and the tilts of a hinge's
+/// axis.
 struct Comparison {
   Eigen::VectorXd error;
   Eigen::MatrixXd covariance;

@@ -76,14 +76,14 @@ struct SkeletonSegment {
 /// Markers that slide on their segments with a joint's posture: what was looked for and found.
 struct SkinAccount {
   SkinVerdict verdict = SkinVerdict::untested;
-  std::int64_t movements = 0;   ///< of the joint in this recording
-  std::int64_t alike = 0;       ///< movements whose shape the others predict, on the segment that shows it more
-  double p_value = kNaN;        ///< of the shape, over movements; NaN: fewer than four
-  double explained = kNaN;      ///< share of the shape's variance in a movement that the others predict
-  double own_slide_m = kNaN;    ///< of a marker, per axis, m per rad of the joint's motion
-  double own_limit_m = kNaN;    ///< its 95 % limit
-  double gap_m = kNaN;          ///< RMS of the joint's motion with the posture, where the shape shows none
-  std::string description;      ///< a sentence or two; empty: untested
+  std::int64_t movements = 0;  ///< of the joint in this recording
+  std::int64_t alike = 0;     ///< movements whose shape the others predict, on the segment that shows it more
+  double p_value = kNaN;      ///< of the shape, over movements; NaN: fewer than four
+  double explained = kNaN;    ///< share of the shape's variance in a movement that the others predict
+  double own_slide_m = kNaN;  ///< of a marker, per axis, m per rad of the joint's motion
+  double own_limit_m = kNaN;  ///< its 95 % limit
+  double gap_m = kNaN;        ///< RMS of the joint's motion with the posture, where the shape shows none
+  std::string description;    ///< a sentence or two; empty: untested
 };
 
 /// A joint between two segments.

@@ -60,21 +60,23 @@ Frames count_frames(const data::Skeleton& skeleton, std::int64_t joint) {
 
 /// Root of the trace of a covariance in the parent's axes (in the child's, where that alone is known), across
 /// the axis of a hinge.
-double sd_of(const data::SkeletonJoint& joint, const Eigen::Matrix3d& in_parent, const Eigen::Matrix3d& in_child) {
+double sd_of(const data::SkeletonJoint& joint, const Eigen::Matrix3d& in_parent,
+             const Eigen::Matrix3d& in_child) {
   const bool parent = in_parent.allFinite();
   const Eigen::Vector3d& axis = parent ? joint.axis_in_parent : joint.axis_in_child;
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
   return std::sqrt((across * (parent ? in_parent : in_child) * across).trace());
 }
 
-/// Three numbers, never one: what another part of the trial would repeat, how far the bone's joint may be, and
-/// whether the recording or prior knowledge says so. And what was seen of skin.
+/// Three numbers, never one: what another part of the trial would repeat, how far the bone's joint may be,
+/// and whether the recording or prior knowledge says so. And what was seen of skin.
 void add_skin(const data::SkeletonJoint& joint, Json& out) {
   out["accuracy_sd_m"] = number(sd_of(joint, joint.covariance_in_parent, joint.covariance_in_child));
-  out["repeatability_sd_m"] = number(sd_of(joint, joint.repeatability_in_parent, joint.repeatability_in_child));
+  out["repeatability_sd_m"] =
+      number(sd_of(joint, joint.repeatability_in_parent, joint.repeatability_in_child));
   out["prior_share"] = number(joint.prior_share);
-  out["source"] = std::isnan(joint.prior_share) ? Json(nullptr)
-                                                : Json(joint.prior_dominated() ? "prior" : "recording");
+  out["source"] =
+      std::isnan(joint.prior_share) ? Json(nullptr) : Json(joint.prior_dominated() ? "prior" : "recording");
   const auto& skin = joint.skin;
   out["skin"] = {{"verdict", data::to_string(skin.verdict)},
                  {"words", skin.description},

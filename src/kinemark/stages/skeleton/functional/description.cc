@@ -16,8 +16,8 @@ namespace {
 constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
-constexpr double kOneArc = 0.25;  ///< of the second SD of the rotation over the first
-constexpr double kRepeats = 0.7;  ///< SD between parts of the trial over that about the bone
+constexpr double kOneArc = 0.25;      ///< of the second SD of the rotation over the first
+constexpr double kRepeats = 0.7;      ///< SD between parts of the trial over that about the bone
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
 std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }
@@ -75,7 +75,8 @@ std::string describe_repeatability(const Eigen::Matrix3d& covariance, const Eige
 /// What the error bar rests on, where that is not the recording.
 std::string describe_source(const data::SkeletonJoint& joint) {
   if (!joint.prior_dominated()) return "";
-  std::string text = "; prior-dominated: most of this is what is known of skin, not what this recording shows";
+  std::string text =
+      "; prior-dominated: most of this is what is known of skin, not what this recording shows";
   if (joint.kind == data::JointKind::hinge)
     text += " (1 mm of sliding per rad moves the axis by 1 mm and leaves no trace)";
   return text;

@@ -36,7 +36,8 @@ TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsSaidWhereItMatters) {
       "to 50.0 mm along it: the motion was one arc only (SD 22.9 deg, 5.2 deg beside it)"));
   EXPECT_TRUE(describe_joint(wide, small).ends_with(": the motion was too small"));
   EXPECT_TRUE(describe_joint(wide, kAround).ends_with("along it")) << "the motion is not the reason";
-  EXPECT_TRUE(describe_joint(wide, {0.4, 0.11, 0.05}).ends_with("along it")) << "more than a quarter is another arc";
+  EXPECT_TRUE(describe_joint(wide, {0.4, 0.11, 0.05}).ends_with("along it"))
+      << "more than a quarter is another arc";
   for (const auto& sd_rad : {arc, small})
     EXPECT_TRUE(describe_joint(narrow, sd_rad).ends_with("centre known to 2.0 mm")) << "nothing is lacking";
 }

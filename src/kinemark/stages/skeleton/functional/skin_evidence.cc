@@ -21,12 +21,12 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kTerms = internal::kLinearTerms + internal::kQuadraticTerms;
-constexpr double kRidge = 0.02;  ///< share of the variance from which a term counts
+constexpr double kRidge = 0.02;                ///< share of the variance from which a term counts
 constexpr std::int64_t kLeastPartFrames = 11;  ///< of a movement
 constexpr std::size_t kLeastMovements = 4;
 constexpr double kSure = 0.01, kDoubtful = 0.1;  ///< p values
-constexpr std::int64_t kEnough = 8;      ///< movements from which finding nothing says something
-constexpr double kNoneLikely = 0.5;      ///< probability of no own slide
+constexpr std::int64_t kEnough = 8;              ///< movements from which finding nothing says something
+constexpr double kNoneLikely = 0.5;              ///< probability of no own slide
 constexpr double kGapShare = 0.1, kLeastGap_m = 1e-3;
 constexpr double kRounding_m2 = 1e-14;
 
@@ -80,7 +80,8 @@ Prediction predict(const MatrixXd& X, const MatrixXd& Y,
     const double n = all.n - sums[k].n;
     MatrixXd normal = all.xx - sums[k].xx;
     normal.diagonal().array() += kRidge * n;
-    const MatrixXd B = normal.llt().solve(all.xy - sums[k].xy - (all.x - sums[k].x) * ((all.y - sums[k].y) / n));
+    const MatrixXd B =
+        normal.llt().solve(all.xy - sums[k].xy - (all.x - sums[k].x) * ((all.y - sums[k].y) / n));
     MatrixXd y = Y.middleRows(from, to - from), p = X.middleRows(from, to - from) * B;
     y.rowwise() -= y.colwise().mean().eval();
     p.rowwise() -= p.colwise().mean().eval();
@@ -128,8 +129,8 @@ SkinEvidence find_skin(const Samples& samples, const SegmentPoses& parent, const
                        const RelativeMotion& motion, const JointFit& score) {
   SkinEvidence out;
   const auto clusters = internal::find_clusters(samples, parent, child, motion);
-  const auto posture = internal::posture_of(parent, child, motion, clusters.frames,
-                                            samples.trajectories.time.rate_hz);
+  const auto posture =
+      internal::posture_of(parent, child, motion, clusters.frames, samples.trajectories.time.rate_hz);
   if (posture.frames.empty() || !posture.in_time) return out;
   const auto parts = parts_of(internal::movements_of(posture));
   out.movements = static_cast<std::int64_t>(parts.size());
@@ -165,20 +166,24 @@ data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide&
   if (evidence.shape.p_value < kSure) {
     out.verdict = data::SkinVerdict::follows;
     out.description = fmt::format(
-        "The markers' shape follows the posture, the same in {} of {}: {:.0f} % of it (own slide about {:.1f} mm "
+        "The markers' shape follows the posture, the same in {} of {}: {:.0f} % of it (own slide about "
+        "{:.1f} mm "
         "per rad). This moves the joint by about {:.1f} mm and is in the error bar.",
         evidence.shape.alike, count, 100.0 * evidence.shape.explained, mm(out.own_slide_m),
         mm(slide.moves_m));
-  } else if (evidence.movements >= kEnough && evidence.shape.p_value > kDoubtful && slide.none > kNoneLikely) {
+  } else if (evidence.movements >= kEnough && evidence.shape.p_value > kDoubtful &&
+             slide.none > kNoneLikely) {
     out.verdict = data::SkinVerdict::none_seen;
     out.description = fmt::format(
-        "No sliding of markers with the posture is seen (less than {:.1f} mm per rad). The error bar assumes that "
+        "No sliding of markers with the posture is seen (less than {:.1f} mm per rad). The error bar assumes "
+        "that "
         "what does not deform does not slide.",
         mm(std::max(out.own_limit_m, 0.1e-3)));
   } else {
     out.verdict = data::SkinVerdict::cannot_tell;
     out.description = fmt::format(
-        "Whether the markers slide with the posture cannot be told from {}; the error bar allows for up to {:.1f} "
+        "Whether the markers slide with the posture cannot be told from {}; the error bar allows for up to "
+        "{:.1f} "
         "mm per rad.",
         count, mm(std::max(out.own_limit_m, slide.common_m)));
   }

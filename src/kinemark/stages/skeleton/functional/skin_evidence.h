@@ -16,7 +16,8 @@ namespace kinemark::skeleton {
 
 /// How well the posture of one movement predicts what the others' taught: one number a movement.
 struct Prediction {
-  double p_value = kNaN;    ///< that the share explained is no more than nothing; NaN with fewer than 4 movements
+  double p_value =
+      kNaN;  ///< that the share explained is no more than nothing; NaN with fewer than 4 movements
   double explained = kNaN;  ///< share of a movement's variance, mean over movements
   std::int64_t alike = 0;   ///< movements in which it is more than nothing
 };
@@ -24,13 +25,13 @@ struct Prediction {
 /// What the movements of a recording show.
 struct SkinEvidence {
   std::int64_t movements = 0;
-  Prediction shape;      ///< of the segment whose shape follows more surely; p for both segments together
-  Prediction gap;        ///< of the gap between the two places of the joint
+  Prediction shape;        ///< of the segment whose shape follows more surely; p for both segments together
+  Prediction gap;          ///< of the gap between the two places of the joint
   double gap_rms_m = 0.0;  ///< of the gap that the posture predicts, m
 };
 
-/// Predicts the markers' shape on either segment, movement by movement, from linear and quadratic functions of
-/// the posture that were learnt on the other movements (ridge). Frames are no samples here: errors of
+/// Predicts the markers' shape on either segment, movement by movement, from linear and quadratic functions
+/// of the posture that were learnt on the other movements (ridge). Frames are no samples here: errors of
 /// neighbours are alike, and slow ones imitate anything within one movement but not in the next.
 [[nodiscard]] SkinEvidence find_skin(const Samples& samples, const SegmentPoses& parent,
                                      const SegmentPoses& child, const RelativeMotion& motion,

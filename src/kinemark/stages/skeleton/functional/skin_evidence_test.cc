@@ -56,7 +56,7 @@ TEST(SkinEvidence, SkinIsSaidWhereMarkersSlideTheSameInEveryMovement) {
 TEST(SkinEvidence, SkinIsNotSaidOfNoiseWhiteOrColoured) {
   for (const double keeps : {0.0, 0.9, 0.98})
     for (const bool hinge : {false, true})
-      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const auto seen = look({.hinge = hinge, .noise_sd_m = 0.003, .keeps = keeps, .seed = seed});
         EXPECT_NE(seen.account.verdict, SkinVerdict::follows) << keeps << " " << seed;
         EXPECT_FALSE(says(seen.account, "follows the posture")) << seed;
@@ -90,7 +90,8 @@ TEST(SkinEvidence, AJointThatMovesIsNotSkin) {
   const auto still = look({});
   EXPECT_FALSE(says(still.account, "the joint or the markers"));
   EXPECT_TRUE(std::isnan(still.account.gap_m));
-  EXPECT_FALSE(says(look({.own_slide_m = 0.01}).account, "the joint or the markers")) << "the shape explains the gap";
+  EXPECT_FALSE(says(look({.own_slide_m = 0.01}).account, "the joint or the markers"))
+      << "the shape explains the gap";
 }
 
 TEST(SkinEvidence, NothingIsSaidWhereNothingWasMeasured) {

@@ -13,8 +13,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/joint_choice.h"
-#include "kinemark/stages/skeleton/functional/internal/axis_slide.h"
 #include "kinemark/stages/skeleton/functional/internal/alike.h"
+#include "kinemark/stages/skeleton/functional/internal/axis_slide.h"
 #include "kinemark/stages/skeleton/functional/internal/gap_model.h"
 #include "kinemark/stages/skeleton/functional/skin_evidence.h"
 
@@ -34,11 +34,11 @@ constexpr double kRounding_m = 1e-7;
 /// Sizes of the common slide and turn, m per rad.
 constexpr int kSizes = 8;
 constexpr std::array<double, kSizes> kCommon_m = {0.0, 0.5e-3, 1.5e-3, 3.5e-3, 7e-3, 12e-3, 20e-3, 35e-3};
-constexpr double kAnywhereTo_m = 20e-3;    ///< published slides lie below it
-constexpr double kLogFloor_m = 0.1e-3;     ///< what is smaller counts as so much where logarithms are compared
+constexpr double kAnywhereTo_m = 20e-3;  ///< published slides lie below it
+constexpr double kLogFloor_m = 0.1e-3;   ///< what is smaller counts as so much where logarithms are compared
 constexpr double kRatioFloor_m = 0.2e-3, kLeastRatio = 0.15;
-constexpr double kLeastNoise = 0.7;        ///< of the noise's variance over that of the shape
-constexpr double kSlide_m = 0.03;          ///< wide prior of coefficients, for the first residual alone
+constexpr double kLeastNoise = 0.7;  ///< of the noise's variance over that of the shape
+constexpr double kSlide_m = 0.03;    ///< wide prior of coefficients, for the first residual alone
 constexpr double kLeveragePower = 0.5, kLeastLeft = 0.05;
 constexpr std::int64_t kLeastParts = 3, kMostParts = 12;
 constexpr double kLeastMotion_rad = 0.035;  ///< SD of a posture that could tell anything
@@ -47,8 +47,8 @@ constexpr double kLeastMotion_rad = 0.035;  ///< SD of a posture that could tell
 struct Side {
   const Cluster& cluster;
   OwnSlide slide;
-  Matrix3d own, turn;    ///< of the joint's place by a slide of one metre per rad, m^2
-  double softness = 1.0; ///< of this segment over the softer one
+  Matrix3d own, turn;     ///< of the joint's place by a slide of one metre per rad, m^2
+  double softness = 1.0;  ///< of this segment over the softer one
 
   Side(const Cluster& of, OwnSlide slide_, const Eigen::Vector3d& joint) : cluster(of), slide(slide_) {
     const Eigen::Vector3d l = joint - of.mean;
@@ -82,8 +82,7 @@ std::array<double, kSizes> common_prior(const OwnSlide& own, double ratio, doubl
     std::array<double, kSizes> density{};
     double sum = 0.0;
     for (std::size_t i = 0; i < kSizes; ++i)
-      sum += density[i] =
-          std::exp(-0.5 * std::pow((logarithm(kCommon_m[i]) - about) / std::log(factor), 2));
+      sum += density[i] = std::exp(-0.5 * std::pow((logarithm(kCommon_m[i]) - about) / std::log(factor), 2));
     for (std::size_t i = 0; i < kSizes; ++i)
       out[i] += own.weight[at(b)] *
                 ((1.0 - anywhere) * density[i] / sum +
@@ -131,10 +130,11 @@ class SlideFit {
     const double ratio = hinge ? prior.hinge : prior.ball;
     prior_ = common_prior(a_.slide.size_m > b_.slide.size_m ? a_.slide : b_.slide, ratio,
                           hinge ? prior.hinge_factor : prior.ball_factor, prior.anywhere);
-    const Matrix3d frame = a_.slide.noise_variance * a_.own + mean * (b_.slide.noise_variance * b_.own) * mean.transpose();
+    const Matrix3d frame =
+        a_.slide.noise_variance * a_.own + mean * (b_.slide.noise_variance * b_.own) * mean.transpose();
     const double residual = find_noise(frame);
-    // Real slides are no polynomials. A misfit in proportion to the slides that are tried would drive these to
-    // nothing, so it is that of the expected ones.
+    // Real slides are no polynomials. A misfit in proportion to the slides that are tried would drive these
+    // to nothing, so it is that of the expected ones.
     const auto expected = [&](const Side& side) {
       const double m = side.slide.size_m;
       return Matrix3d(m * m * (side.own + ratio * ratio * (Matrix3d::Identity() + side.turn)));
@@ -195,7 +195,8 @@ class SlideFit {
         const MatrixXd joint = llt.matrixL().solve(MatrixXd(root.transpose()).leftCols(6));
         const MatrixXd K = carried_ * root.bottomRightCorner(kGapSize - 6, kGapSize - 6);
         points.push_back({.log_weight = 0.5 * u.squaredNorm() -
-                                        llt.matrixLLT().diagonal().array().log().sum() + prior_[i] + prior_[j],
+                                        llt.matrixLLT().diagonal().array().log().sum() + prior_[i] +
+                                        prior_[j],
                           .mean = joint.transpose() * u,
                           .covariance = joint.transpose() * joint,
                           .before = K * K.transpose() + by_blocks,
@@ -227,8 +228,7 @@ class SlideFit {
   /// movement that the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology 28:169).
   [[nodiscard]] Matrix6 between_movements(const MatrixXd& slides, std::int64_t parts) const {
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(solve_);
-    const Matrix6 root = eigen.eigenvectors() *
-                         eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+    const Matrix6 root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
                          eigen.eigenvectors().transpose();
     const auto blocks = model_.blocks.rows() / 3;
     Matrix6 out = Matrix6::Zero();
@@ -299,15 +299,16 @@ SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
   if (!(score.residual_rms_m > kRounding_m)) return out;
   const auto clusters = internal::find_clusters(samples, parent, child, motion);
   if (static_cast<std::int64_t>(clusters.frames.size()) < kLeastSlideFrames) return out;
-  const auto posture = internal::posture_of(parent, child, motion, clusters.frames,
-                                            samples.trajectories.time.rate_hz);
-  if (static_cast<std::int64_t>(posture.frames.size()) < kLeastSlideFrames || !(posture.sd_rad(0) > kLeastMotion_rad))
+  const auto posture =
+      internal::posture_of(parent, child, motion, clusters.frames, samples.trajectories.time.rate_hz);
+  if (static_cast<std::int64_t>(posture.frames.size()) < kLeastSlideFrames ||
+      !(posture.sd_rad(0) > kLeastMotion_rad))
     return out;
   const GapModel model = internal::gap_model(parent, child, motion, posture);
   const auto side = [&](const SegmentPoses& poses, const Cluster& cluster, const Eigen::Vector3d& joint) {
     return Side(cluster,
-                internal::find_own_slide(internal::deformation(samples, poses, cluster, posture.frames), posture,
-                                         cluster.freedom()),
+                internal::find_own_slide(internal::deformation(samples, poses, cluster, posture.frames),
+                                         posture, cluster.freedom()),
                 joint);
   };
   const bool hinge = score.kind == data::JointKind::hinge;
@@ -327,7 +328,8 @@ SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
   out.shift = keep * (model.about + found.mean - score.centre);
   out.covariance = within(found.covariance);
   out.noise = within(fit.by_noise());
-  const auto parts = std::clamp<std::int64_t>(internal::movements_of(posture).back() + 1, kLeastParts, kMostParts);
+  const auto parts =
+      std::clamp<std::int64_t>(internal::movements_of(posture).back() + 1, kLeastParts, kMostParts);
   out.repeatability = out.noise + within(fit.between_movements(found.slides, parts));
   const double before = within(found.before).topLeftCorner<3, 3>().trace(),
                after = out.covariance.topLeftCorner<3, 3>().trace(),
@@ -337,7 +339,8 @@ SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
   if (hinge)
     out.axis_covariance = internal::axis_slide_covariance(
         {clusters.parent, fit.parent().slide.size_m, fit.parent().softness * out.turn_m},
-        {clusters.child, fit.child().slide.size_m, fit.child().softness * out.turn_m}, motion, posture, score);
+        {clusters.child, fit.child().slide.size_m, fit.child().softness * out.turn_m}, motion, posture,
+        score);
   return out;
 }
 

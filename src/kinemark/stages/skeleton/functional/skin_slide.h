@@ -23,27 +23,27 @@ namespace kinemark::skeleton {
 /// which the gap tells as far as it can: on a grid, integrated out. All of it is carried to the joint by the
 /// lever from the markers. What does not deform is taken not to slide.
 struct SkinSlide {
-  /// false: too few frames show all markers (40), a motion of no more than 2 deg (SD), or a gap of no more than
-  /// rounding (0.1 um); all below is zero
+  /// false: too few frames show all markers (40), a motion of no more than 2 deg (SD), or a gap of no more
+  /// than rounding (0.1 um); all below is zero
   bool known = false;
   /// own slide of a marker, per axis, m per rad: RMS over what is likely
   double own_parent_m = 0.0, own_child_m = 0.0;
-  double own_limit_m = 0.0;  ///< 95 % limit of the larger of the two, m per rad
-  double none = 1.0;         ///< probability that no marker slides by itself on either segment
-  double common_m = 0.0;     ///< slide of the softer segment's markers as one body, m per rad
-  double turn_m = 0.0;       ///< their turn as one body, at their radius, m per rad
-  double frames_alike = 1.0; ///< frames that count as one, as errors of neighbours are alike
+  double own_limit_m = 0.0;   ///< 95 % limit of the larger of the two, m per rad
+  double none = 1.0;          ///< probability that no marker slides by itself on either segment
+  double common_m = 0.0;      ///< slide of the softer segment's markers as one body, m per rad
+  double turn_m = 0.0;        ///< their turn as one body, at their radius, m per rad
+  double frames_alike = 1.0;  ///< frames that count as one, as errors of neighbours are alike
   /// The joint's expected place less the one of least squares; zero along a hinge's axis, m.
   Vector6 shift = Vector6::Zero();
   Matrix6 covariance = Matrix6::Zero();  ///< about that expected place, m^2; none along a hinge's axis
   Matrix6 noise = Matrix6::Zero();       ///< the part of it by noise that does not repeat itself, m^2
-  /// By how much another part of the trial, with movements of its own, would differ, m^2: the same skin slides
-  /// in it in the same way, so what the movements share is left out.
+  /// By how much another part of the trial, with movements of its own, would differ, m^2: the same skin
+  /// slides in it in the same way, so what the movements share is left out.
   Matrix6 repeatability = Matrix6::Zero();
   Eigen::Matrix3d axis_covariance = Eigen::Matrix3d::Zero();  ///< of a hinge's axis in the parent, rad^2
   double moves_m = 0.0;  ///< how far slides of this size take least squares from the place, RMS, m
-  /// How much of what the prior says of the place is left when the recording was seen: variance over variance,
-  /// 0 to 1; 0 where noise outweighs the slides.
+  /// How much of what the prior says of the place is left when the recording was seen: variance over
+  /// variance, 0 to 1; 0 where noise outweighs the slides.
   double prior_share = 0.0;
 };
 

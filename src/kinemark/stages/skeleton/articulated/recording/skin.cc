@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 
 /// What skin does to a joint that the chain found.
 struct Correction {
-  Vector6 shift = Vector6::Zero();             ///< of the joint in both segments, m
-  Matrix6 slides = Matrix6::Zero();            ///< covariance by slides, m^2
-  Matrix3d in_parent = Matrix3d::Zero();       ///< covariance that comes to that of independent frames, m^2
+  Vector6 shift = Vector6::Zero();        ///< of the joint in both segments, m
+  Matrix6 slides = Matrix6::Zero();       ///< covariance by slides, m^2
+  Matrix3d in_parent = Matrix3d::Zero();  ///< covariance that comes to that of independent frames, m^2
   Matrix3d in_child = Matrix3d::Zero();
 };
 

@@ -26,8 +26,7 @@ Eigen::VectorXd autocorrelation(const Eigen::MatrixXd& x, Eigen::Index lags) {
 double frames_alike(const Eigen::MatrixXd& errors, const Eigen::MatrixXd& regressors) {
   const Eigen::Index lags = std::min(errors.rows() / 4, kMostLags);
   if (lags < 2) return 1.0;
-  const Eigen::VectorXd both =
-      autocorrelation(errors, lags).cwiseProduct(autocorrelation(regressors, lags));
+  const Eigen::VectorXd both = autocorrelation(errors, lags).cwiseProduct(autocorrelation(regressors, lags));
   double sum = 1.0;
   for (Eigen::Index lag = 1; lag < lags; ++lag)
     sum += 2.0 * both(lag) * (1.0 - static_cast<double>(lag) / static_cast<double>(lags));

@@ -30,8 +30,7 @@ double scatter_of(const RelativeMotion& motion, const Posture& posture, const Jo
 }  // namespace
 
 Matrix3d axis_slide_covariance(const TurningSlide& parent, const TurningSlide& child,
-                               const RelativeMotion& motion, const Posture& posture,
-                               const JointFit& hinge) {
+                               const RelativeMotion& motion, const Posture& posture, const JointFit& hinge) {
   const Matrix3d all = turn_of(parent) + motion.mean * turn_of(child) * motion.mean.transpose() +
                        scatter_of(motion, posture, hinge) * Matrix3d::Identity();
   const Matrix3d across = Matrix3d::Identity() - hinge.axis_in_parent * hinge.axis_in_parent.transpose();

@@ -20,11 +20,11 @@ struct TurningSlide {
 };
 
 /// Covariance (rad^2, in the parent's axes) of the direction of a hinge's axis. A turn of a segment's markers
-/// in proportion to the hinge's angle tilts the axis by as much and leaves no trace: that of each marker's own
-/// slide, and that of the slide as one body, on either segment; and what scatters of the rotation about other
-/// axes, with frames that are alike counted as one. Nothing along the axis.
+/// in proportion to the hinge's angle tilts the axis by as much and leaves no trace: that of each marker's
+/// own slide, and that of the slide as one body, on either segment; and what scatters of the rotation about
+/// other axes, with frames that are alike counted as one. Nothing along the axis.
 [[nodiscard]] Eigen::Matrix3d axis_slide_covariance(const TurningSlide& parent, const TurningSlide& child,
-                                                    const RelativeMotion& motion,
-                                                    const Posture& posture, const JointFit& hinge);
+                                                    const RelativeMotion& motion, const Posture& posture,
+                                                    const JointFit& hinge);
 
 }  // namespace kinemark::skeleton::internal

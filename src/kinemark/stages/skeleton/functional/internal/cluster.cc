@@ -13,7 +13,7 @@
 namespace kinemark::skeleton::internal {
 namespace {
 
-constexpr double kSeen = 0.8;            ///< share of the frames that must show a marker
+constexpr double kSeen = 0.8;  ///< share of the frames that must show a marker
 constexpr std::size_t kLeastMarkers = 3;
 constexpr double kLeastInertia_m2 = 1e-7;  ///< 0.3 mm about a line: keeps the inverse of a flat shape finite
 

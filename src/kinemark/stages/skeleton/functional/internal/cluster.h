@@ -14,9 +14,9 @@ namespace kinemark::skeleton::internal {
 
 /// The markers of a segment that are used for its shape.
 struct Cluster {
-  std::vector<Eigen::Index> columns;                ///< M, of SegmentPoses::x_in_segment
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();   ///< of the shape, in the segment, m
-  double radius_m = 0.0;                            ///< RMS distance from the mean
+  std::vector<Eigen::Index> columns;                          ///< M, of SegmentPoses::x_in_segment
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();             ///< of the shape, in the segment, m
+  double radius_m = 0.0;                                      ///< RMS distance from the mean
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< about the mean, 1/m^2
 
   /// Numbers of a shape: three a marker less six of a pose.

@@ -45,8 +45,7 @@ GapModel gap_model(const SegmentPoses& parent, const SegmentPoses& child, const 
   for (Eigen::Index i = 0; i < F; ++i) {
     const Eigen::Vector3d y = measured(i);
     out.gap.segment<3>(3 * i) = y - X * out.about;
-    const Eigen::Matrix3d R =
-        motion.mean * math::exp_so3(motion.axes * posture.smooth.row(i).transpose());
+    const Eigen::Matrix3d R = motion.mean * math::exp_so3(motion.axes * posture.smooth.row(i).transpose());
     auto row = out.design.middleRows<3>(3 * i);
     row.leftCols<3>().setIdentity();
     row.middleCols<3>(3) = -R;

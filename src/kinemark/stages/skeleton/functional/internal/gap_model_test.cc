@@ -38,7 +38,8 @@ TEST(GapModel, AChangeOfTheJointExplainsWhatIsLeft) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(kGapSize);
   change.head<3>() = setup.parent.to_segment(0, setup.chain.centres[0].col(0)) - model.about.head<3>();
   change.segment<3>(3) = truth_in_child(setup) - model.about.tail<3>();
-  EXPECT_LT(model.residual(change).cwiseAbs().maxCoeff(), 2e-4) << "the smoothed posture is nearly the measured one";
+  EXPECT_LT(model.residual(change).cwiseAbs().maxCoeff(), 2e-4)
+      << "the smoothed posture is nearly the measured one";
   EXPECT_GT(model.residual(Eigen::VectorXd::Zero(kGapSize)).norm(), model.residual(change).norm());
 }
 

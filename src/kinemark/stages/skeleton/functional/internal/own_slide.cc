@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSmallest_m = 0.15e-3, kLargest_m = 80e-3;
 constexpr double kNone = 0.5;  ///< probability of no slide before the recording is seen
-constexpr int kSteps = 40;    ///< of expectation and maximisation: the variances have settled by then
+constexpr int kSteps = 40;     ///< of expectation and maximisation: the variances have settled by then
 constexpr double kFirst_m = 5e-3;
 constexpr double kRounding_m = 1e-7;
 /// Variances are told by at least so much, in numbers of which each is so small (m): none runs to zero.
@@ -83,9 +83,9 @@ OwnSlide find_own_slide(const Eigen::MatrixXd& deformation, const Posture& postu
   const Eigen::MatrixXd left = deformation - posture.terms * firm.ldlt().solve(right);
   const double alike = frames_alike(left, posture.terms.leftCols<kLinearTerms>());
   const double effective = F / alike;
-  out.noise_variance = std::max(left.squaredNorm() / (F * freedom) * effective /
-                                    std::max(effective - kPostureTerms, 0.4 * effective),
-                                kRounding_m * kRounding_m);
+  out.noise_variance = std::max(
+      left.squaredNorm() / (F * freedom) * effective / std::max(effective - kPostureTerms, 0.4 * effective),
+      kRounding_m * kRounding_m);
   const double information = 1.0 / (out.noise_variance * alike);
   const Eigen::MatrixXd H = normal * information, h = right * information;
   const auto size = sizes_by_kind(H, h, posture, freedom);
@@ -103,9 +103,9 @@ OwnSlide find_own_slide(const Eigen::MatrixXd& deformation, const Posture& postu
   const auto& sizes = slide_sizes();
   std::array<double, kSlideSizes> log_weight{};
   for (std::size_t i = 0; i < kSlideSizes; ++i)
-    log_weight[i] = i == 0 ? std::log(kNone)
-                           : std::log((1.0 - kNone) / (kSlideSizes - 1)) +
-                                 log_evidence(H, h, scale, sizes[i], freedom);
+    log_weight[i] =
+        i == 0 ? std::log(kNone)
+               : std::log((1.0 - kNone) / (kSlideSizes - 1)) + log_evidence(H, h, scale, sizes[i], freedom);
   const double best = *std::ranges::max_element(log_weight);
   double sum = 0.0, squares = 0.0, below = 0.0;
   for (std::size_t i = 0; i < kSlideSizes; ++i) sum += out.weight[i] = std::exp(log_weight[i] - best);

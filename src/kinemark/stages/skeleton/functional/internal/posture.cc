@@ -124,8 +124,8 @@ std::vector<int> rises_of_distance(const Posture& posture) {
   return out;
 }
 
-/// A movement begins where the first component, having been low, rises beyond half an SD: to and fro about one
-/// axis.
+/// A movement begins where the first component, having been low, rises beyond half an SD: to and fro about
+/// one axis.
 std::vector<int> swings_of_first(const Posture& posture) {
   const auto n = posture.component.rows();
   std::vector<int> out(at(n), 0);
@@ -150,8 +150,8 @@ Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const 
   Posture out;
   const auto n = static_cast<std::int64_t>(frames.size());
   const double rate = rate_hz > 0.0 ? rate_hz : 1.0 / kStep_s;
-  const std::int64_t stride =
-      std::max({std::int64_t{1}, std::int64_t{std::lround(kStep_s * rate)}, (n + kMostFrames - 1) / kMostFrames});
+  const std::int64_t stride = std::max(
+      {std::int64_t{1}, std::int64_t{std::lround(kStep_s * rate)}, (n + kMostFrames - 1) / kMostFrames});
   out.step_s = static_cast<double>(stride) / rate;
   for (std::int64_t i = 0; i < n; i += stride) out.frames.push_back(frames[at(i)]);
   const auto drawn = static_cast<Eigen::Index>(out.frames.size());

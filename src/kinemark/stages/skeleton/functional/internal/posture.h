@@ -34,9 +34,9 @@ struct Posture {
   /// F x 3, rad: the same smoothed in time, and damped where it hardly moves. There a component is noise of
   /// the poses, and the gap between two segments holds the same noise times the lever.
   Eigen::MatrixX3d smooth;
-  bool in_time = false;       ///< frames follow each other closely enough for what is late to be told
-  Eigen::Index block = 1;     ///< frames whose mean loses nothing of the posture, up to 0.2 s
-  Eigen::MatrixXd terms;      ///< F x kPostureTerms, of rad and rad^2
+  bool in_time = false;    ///< frames follow each other closely enough for what is late to be told
+  Eigen::Index block = 1;  ///< frames whose mean loses nothing of the posture, up to 0.2 s
+  Eigen::MatrixXd terms;   ///< F x kPostureTerms, of rad and rad^2
   std::array<TermKind, kPostureTerms> kind{};  ///< of each term
 };
 
@@ -48,9 +48,9 @@ struct Posture {
                                  const RelativeMotion& motion, const std::vector<std::int64_t>& frames,
                                  double rate_hz);
 
-/// The movement that each frame of a posture belongs to, from 0: by its distance from the median posture (0.8 s
-/// or more each) or by the swings of its first component, whichever finds more. All 0 where frames do not follow
-/// each other.
+/// The movement that each frame of a posture belongs to, from 0: by its distance from the median posture (0.8
+/// s or more each) or by the swings of its first component, whichever finds more. All 0 where frames do not
+/// follow each other.
 [[nodiscard]] std::vector<int> movements_of(const Posture& posture);
 
 }  // namespace kinemark::skeleton::internal

@@ -63,8 +63,8 @@ TEST(Posture, SmoothingTakesNothingFromPosesWithoutAPath) {
 TEST(Posture, MovementsAreCounted) {
   for (const bool hinge : {false, true})
     for (const int movements : {3, 8, 12}) {
-      const auto found = movements_of(posture_in(
-          testing::JointSetup(testing::make_swings({.movements = movements, .hinge = hinge, .noise_sd_m = 0.002}))));
+      const auto found = movements_of(posture_in(testing::JointSetup(
+          testing::make_swings({.movements = movements, .hinge = hinge, .noise_sd_m = 0.002}))));
       EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
       const auto count = static_cast<int>(std::set<int>(found.begin(), found.end()).size());
       EXPECT_GE(count, movements) << hinge;

@@ -24,7 +24,8 @@ Eigen::Vector3d posture_at(const SwingSetup& setup, int frame) {
   const double phase = static_cast<double>(frame % kFramesAMovement) / kFramesAMovement;
   const double angle = setup.range_rad * (0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * phase));
   const double azimuth = setup.hinge ? 0.0 : std::numbers::pi / 3.5 * movement;
-  return {angle * std::cos(azimuth), angle * std::sin(azimuth), setup.hinge ? 0.0 : 0.15 * std::sin(0.03 * frame)};
+  return {angle * std::cos(azimuth), angle * std::sin(azimuth),
+          setup.hinge ? 0.0 : 0.15 * std::sin(0.03 * frame)};
 }
 
 }  // namespace
@@ -64,19 +65,22 @@ TestChain make_swings(const SwingSetup& setup) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (int f = 0; f < F; ++f) mean += posture_at(setup, f) / F;
   for (int f = 0; f < F; ++f) {
-    const Eigen::Vector3d q = posture_at(setup, f), sway(0.1 * std::sin(0.02 * f), 0.1 * std::cos(0.013 * f), 0.0);
+    const Eigen::Vector3d q = posture_at(setup, f),
+                          sway(0.1 * std::sin(0.02 * f), 0.1 * std::cos(0.013 * f), 0.0);
     const Eigen::Matrix3d R = math::exp_so3(sway), S = R * math::exp_so3(q);
     out.world_from_segment[0].push_back(R);
     out.world_from_segment[1].push_back(S);
     const Eigen::Vector3d centre(0.05 * std::sin(0.01 * f), 0.0, 0.9);
     out.centres[0].col(f) = centre;
-    const Eigen::Vector3d moved = centre + R * Eigen::Vector3d(0.0, 0.0, setup.joint_slide_m * (q - mean).x());
+    const Eigen::Vector3d moved =
+        centre + R * Eigen::Vector3d(0.0, 0.0, setup.joint_slide_m * (q - mean).x());
     for (int m = 0; m < 2 * kMarkers; ++m) {
       error.col(m) = f == 0 ? draw(noise) : Eigen::Vector3d(setup.keeps * error.col(m) + news * draw(noise));
       const int k = m % kMarkers;
       const Eigen::Vector3d x =
           m < kMarkers ? Eigen::Vector3d(centre + R * out.x_in_segment[0].col(k))
-                       : Eigen::Vector3d(moved + S * (out.x_in_segment[1].col(k) + own[static_cast<std::size_t>(k)] * (q - mean)));
+                       : Eigen::Vector3d(moved + S * (out.x_in_segment[1].col(k) +
+                                                      own[static_cast<std::size_t>(k)] * (q - mean)));
       out.markers.x(f, m) = x + setup.noise_sd_m * error.col(m);
       out.markers.state[out.markers.index(f, m)] = data::SampleState::measured;
     }
