@@ -25,20 +25,24 @@ constexpr double kLessKnown = 2.0;          // times the variance with all marke
 constexpr double kOpen = 0.25;              // rad^2 or m^2: beyond it a coordinate is not determined anyway
 constexpr double kParallel = 0.95;          // correlation of two directions that lead to the same rivals
 constexpr int kDirections = 8;              // of one frame
-constexpr std::array kWays{0.5, 1.1, 1.8};  // rad or m along each, both ways
+constexpr std::array kWays{0.6, 1.4};  // rad or m along each, both ways
 constexpr double kFarthest = 2.6;           // rad or m, of any coordinate
-constexpr double kDiffers = 0.12;           // rad or m, and ...
+constexpr double kDiffers = 0.06;           // rad or m, and ...
 constexpr double kDiffersInSd = 3.0;        // ... so many deviations: another pose
 constexpr double kWorse = 36.0;             // chi-square by which a rival may fit worse
 constexpr double kTemper = 0.25;            // of a chi-square in nats: markers' errors last for many frames
-constexpr std::size_t kMostRivals = 8;
+constexpr std::size_t kMostRivals = 14;
 constexpr double kLeastSd_m = 0.3e-3;  // of a marker
-constexpr int kRoundsOfRivals = 3;
+constexpr int kRoundsOfRivals = 2;
+constexpr std::int64_t kSearchEvery = 3;  // frames; between them rivals are followed
 constexpr double kShutLoopSd_m = 1e-5;
 constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
 constexpr double kLeastStep = 2e-3;  // rad or m
 constexpr double kDoubt = 2e-3;      // probability of rivals from which on a coordinate is not determined
 constexpr double kLeastProbability = 1e-9;
+constexpr double kAlongOpen = 0.3;         // rad or m of something open between two poses: both lie on one valley, and ...
+constexpr double kAnywhere = 0.05;         // ... nothing says where on it the body is: the least share of such a rival
+constexpr double kAsGood = 9.0;            // chi-square by which it may fit worse
 
 /// A pose of one frame with what its markers say of it.
 struct Candidate {
@@ -79,9 +83,9 @@ class Rivals {
       auto& here = of_frame_[at(f)];
       here.push_back(candidate(solved_.states.col(f)));
       if (lacks_[at(f)] == 0) continue;
-      find_directions(here.front());
+      if (f % kSearchEvery == 0) find_directions(here.front());
       if (f > 0) follow(f - 1, here);
-      search(here);
+      if (f % kSearchEvery == 0) search(here);
     }
     for (std::int64_t f = F - 2; f >= 0; --f) {
       if (lacks_[at(f)] == 0) continue;
@@ -117,6 +121,15 @@ class Rivals {
       for (Candidate& c : here) sum += c.probability = std::exp(c.log_forward + c.log_backward - most);
       for (Candidate& c : here) c.probability /= sum;
     }
+  }
+
+  /// Between the two poses lies something that no marker fixes: continuity does not choose between them.
+  bool on_one_valley(const Candidate& taken, const Candidate& rival) {
+    if (rival.chi_square > taken.chi_square + kAsGood) return false;
+    model::difference(problem_.model, taken.state, rival.state, move_);
+    for (Eigen::Index i = 0; i < move_.size(); ++i)
+      if (!problem_.fixed_speed[at(i)] && taken.variance[i] > kOpen && std::abs(move_[i]) > kAlongOpen) return true;
+    return false;
   }
 
   [[nodiscard]] std::vector<Candidate>& of(std::int64_t f) { return of_frame_[at(f)]; }
@@ -205,8 +218,7 @@ class Rivals {
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
       const double ratio = now.variance[i] / whole_(i, i);
-      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown && now.variance[i] < kOpen)
-        found.emplace_back(-ratio, i);
+      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown) found.emplace_back(-ratio, i);
     }
     std::ranges::sort(found);
     std::vector<Eigen::Index> out;
@@ -277,13 +289,13 @@ class Rivals {
     here.push_back(std::move(c));
   }
 
-  /// Another pose in something that both fix.
+  /// Another pose in something that one of them fixes.
   bool differ(const Candidate& a, const Candidate& b) {
     model::difference(problem_.model, a.state, b.state, move_);
     for (Eigen::Index i = 0; i < move_.size(); ++i) {
       if (problem_.fixed_speed[at(i)] || std::min(a.variance[i], b.variance[i]) > kOpen) continue;
-      const double sd = std::sqrt(std::max(a.variance[i], b.variance[i]));
-      if (std::abs(move_[i]) > std::max(kDiffers, kDiffersInSd * std::min(sd, 0.5))) return true;
+      const double sd = std::sqrt(std::min(a.variance[i], b.variance[i]));
+      if (std::abs(move_[i]) > std::max(kDiffers, kDiffersInSd * sd)) return true;
     }
     return false;
   }
@@ -375,9 +387,13 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
         again = true;
         walk.put(markers, f, here[best].state, solved);
       }
-      for (std::size_t k = 0; k < here.size(); ++k)
-        if (k != best && here[k].probability > kLeastProbability)
+      for (std::size_t k = 0; k < here.size(); ++k) {
+        if (k == best) continue;
+        if (rivals.on_one_valley(here[best], here[k]))
+          here[k].probability = std::max(here[k].probability, kAnywhere);
+        if (here[k].probability > kLeastProbability)
           left.push_back({.frame = f, .state = std::move(here[k].state), .probability = here[k].probability});
+      }
     }
   }
   return left;
