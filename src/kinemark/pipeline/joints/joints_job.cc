@@ -21,6 +21,7 @@
 #include "kinemark/pipeline/joints/joints_layout.h"
 #include "kinemark/pipeline/joints/joints_page.h"
 #include "kinemark/pipeline/joints/joints_parts.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 
@@ -165,7 +166,7 @@ void judge(const JointsJob& job, JointsOutcome& outcome) {
 /// or are a subject's every tree by itself.
 std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
                                           const data::SegmentLayout& layout) {
-  const bool as_asked = !outcome.topology && outcome.left_out.empty() && !is_subject(job);
+  const bool as_asked = !outcome.segmentation && outcome.left_out.empty() && !is_subject(job);
   if (job.method != "articulated" || as_asked) return {layout};
   return trees_of(layout);
 }
@@ -174,7 +175,8 @@ std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutc
 /// plausible. A tree of which nothing is left, or that cannot be solved, is reported; it is a failure where
 /// no other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
-  auto waiting = parts_of(job, outcome, outcome.layout);
+  std::vector<data::SegmentLayout> waiting;
+  if (!outcome.layout.joints.empty()) waiting = parts_of(job, outcome, outcome.layout);
   std::vector<data::Skeleton> solved;
   Status first;
   outcome.layout = {};
@@ -200,9 +202,15 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
       append(layout, outcome.layout);
     } else if (auto s = leave_out(job, bad, layout, outcome); !s) {
       if (first) first = s;
-    } else {
+    } else if (!layout.joints.empty()) {
       std::ranges::move(parts_of(job, outcome, layout), std::back_inserter(waiting));
     }
+  }
+  if (solved.empty() && outcome.segmentation) {
+    outcome.skeleton.markers = markers.names;
+    outcome.skeleton.time = markers.time;
+    outcome.skeleton.noise_sd_m = kNaN;
+    return {};
   }
   if (solved.empty()) return first;
   outcome.skeleton = join_skeletons(std::move(solved));
@@ -212,6 +220,8 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
 /// Centres and axes, and markers that moved on their segment.
 Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   if (auto s = solve_plausibly(job, markers, outcome); !s) return s;
+  settle_segmentation(outcome);
+  if (outcome.skeleton.joints.empty()) return {};
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
@@ -237,12 +247,14 @@ Result<Staging> stage(const JointsJob& job) {
 std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
                                    const data::Trial& centres, const std::vector<fs::path>& targets) {
   std::vector<ResultFile> files;
-  for (const auto& target : targets)
+  for (const auto& target : targets) {
+    if (outcome.skeleton.joints.empty() && target.extension() != ".json") continue;
     files.push_back(target.extension() == ".json"
                         ? json_file(target, [&] { return joints_json(job, outcome); })
                     : target.extension() == ".toml"
                         ? toml_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
                         : marker_file(target, centres));
+  }
   return files;
 }
 

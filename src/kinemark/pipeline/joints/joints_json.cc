@@ -5,12 +5,14 @@
 #include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -131,10 +133,12 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
 Json topology_json(const JointsOutcome& outcome) {
   const auto& topology = *outcome.topology;
   Json out;
+  const auto& outputs = outcome.segmentation->model_outputs;
   for (std::size_t m = 0; m < topology.markers.size(); ++m)
-    out["markers"].push_back({{"name", outcome.skeleton.markers[m]},
-                              {"nats", topology.markers[m].nats},
-                              {"doubtful", topology.markers[m].doubtful}});
+    if (std::ranges::find(outputs, static_cast<int>(m)) == outputs.end())
+      out["markers"].push_back({{"name", outcome.skeleton.markers[m]},
+                                {"nats", topology.markers[m].nats},
+                                {"doubtful", topology.markers[m].doubtful}});
   for (std::size_t j = 0; j < topology.joints.size(); ++j) {
     const auto& joint = topology.joints[j];
     out["joints"].push_back({{"name", topology.layout.joints[j].name},
@@ -180,6 +184,7 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
     if (std::isfinite(outcome.marker_noise_sd_m[m]))
       json["marker_noise"].push_back(
           {{"name", outcome.skeleton.markers[m]}, {"sd_m", outcome.marker_noise_sd_m[m]}});
+  if (outcome.segmentation) json["segmentation"] = segmentation_json(outcome);
   if (outcome.topology) json["topology"] = topology_json(outcome);
   return json;
 }
