@@ -42,9 +42,9 @@ struct CleanOutcome : JobOutcome {
 
 /// Read, screen, mark what the recorder made, fill, smooth, write. Either all files appear or, on a failure,
 /// none. Screening and the search for upsampling only tell unless the job says otherwise, but for labels that
-/// were exchanged, which go back; gaps are filled only with a gap method. A recording that was smoothed before
-/// and keeps the samples from before is smoothed from those; one that does not is smoothed once more, and a
-/// warning says so. Progress counts markers.
+/// were exchanged, which go back; gaps are filled only with a gap method. A recording that was smoothed
+/// before and keeps the samples from before is smoothed from those; one that does not is smoothed once more,
+/// and a warning says so. Progress counts markers.
 [[nodiscard]] Result<CleanOutcome> run_clean(const CleanJob& job);
 
 }  // namespace kinemark::pipeline

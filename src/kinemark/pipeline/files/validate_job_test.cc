@@ -91,7 +91,8 @@ TEST_F(RunValidate, ThatARecordingWasSmoothedIsANoteAndNotOdd) {
   const auto outcome = validate({smoothed, raw});
   EXPECT_EQ(outcome.exit_status(), 0);
   ASSERT_EQ(outcome.files[0].notes.size(), 1U);
-  EXPECT_THAT(outcome.files[0].notes[0], HasSubstr("smoothed by butterworth; the samples from before are not"));
+  EXPECT_THAT(outcome.files[0].notes[0],
+              HasSubstr("smoothed by butterworth; the samples from before are not"));
   EXPECT_TRUE(outcome.files[1].notes.empty());
   const auto json = validate_json(outcome);
   EXPECT_EQ(json[0]["notes"].size(), 1U);

@@ -36,11 +36,13 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
   return kNaN;
 }
 
-/// Where the pose of frames without markers comes from, as it is in the motion: the frame before them, the one behind.
+/// Where the pose of frames without markers comes from, as it is in the motion: the frame before them, the
+/// one behind.
 std::string held_from(const data::JointMotion& motion) {
   const std::int64_t F = motion.frames(), n = motion.size();
   const auto same = [&](std::int64_t f, std::int64_t g) {
-    return f >= 0 && g < F && std::equal(motion.q.begin() + f * n, motion.q.begin() + (f + 1) * n, motion.q.begin() + g * n);
+    return f >= 0 && g < F &&
+           std::equal(motion.q.begin() + f * n, motion.q.begin() + (f + 1) * n, motion.q.begin() + g * n);
   };
   bool before = false, behind = false;
   for (std::int64_t f = 0; f < F;) {
@@ -62,13 +64,15 @@ std::string held_from(const data::JointMotion& motion) {
 }
 
 /// Why a coordinate is not determined in so many frames, where that is known.
-std::string why_not_determined(const data::JointMotion& motion, std::size_t c, std::int64_t frames, bool always) {
+std::string why_not_determined(const data::JointMotion& motion, std::size_t c, std::int64_t frames,
+                               bool always) {
   if (motion.open_frames.empty()) return ".";
   const std::int64_t open = motion.open_frames[c];
   const char* limit = motion.is_rotation[c] ? "0.5 rad" : "0.5 m";
   if (open >= frames)
     return always ? ": no visible marker fixes it." : ": the visible markers do not fix it there.";
-  const auto loosely = fmt::format("the visible markers fix it no better than to {}, or two poses fit them", limit);
+  const auto loosely =
+      fmt::format("the visible markers fix it no better than to {}, or two poses fit them", limit);
   if (open == 0) return fmt::format(": {}{}.", loosely, always ? "" : " there");
   return fmt::format(": in {} of them no visible marker fixes it, in the others {}.", open, loosely);
 }
@@ -125,12 +129,11 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
                                  why_not_determined(motion, j, motion.frames(), true)),
                      from_s});
     else
-      out.push_back(
-          {Verdict::good, "coordinate", c.name,
-           fmt::format("{} is not determined in {}{}", c.name,
-                       describe_frames(motion.frames() - c.determined_frames, motion.frames()),
-                       why_not_determined(motion, j, motion.frames() - c.determined_frames, false)),
-           from_s});
+      out.push_back({Verdict::good, "coordinate", c.name,
+                     fmt::format("{} is not determined in {}{}", c.name,
+                                 describe_frames(motion.frames() - c.determined_frames, motion.frames()),
+                                 why_not_determined(motion, j, motion.frames() - c.determined_frames, false)),
+                     from_s});
   }
   for (const CoordinateSummary& c : s.coordinates)
     if (c.at_limit_frames > 0)

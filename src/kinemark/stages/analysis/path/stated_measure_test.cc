@@ -236,9 +236,11 @@ TEST_F(StatedMeasure, WhatAFilterTookOfABandMayHaveBeenMore) {
 TEST_F(StatedMeasure, DoubtAboutTheNoiseIsSaidWhereItDecides) {
   const auto deviations = around(0.0, 0.1);
   MeasureNumbers numbers{.estimate = 1.0, .deviations = deviations, .doubt = 1.5};
-  EXPECT_FALSE(says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
+  EXPECT_FALSE(
+      says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
   numbers.doubt = 3.0;
-  EXPECT_TRUE(says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
+  EXPECT_TRUE(
+      says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
 }
 
 TEST_F(StatedMeasure, QuickMovementBelowTheNoiseSaysHowMuch) {

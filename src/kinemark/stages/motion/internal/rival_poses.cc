@@ -21,16 +21,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLessKnown = 2.0;          // times the variance with all markers: the limb lost what held it
-constexpr double kOpen = 0.25;              // rad^2 or m^2: beyond it a coordinate is not determined anyway
-constexpr double kParallel = 0.95;          // correlation of two directions that lead to the same rivals
-constexpr int kDirections = 8;              // of one frame
+constexpr double kLessKnown = 2.0;     // times the variance with all markers: the limb lost what held it
+constexpr double kOpen = 0.25;         // rad^2 or m^2: beyond it a coordinate is not determined anyway
+constexpr double kParallel = 0.95;     // correlation of two directions that lead to the same rivals
+constexpr int kDirections = 8;         // of one frame
 constexpr std::array kWays{0.6, 1.4};  // rad or m along each, both ways
-constexpr double kFarthest = 2.6;           // rad or m, of any coordinate
-constexpr double kDiffers = 0.06;           // rad or m, and ...
-constexpr double kDiffersInSd = 3.0;        // ... so many deviations: another pose
-constexpr double kWorse = 36.0;             // chi-square by which a rival may fit worse
-constexpr double kTemper = 0.25;            // of a chi-square in nats: markers' errors last for many frames
+constexpr double kFarthest = 2.6;      // rad or m, of any coordinate
+constexpr double kDiffers = 0.06;      // rad or m, and ...
+constexpr double kDiffersInSd = 3.0;   // ... so many deviations: another pose
+constexpr double kWorse = 36.0;        // chi-square by which a rival may fit worse
+constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' errors last for many frames
 constexpr std::size_t kMostRivals = 14;
 constexpr double kLeastSd_m = 0.3e-3;  // of a marker
 constexpr int kRoundsOfRivals = 2;
@@ -40,9 +40,11 @@ constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
 constexpr double kLeastStep = 2e-3;  // rad or m
 constexpr double kDoubt = 2e-3;      // probability of rivals from which on a coordinate is not determined
 constexpr double kLeastProbability = 1e-9;
-constexpr double kAlongOpen = 0.3;         // rad or m of something open between two poses: both lie on one valley, and ...
-constexpr double kAnywhere = 0.05;         // ... nothing says where on it the body is: the least share of such a rival
-constexpr double kAsGood = 9.0;            // chi-square by which it may fit worse
+constexpr double kAlongOpen =
+    0.3;  // rad or m of something open between two poses: both lie on one valley, and ...
+constexpr double kAnywhere =
+    0.05;                        // ... nothing says where on it the body is: the least share of such a rival
+constexpr double kAsGood = 9.0;  // chi-square by which it may fit worse
 
 /// A pose of one frame with what its markers say of it.
 struct Candidate {
@@ -128,7 +130,8 @@ class Rivals {
     if (rival.chi_square > taken.chi_square + kAsGood) return false;
     model::difference(problem_.model, taken.state, rival.state, move_);
     for (Eigen::Index i = 0; i < move_.size(); ++i)
-      if (!problem_.fixed_speed[at(i)] && taken.variance[i] > kOpen && std::abs(move_[i]) > kAlongOpen) return true;
+      if (!problem_.fixed_speed[at(i)] && taken.variance[i] > kOpen && std::abs(move_[i]) > kAlongOpen)
+        return true;
     return false;
   }
 
@@ -380,8 +383,8 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
     rivals.weigh();
     for (std::int64_t f = 0; f < problem.frames; ++f) {
       auto& here = rivals.of(f);
-      const auto best = static_cast<std::size_t>(
-          std::ranges::max_element(here, {}, &Candidate::probability) - here.begin());
+      const auto best = static_cast<std::size_t>(std::ranges::max_element(here, {}, &Candidate::probability) -
+                                                 here.begin());
       if (here[best].state != solved.states.col(f)) {
         changed[at(f)] = 1;
         again = true;
