@@ -255,7 +255,7 @@ MatrixXd late_slide(Random& random, const Sheet& on, bool plate) {
   const auto F = on.frames();
   const Vector3d mix(1.0, 0.4 * random.gaussian(), 0.3 * random.gaussian());
   const double hz = random.uniform(3.0, 6.0), damping = random.uniform(0.3, 0.6);
-  const VectorXd pull = follow(on.q * mix, hz, damping) / on.sd;
+  const VectorXd attraction = follow(on.q * mix, hz, damping) / on.sd;
   const double gain = (random.uniform() < 0.5 ? -1.0 : 1.0) * std::exp(0.3 * random.gaussian());
   const Vector3d along = on.along(), aside = plate ? along : Vector3d(along + 0.25 * draw3(random));
   const VectorXd height = on.arm.transpose() * along;
@@ -266,7 +266,7 @@ MatrixXd late_slide(Random& random, const Sheet& on, bool plate) {
     const double share = plate ? 1.0 : 1.0 + 0.3 * height(m) / spread + 0.15 * random.gaussian();
     const Matrix3d own = (plate ? 0.0 : 0.2 / on.sd) * draw33(random);
     for (Eigen::Index i = 0; i < F; ++i) {
-      Vector3d d = gain * pull(i) * share * aside + own * on.q.row(i).transpose();
+      Vector3d d = gain * attraction(i) * share * aside + own * on.q.row(i).transpose();
       if (!plate)
         d += axial(i) * along.cross(on.arm.col(m) / on.radius) + 0.1 * on.acceleration.row(i).transpose();
       out.block<1, 3>(i, 3 * m) = d.transpose();
@@ -290,17 +290,17 @@ VectorXd with_play(const VectorXd& drive, double play) {
 
 /// Radial functions along and around the segment, each with its own drive.
 MatrixXd sheet_slide(Random& random, const Sheet& on) {
-  constexpr int kPlaces = 6;
+  constexpr int kSites = 6;
   constexpr double kReach_m = 0.10;
   const auto F = on.frames();
   MatrixXd out = MatrixXd::Zero(F, 3 * on.markers());
   double energy = 0.0;
-  for (int k = 0; k < kPlaces; ++k) {
+  for (int k = 0; k < kSites; ++k) {
     const Vector3d place = on.bone.rowwise().mean() + 0.8 * on.radius * draw3(random);
     const Vector3d u = draw3(random).normalized();
     VectorXd drive = with_play(on.q * u, random.uniform(0.05, 0.25) * on.sd);
-    const double bend = random.uniform(-0.4, 0.4) / on.sd;
-    drive = (drive.array() + bend * drive.array().square()).matrix();
+    const double deflection = random.uniform(-0.4, 0.4) / on.sd;
+    drive = (drive.array() + deflection * drive.array().square()).matrix();
     drive.array() -= drive.mean();
     drive /= std::max(std::sqrt(drive.squaredNorm() / static_cast<double>(F)), 1e-9);
     const Vector3d to = draw3(random);

@@ -155,24 +155,24 @@ class Search {
   }
 
   /// What three samples in a row miss a straight path by, at even speed, as if they were a frame apart.
-  static double bend(const Line& l, std::size_t n, double before, double here, double there) {
+  static double deflection(const Line& l, std::size_t n, double before, double here, double there) {
     const auto h1 = static_cast<double>(l.frame[n - 1] - l.frame[n - 2]),
                h2 = static_cast<double>(l.frame[n] - l.frame[n - 1]);
     return (there * l.r[n] - here * l.r[n - 1] - h2 / h1 * (here * l.r[n - 1] - before * l.r[n - 2])).norm() /
            (0.5 * h2 * (h1 + h2));
   }
-  static bool bends(const Line& l, std::size_t n) {
+  static bool deflections(const Line& l, std::size_t n) {
     return n >= 2 && l.begins[n] == 0 && l.begins[n - 1] == 0;
   }
 
   /// What the line's path usually misses a straight one by, whatever its signs.
-  [[nodiscard]] double usual_bend(const Line& l) const {
+  [[nodiscard]] double usual_deflection(const Line& l) const {
     std::vector<double> values;
     for (std::size_t n = 2; n < l.r.size(); ++n) {
-      if (!bends(l, n)) continue;
+      if (!deflections(l, n)) continue;
       double best = HUGE_VAL;
       for (const double a : {-1.0, 1.0})
-        for (const double c : {-1.0, 1.0}) best = std::min(best, bend(l, n, a, 1.0, c));
+        for (const double c : {-1.0, 1.0}) best = std::min(best, deflection(l, n, a, 1.0, c));
       values.push_back(best);
     }
     const double usual = values.empty() ? 0.0 : middle(values);
@@ -194,8 +194,8 @@ class Search {
           const int before = from & 1, to = 2 * before + here;
           double c = cost[static_cast<std::size_t>(from)] + (here != 0 ? 1.0 : -1.0) * 0.5 * l.vote[n];
           if (n > 0 && l.begins[n] == 0 && here != before) c += kTurnCost;
-          if (bends(l, n)) {
-            const double b = bend(l, n, sign(from >> 1), sign(before), sign(here)) / scale;
+          if (deflections(l, n)) {
+            const double b = deflection(l, n, sign(from >> 1), sign(before), sign(here)) / scale;
             c += std::log1p(b * b);
           } else if (n > 0 && l.begins[n] == 0) {
             // Second sample of a path: no speed is known yet.
@@ -300,7 +300,7 @@ class Search {
 
   /// What the path of one point through three samples misses a straight one by, with its names by the signs
   /// (or as recorded).
-  [[nodiscard]] double bend_of(const Line& l, std::size_t n, std::int64_t one, std::int64_t other,
+  [[nodiscard]] double deflection_of(const Line& l, std::size_t n, std::int64_t one, std::int64_t other,
                                bool by_signs) const {
     const auto place = [&](std::size_t k) {
       return Vector3d(x(l.frame[k], by_signs && l.sign[k] < 0 ? other : one));
@@ -316,11 +316,11 @@ class Search {
     double as_is = 0.0, signed_ = 0.0;
     std::array<double, 2> own_as_is{}, own_signed{};
     for (std::size_t k = n; k <= n + 1 && k < l.sign.size(); ++k) {
-      if (!bends(l, k) || (l.sign[k] == l.sign[k - 1] && l.sign[k - 1] == l.sign[k - 2])) continue;
+      if (!deflections(l, k) || (l.sign[k] == l.sign[k - 1] && l.sign[k - 1] == l.sign[k - 2])) continue;
       const std::array<std::pair<std::int64_t, std::int64_t>, 2> both{{{one, other}, {other, one}}};
       for (std::size_t i = 0; i < 2; ++i) {
-        own_as_is[i] += bend_of(l, k, both[i].first, both[i].second, false);
-        own_signed[i] += bend_of(l, k, both[i].first, both[i].second, true);
+        own_as_is[i] += deflection_of(l, k, both[i].first, both[i].second, false);
+        own_signed[i] += deflection_of(l, k, both[i].first, both[i].second, true);
       }
     }
     for (std::size_t i = 0; i < 2; ++i) {
@@ -337,8 +337,8 @@ class Search {
     double cost = 0.0;
     for (std::size_t n = begin; n < std::min(end + 2, l.sign.size()); ++n) {
       const auto s = [&](std::size_t k) { return as_is && k >= begin && k < end ? -l.sign[k] : l.sign[k]; };
-      if (!bends(l, n)) continue;
-      const double b = bend(l, n, s(n - 2), s(n - 1), s(n)) / scale;
+      if (!deflections(l, n)) continue;
+      const double b = deflection(l, n, s(n - 2), s(n - 1), s(n)) / scale;
       cost += std::log1p(b * b);
     }
     return cost;
@@ -370,11 +370,11 @@ class Search {
         for (std::size_t n = begin; n < end; ++n) votes -= l.vote[n];
         std::vector<double> lengths;
         for (std::size_t n = begin; n < end; ++n) lengths.push_back(l.r[n].norm());
-        const bool told = middle(lengths) > search_.least_m;
+        const bool stated = middle(lengths) > search_.least_m;
         const double gain = stretch_cost(l, begin, end, scale, true) -
                             stretch_cost(l, begin, end, scale, false) + std::min(votes, 0.5 * kLeastGain);
         const bool explains = apart ? votes > 2.0 * kLeastGain : ratio > 0.0 && gain > kLeastGain;
-        if (!told || !explains) {
+        if (!stated || !explains) {
           for (std::size_t n = begin; n < end; ++n) l.sign[n] = 1;
           changed = true;
         } else if (!apart) {
@@ -412,7 +412,7 @@ class Search {
     ExchangedPair pair{.one = one, .other = other};
     Line l = line_of(one, other);
     if (l.frame.size() < 3) return pair;
-    const double scale = usual_bend(l);
+    const double scale = usual_deflection(l);
     find_signs(l, scale);
     orient_by_number(l);
     if (std::ranges::none_of(l.sign, [](auto s) { return s < 0; })) return pair;
@@ -430,7 +430,7 @@ class Search {
     if (exchanged == 0) return pair;
     pair.side_known = static_cast<double>(exchanged) < kFewer * static_cast<double>(l.sign.size());
     if (const int side = side_by_known_distances(l, one, other); side != 0) {
-      pair.side_known = pair.told_by_distances = true;
+      pair.side_known = pair.stated_by_distances = true;
       if (side < 0)
         for (auto& s : l.sign) s = static_cast<std::int8_t>(-s);
     }

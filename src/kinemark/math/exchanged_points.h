@@ -37,7 +37,7 @@ struct ExchangedPair {
   /// Which side is wrong: these frames, or all others with both points. By far fewer frames, or told by
   /// distances: true; else the fewer ones are named.
   bool side_known = false;
-  bool told_by_distances = false;  ///< the distances that were known beforehand say so
+  bool stated_by_distances = false;  ///< the distances that were known beforehand say so
   /// Both sides of every change were seen: the exchange does not merely last to an end of the recording.
   bool ends = false;
 };

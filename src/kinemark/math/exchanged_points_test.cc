@@ -30,12 +30,12 @@ struct Foot {
 
   explicit Foot(std::uint64_t seed = 1, double noise_m = 0.0005, std::int64_t count = 240) : frames(count) {
     Random random(seed, 7);
-    const Eigen::Vector3d places[] = {{0, 0, 0}, {0.20, 0, 0.02}, {0.17, 0, 0.07}, {0.05, 0.08, 0.03}};
+    const Eigen::Vector3d sites[] = {{0, 0, 0}, {0.20, 0, 0.02}, {0.17, 0, 0.07}, {0.05, 0.08, 0.03}};
     for (std::int64_t f = 0; f < frames; ++f) {
       const double t = static_cast<double>(f) / rate_hz, w = 2.0 * std::numbers::pi * 0.9;
       const Eigen::AngleAxisd turn(0.6 * std::sin(w * t), Eigen::Vector3d::UnitZ());
       const Eigen::Vector3d at(1.2 * t + 0.3 * std::sin(w * t), 0.1 + 0.05 * std::cos(w * t), 0.1);
-      for (const auto& place : places) add(at + turn * place, random, noise_m);
+      for (const auto& place : sites) add(at + turn * place, random, noise_m);
       add({1.2 * t, 1.0, 0.0}, random, noise_m);
       add({1.2 * t + 0.1, 1.2, 0.3 * std::sin(w * t)}, random, noise_m);
     }
@@ -118,10 +118,10 @@ TEST(ExchangedPoints, HalfTheFramesAreDecidedByDistancesOrNotAtAll) {
     const double heel[] = {kNan, std::hypot(0.20, 0.02), std::hypot(0.17, 0.07), kNan, kNan, kNan};
     return other == 0 ? heel[one] : kNan;
   };
-  const auto told = foot.find({.distance = known});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_TRUE(told[0].side_known);
-  EXPECT_EQ(told[0].frames, every(2, 0, 239));
+  const auto stated = foot.find({.distance = known});
+  ASSERT_EQ(stated.size(), 1U);
+  EXPECT_TRUE(stated[0].side_known);
+  EXPECT_EQ(stated[0].frames, every(2, 0, 239));
   // The other half as well, though the foot looks the same.
   Foot other;
   other.exchange(1, 2, every(2, 1, 239));

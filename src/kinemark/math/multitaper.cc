@@ -230,12 +230,12 @@ std::vector<SpectrumBin> NoiseSpectrum::bins(double lowest) const {
       }
       if (here == 0) continue;
       const double size = static_cast<double>(here),
-                   told = size * stretch.step * static_cast<double>(stretch.samples);
-      bin.power += told * std::exp(logarithms / size);
-      bin.frequency += told * frequencies / size;
-      bin.count += told;
-      bin.shape += static_cast<double>(kTapers * axes_) * std::max(1.0, told / kTaperFrequencies);
-      weight += told;
+                   stated = size * stretch.step * static_cast<double>(stretch.samples);
+      bin.power += stated * std::exp(logarithms / size);
+      bin.frequency += stated * frequencies / size;
+      bin.count += stated;
+      bin.shape += static_cast<double>(kTapers * axes_) * std::max(1.0, stated / kTaperFrequencies);
+      weight += stated;
     }
     if (weight == 0.0) continue;
     bin.power /= weight;

@@ -33,7 +33,7 @@ constexpr double kLeastWeight = 0.02;                // of a model over that of 
 constexpr double kTailLeast = 5.0, kTailMore = 7.0;  // exponents of the movement's tail
 
 // Parameters by their place; -1: the model has none of these.
-struct Places {
+struct Sites {
   int variance = 0, memory = -1, cut_off = -1, floor = -1, tail = -1, slope = -1, count = 0;
 };
 
@@ -42,8 +42,8 @@ struct Kind {
   LowPass form = LowPass::butterworth;
   int order = 0;
 
-  [[nodiscard]] Places places() const {
-    Places out;
+  [[nodiscard]] Sites sites() const {
+    Sites out;
     int next = 1;
     if (kind == NoiseKind::correlated || kind == NoiseKind::correlated_and_white) out.memory = next++;
     if (kind == NoiseKind::filtered) out.cut_off = next++;
@@ -81,29 +81,29 @@ struct Data {
 // Model at parameters, and the derivatives of its logarithm.
 class Spectrum {
  public:
-  Spectrum(const Kind& kind, const Data& data) : kind_(kind), data_(data), places_(kind.places()) {
+  Spectrum(const Kind& kind, const Data& data) : kind_(kind), data_(data), sites_(kind.sites()) {
     if (kind.kind != NoiseKind::filtered) return;
     for (const double f : data.frequency) roll_off_.push_back(roll_off(kind.form, kind.order, f));
   }
 
-  [[nodiscard]] const Places& places() const { return places_; }
+  [[nodiscard]] const Sites& sites() const { return sites_; }
 
   [[nodiscard]] NoiseModel model(const Eigen::VectorXd& at_values) const {
     NoiseModel out{.kind = kind_.kind, .form = kind_.form, .order = kind_.order};
-    out.variance = std::exp(at_values[places_.variance]);
-    if (places_.memory >= 0) out.correlation = 1.0 - std::exp(at_values[places_.memory]);
-    if (places_.cut_off >= 0) out.half = std::exp(at_values[places_.cut_off]);
-    if (places_.floor >= 0) out.floor = std::exp(at_values[places_.floor]);
+    out.variance = std::exp(at_values[sites_.variance]);
+    if (sites_.memory >= 0) out.correlation = 1.0 - std::exp(at_values[sites_.memory]);
+    if (sites_.cut_off >= 0) out.half = std::exp(at_values[sites_.cut_off]);
+    if (sites_.floor >= 0) out.floor = std::exp(at_values[sites_.floor]);
     return out;
   }
 
   // Logarithms into `logs`; where `slopes` is not null, bins x parameters.
   void operator()(const Eigen::VectorXd& x, Eigen::VectorXd& logs, Eigen::MatrixXd* slopes) const {
-    const double variance = std::exp(x[places_.variance]), tail = std::exp(x[places_.tail]);
-    const double share = sigmoid(x[places_.slope]), exponent = kTailLeast + kTailMore * share;
-    const double floor = places_.floor >= 0 ? std::exp(x[places_.floor]) : 0.0;
-    const double forget = places_.memory >= 0 ? std::exp(x[places_.memory]) : 1.0, rho = 1.0 - forget;
-    const double half = places_.cut_off >= 0 ? std::exp(x[places_.cut_off]) : 0.0;
+    const double variance = std::exp(x[sites_.variance]), tail = std::exp(x[sites_.tail]);
+    const double share = sigmoid(x[sites_.slope]), exponent = kTailLeast + kTailMore * share;
+    const double floor = sites_.floor >= 0 ? std::exp(x[sites_.floor]) : 0.0;
+    const double forget = sites_.memory >= 0 ? std::exp(x[sites_.memory]) : 1.0, rho = 1.0 - forget;
+    const double half = sites_.cut_off >= 0 ? std::exp(x[sites_.cut_off]) : 0.0;
     const double at_half = half > 0.0 ? roll_off_at_half(kind_.form, kind_.order, half) : 1.0;
     double half_slope = 2.0 * kind_.order;  // of ln at_half by ln half
     if (half > 0.0 && kind_.form == LowPass::butterworth) {
@@ -111,28 +111,28 @@ class Spectrum {
       half_slope *= turn / (std::sin(turn) * std::cos(turn));
     }
     logs.resize(static_cast<Eigen::Index>(data_.size()));
-    if (slopes != nullptr) slopes->setZero(logs.size(), places_.count);
+    if (slopes != nullptr) slopes->setZero(logs.size(), sites_.count);
     for (Eigen::Index i = 0; i < logs.size(); ++i) {
       const std::size_t k = at(i);
       double noise = variance, by_memory = 0.0;
-      if (places_.memory >= 0) {
+      if (sites_.memory >= 0) {
         const double down = 1.0 - 2.0 * rho * data_.cosine[k] + rho * rho;
         noise = variance * (1.0 - rho * rho) / down;
         by_memory = variance * forget *
                     (2.0 * rho * down + (1.0 - rho * rho) * 2.0 * (rho - data_.cosine[k])) / (down * down);
       }
       const double moved = tail * std::exp(-exponent * data_.log_ratio[k]);
-      const double gain = places_.cut_off >= 0 ? 1.0 / (1.0 + roll_off_[k] / at_half) : 1.0;
+      const double gain = sites_.cut_off >= 0 ? 1.0 / (1.0 + roll_off_[k] / at_half) : 1.0;
       const double squared = gain * gain, total = squared * (noise + moved) + floor;
       logs[i] = std::log(total);
       if (slopes == nullptr) continue;
-      (*slopes)(i, places_.variance) = squared * noise / total;
-      if (places_.memory >= 0) (*slopes)(i, places_.memory) = squared * by_memory / total;
-      if (places_.cut_off >= 0)
-        (*slopes)(i, places_.cut_off) = squared * (noise + moved) * 2.0 * (1.0 - gain) * half_slope / total;
-      if (places_.floor >= 0) (*slopes)(i, places_.floor) = floor / total;
-      (*slopes)(i, places_.tail) = squared * moved / total;
-      (*slopes)(i, places_.slope) =
+      (*slopes)(i, sites_.variance) = squared * noise / total;
+      if (sites_.memory >= 0) (*slopes)(i, sites_.memory) = squared * by_memory / total;
+      if (sites_.cut_off >= 0)
+        (*slopes)(i, sites_.cut_off) = squared * (noise + moved) * 2.0 * (1.0 - gain) * half_slope / total;
+      if (sites_.floor >= 0) (*slopes)(i, sites_.floor) = floor / total;
+      (*slopes)(i, sites_.tail) = squared * moved / total;
+      (*slopes)(i, sites_.slope) =
           -squared * moved * data_.log_ratio[k] * kTailMore * share * (1.0 - share) / total;
     }
   }
@@ -140,7 +140,7 @@ class Spectrum {
  private:
   const Kind& kind_;
   const Data& data_;
-  Places places_;
+  Sites sites_;
   std::vector<double> roll_off_;
 };
 
@@ -150,25 +150,25 @@ struct Priors {
   int floor = -1;  // place of a filtered recording's floor
 
   Priors(const Kind& kind, const Data& data) {
-    const auto places = kind.places();
-    low = Eigen::VectorXd::Constant(places.count, -80.0), high = -low;
-    mean = weight = Eigen::VectorXd::Zero(places.count);
-    weight[places.variance] = 1.0 / (kPriorSpread * kPriorSpread);  // about the typical one
-    low[places.slope] = -6.0, high[places.slope] = 6.0;
-    weight[places.slope] = 0.25;
-    if (places.memory >= 0) low[places.memory] = std::log(0.002), high[places.memory] = std::log(0.95);
+    const auto sites = kind.sites();
+    low = Eigen::VectorXd::Constant(sites.count, -80.0), high = -low;
+    mean = weight = Eigen::VectorXd::Zero(sites.count);
+    weight[sites.variance] = 1.0 / (kPriorSpread * kPriorSpread);  // about the typical one
+    low[sites.slope] = -6.0, high[sites.slope] = 6.0;
+    weight[sites.slope] = 0.25;
+    if (sites.memory >= 0) low[sites.memory] = std::log(0.002), high[sites.memory] = std::log(0.95);
     if (kind.kind != NoiseKind::filtered) return;
-    floor = places.floor;
-    low[places.cut_off] = std::log(std::max(2.0 / data.rate_hz, 0.01));
-    high[places.cut_off] = std::log(0.48);
+    floor = sites.floor;
+    low[sites.cut_off] = std::log(std::max(2.0 / data.rate_hz, 0.01));
+    high[sites.cut_off] = std::log(0.48);
     const auto& known = data.search->known;
     if (!known) return;
     const double half = std::log(known->half);
-    low[places.cut_off] = std::min(low[places.cut_off], half - 1.0);
-    mean[places.cut_off] = half, weight[places.cut_off] = 1.0 / (kKnownCutOff * kKnownCutOff);
+    low[sites.cut_off] = std::min(low[sites.cut_off], half - 1.0);
+    mean[sites.cut_off] = half, weight[sites.cut_off] = 1.0 / (kKnownCutOff * kKnownCutOff);
     if (!(known->variance > 0.0)) return;
-    mean[places.variance] = std::log(known->variance) - 2.0 * std::log(data.search->typical_sd);
-    weight[places.variance] = 1.0 / (kKnownVariance * kKnownVariance);
+    mean[sites.variance] = std::log(known->variance) - 2.0 * std::log(data.search->typical_sd);
+    weight[sites.variance] = 1.0 / (kKnownVariance * kKnownVariance);
   }
 
   // How far the floor is beyond what a filtered recording has.
@@ -213,8 +213,8 @@ Fitted fit_from(const Spectrum& spectrum, const Priors& priors, const Data& data
   double damping = 1e-2;
   for (int iteration = 0; iteration < 60; ++iteration) {
     spectrum(out.x, logs, &slopes);
-    const Eigen::VectorXd pull = weight.array() * (power.array() * (-logs.array()).exp() - 1.0);
-    Eigen::VectorXd slope = slopes.transpose() * pull;
+    const Eigen::VectorXd attraction = weight.array() * (power.array() * (-logs.array()).exp() - 1.0);
+    Eigen::VectorXd slope = slopes.transpose() * attraction;
     out.curvature = slopes.transpose() * weight.asDiagonal() * slopes;
     priors.add(out.x, slope, out.curvature);
     double value = -INFINITY;
@@ -386,9 +386,9 @@ void draw_from(const NoiseFits& from, const NoiseSearch& search, std::int64_t co
     if (!drawn[i]) off.setZero();
     drawn[i] = true;
     Eigen::VectorXd x = fit.parameters + solver.eigenvectors() * off;
-    const auto places = kind.places();
-    if (places.memory >= 0) x[places.memory] = std::clamp(x[places.memory], std::log(0.002), 0.0);
-    if (places.cut_off >= 0) x[places.cut_off] = std::min(x[places.cut_off], std::log(0.48));
+    const auto sites = kind.sites();
+    if (sites.memory >= 0) x[sites.memory] = std::clamp(x[sites.memory], std::log(0.002), 0.0);
+    if (sites.cut_off >= 0) x[sites.cut_off] = std::min(x[sites.cut_off], std::log(0.48));
     const Data none;
     out.push_back(in_units(Spectrum(kind, none).model(x), search.typical_sd));
   }

@@ -128,7 +128,7 @@ TEST(FindNoise, NoFilterIsClaimedWithoutAFloorAsLowAsRounding) {
   EXPECT_NE(found_in(with_floor).model().kind, NoiseKind::filtered);
 }
 
-TEST(FindNoise, NoiseThatFitsNoModelIsToldApart) {
+TEST(FindNoise, NoiseThatFitsNoModelIsDistinguished) {
   // A line at 30 Hz, far above white noise.
   SeriesMatrix x = movement(800, 1) + noise(800, 1e-4, 0.0, 1);
   EXPECT_TRUE(found_in(x).fits());

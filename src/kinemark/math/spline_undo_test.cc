@@ -72,7 +72,7 @@ TEST(SplineUndo, AcrossGapsToo) {
 TEST(SplineUndo, TheErrorOfRoundedNumbersIsWhatItSays) {
   const std::vector<bool> all(1000, true);
   const auto y = recording(1000, 3);
-  int told = 0;
+  int stated = 0;
   for (int order = 2; order <= 5; ++order)
     for (const double cutoff_hz : {6.0, 12.0, 20.0}) {
       const double half = half_power_of(order, cutoff_hz, kRate);
@@ -85,9 +85,9 @@ TEST(SplineUndo, TheErrorOfRoundedNumbersIsWhatItSays) {
       ASSERT_TRUE(undone);
       const double error = rms(undone->samples, y, all);
       EXPECT_NEAR(error / undone->error_sd, 1.0, 0.35) << order << " " << cutoff_hz;
-      ++told;
+      ++stated;
     }
-  EXPECT_GE(told, 10);
+  EXPECT_GE(stated, 10);
 }
 
 TEST(SplineUndo, LowCutOffsOfHighOrdersAreBeyondSinglePrecision) {

@@ -114,9 +114,9 @@ TEST(LostParts, TheSentencesCountAndName) {
   EXPECT_THAT(
       lost_in(trc, with(Part::filters)),
       ElementsAre("the filters of markers and their samples from before cannot be stored in a .trc file"));
-  data::Trial told = with(Part::filters);
-  told.markers.unfiltered_in_world.clear();
-  EXPECT_THAT(lost_in(trc, told), ElementsAre("the filters of markers cannot be stored in a .trc file"));
+  data::Trial stated = with(Part::filters);
+  stated.markers.unfiltered_in_world.clear();
+  EXPECT_THAT(lost_in(trc, stated), ElementsAre("the filters of markers cannot be stored in a .trc file"));
   EXPECT_THAT(lost_in(*written_format(".c3d"), with(Part::covariance)),
               ElementsAre(HasSubstr("covariances of samples are kept as one standard deviation")));
 }

@@ -264,7 +264,7 @@ TEST_F(RunClean, OneWithoutThemIsSmoothedTwiceAndThatIsSaid) {
   EXPECT_TRUE(t.unfiltered_in_world.empty()) << "its samples were smoothed";
 }
 
-TEST_F(RunClean, ATrcIsToldWithoutThem) {
+TEST_F(RunClean, ATrcNotesTheirAbsence) {
   const auto outcome = run_clean(job("out.trc"));
   ASSERT_TRUE(outcome);
   EXPECT_THAT(outcome->warnings,

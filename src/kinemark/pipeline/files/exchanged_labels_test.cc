@@ -23,8 +23,8 @@ data::Trial recording() {
   for (std::int64_t f = 0; f < 200; ++f)
     for (std::int64_t m = 0; m < 3; ++m) {
       const double s = t.time.time_s(f);
-      const Eigen::Vector3d places[] = {{0, 0, 0}, {0.2, 0.02, 0}, {0.17, 0.07, 0}};
-      t.x(f, m) = places[m] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s), 0, 0.1 * std::cos(6 * s)) +
+      const Eigen::Vector3d sites[] = {{0, 0, 0}, {0.2, 0.02, 0}, {0.17, 0.07, 0}};
+      t.x(f, m) = sites[m] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s), 0, 0.1 * std::cos(6 * s)) +
                   0.0003 * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
       t.state[t.index(f, m)] = data::SampleState::measured;
     }

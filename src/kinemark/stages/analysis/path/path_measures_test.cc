@@ -188,10 +188,10 @@ TEST(MeasurePaths, SamplesFromBeforeAFilterAreWhatIsMeasured) {
     }
   // The filter alone is taken at its word.
   both.unfiltered_in_world = {};
-  const auto told = measure_paths(both, options);
-  ASSERT_TRUE(told);
-  EXPECT_EQ(told->noises[0].source, NoiseSource::filter);
-  EXPECT_NEAR(told->noises[0].cutoff_hz.middle, 7.0, 0.4);
+  const auto stated = measure_paths(both, options);
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(stated->noises[0].source, NoiseSource::filter);
+  EXPECT_NEAR(stated->noises[0].cutoff_hz.middle, 7.0, 0.4);
 }
 
 TEST(MeasurePaths, SlowNoiseTakesTheIntervalsOfWhatRestsOnItAndNoOthers) {

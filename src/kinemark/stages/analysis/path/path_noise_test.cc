@@ -136,7 +136,7 @@ TEST(FindPathNoise, WhatFitsNoModelHasNoInterval) {
   EXPECT_NE(said(noise).find("fits no model"), std::string::npos);
 }
 
-TEST(FindPathNoise, AFilterThatIsToldIsTakenWithItsNoise) {
+TEST(FindPathNoise, AFilterThatIsStatedIsTakenWithItsNoise) {
   const double down = 100.0 * math::three_db_of_half(LowPass::spline, 4, 0.08);
   const data::FilterUsed used{.method = "kalman", .order = 4, .cutoff_hz = down, .noise_sd_m = 4e-4};
   const NoiseModel model{

@@ -115,8 +115,8 @@ internal::SharedPrior prior_with(const StandingBody& body, const internal::Share
                                  const std::vector<internal::SeenFrame>& frames, double between_sd_m) {
   internal::SharedPrior known = internal::learn_shared(body, prior, frames);
   Eigen::MatrixXd covariance = known.information.inverse();
-  const auto places = static_cast<Eigen::Index>(3 * body.markers.size());
-  covariance.diagonal().tail(places).array() += between_sd_m * between_sd_m;
+  const auto sites = static_cast<Eigen::Index>(3 * body.markers.size());
+  covariance.diagonal().tail(sites).array() += between_sd_m * between_sd_m;
   known.information = covariance.inverse();
   known.information = (0.5 * (known.information + known.information.transpose())).eval();
   return known;

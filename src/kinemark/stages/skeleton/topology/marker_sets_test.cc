@@ -67,7 +67,7 @@ TEST(MarkerSets, OtherNamesSayNothing) {
     EXPECT_EQ(said(name), "nothing") << name;
 }
 
-TEST(MarkerSets, WhatModelsWriteIsTold) {
+TEST(MarkerSets, WhatModelsWriteIsRecognised) {
   const std::vector<std::string> outputs{"PELO",
                                          "RFOO",
                                          "LFEP",

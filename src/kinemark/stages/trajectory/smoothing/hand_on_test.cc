@@ -48,12 +48,12 @@ TEST(HandOn, SmoothingTellsItsFilterAndKeepsMeasuredSamples) {
   ASSERT_TRUE(t.validate()) << t.validate().error().message;
   ASSERT_EQ(t.filters.size(), 2U);
   for (std::int64_t m = 0; m < 2; ++m) {
-    const auto& told = t.filters[static_cast<std::size_t>(m)];
+    const auto& stated = t.filters[static_cast<std::size_t>(m)];
     const auto& used = out->markers[static_cast<std::size_t>(m)].used;
-    EXPECT_EQ(told.method, "kalman");
-    EXPECT_EQ(told.order, used.order);
-    EXPECT_EQ(told.cutoff_hz, used.cutoff_hz);
-    EXPECT_NEAR(told.noise_sd_m, 4e-4, 0.6e-4);
+    EXPECT_EQ(stated.method, "kalman");
+    EXPECT_EQ(stated.order, used.order);
+    EXPECT_EQ(stated.cutoff_hz, used.cutoff_hz);
+    EXPECT_NEAR(stated.noise_sd_m, 4e-4, 0.6e-4);
   }
   for (std::int64_t f = 0; f < 300; ++f)
     for (std::int64_t m = 0; m < 2; ++m) {

@@ -36,8 +36,8 @@ struct Layout {
   Eigen::Index segments, sizes, markers;
   Eigen::Index pose() const { return 3 + 3 * segments; }
   Eigen::Index joints() const { return 1 + sizes; }
-  Eigen::Index places() const { return joints() + 3 * segments; }
-  Eigen::Index shared() const { return places() + 3 * markers; }
+  Eigen::Index sites() const { return joints() + 3 * segments; }
+  Eigen::Index shared() const { return sites() + 3 * markers; }
 };
 
 struct Posed {
@@ -80,7 +80,7 @@ void pose_body(const StandingBody& body, const Matrix3d& first, const VectorXd& 
     const auto s = at(marker.segment);
     const auto i = static_cast<Eigen::Index>(m);
     out.marker.col(i) = joint[s] + out.rotation[s] * (scale[s].cwiseProduct(marker.x_in_segment) +
-                                                      shared.segment<3>(layout.places() + 3 * i));
+                                                      shared.segment<3>(layout.sites() + 3 * i));
   }
 }
 
@@ -179,7 +179,7 @@ Seen linearise(const StandingBody& body, const SeenFrame& frame, const Matrix3d&
     out.residual.segment<3>(row) = frame.x.col(m) - posed.marker.col(m);
     out.variance.segment<3>(row).setConstant(frame.sd[m] * frame.sd[m]);
     const auto s = at(body.markers[static_cast<std::size_t>(m)].segment);
-    out.by_shared.block<3, 3>(row, layout.places() + 3 * m) = posed.rotation[s];
+    out.by_shared.block<3, 3>(row, layout.sites() + 3 * m) = posed.rotation[s];
   }
   constexpr double kStep = 1e-6;
   const auto differences = [&](VectorXd& x, Eigen::Index k, MatrixXd& J) {
@@ -192,7 +192,7 @@ Seen linearise(const StandingBody& body, const SeenFrame& frame, const Matrix3d&
         J.block<3, 1>(row, k) = (moved.marker.col(m) - posed.marker.col(m)) / kStep;
   };
   for (Eigen::Index k = 0; k < layout.pose(); ++k) differences(pose, k, out.by_pose);
-  for (Eigen::Index k = 0; k < layout.places(); ++k) differences(shared, k, out.by_shared);
+  for (Eigen::Index k = 0; k < layout.sites(); ++k) differences(shared, k, out.by_shared);
   return out;
 }
 
@@ -218,8 +218,8 @@ SharedPrior prior_of(const StandingBody& body) {
   for (Eigen::Index m = 0; m < layout.markers; ++m) {
     const auto& marker = body.markers[static_cast<std::size_t>(m)];
     for (int a = 0; a < 3; ++a) {
-      const Eigen::Index other = marker.mirror < 0 ? -1 : layout.places() + 3 * marker.mirror + a;
-      add_pair(out.information, layout.places() + 3 * m + a, other, a == 2 ? -1.0 : 1.0,
+      const Eigen::Index other = marker.mirror < 0 ? -1 : layout.sites() + 3 * marker.mirror + a;
+      add_pair(out.information, layout.sites() + 3 * m + a, other, a == 2 ? -1.0 : 1.0,
                marker.spread.common[a], marker.spread.own[a]);
     }
   }

@@ -98,7 +98,7 @@ std::vector<Place> spanning_joints(const std::vector<const Place*>& pairs) {
 std::vector<Rival> find_rivals(const Samples& samples, const Topology& topology,
                                const SegmentationOptions& options) {
   PoseStore store(samples);
-  std::map<std::pair<std::vector<int>, std::vector<int>>, std::optional<Place>> places;
+  std::map<std::pair<std::vector<int>, std::vector<int>>, std::optional<Place>> sites;
   const auto segmentations = list_segmentations(samples, topology);
   const double all = std::accumulate(segmentations.begin(), segmentations.end(), 0.0,
                                      [](double sum, const auto& s) { return sum + s.second; });
@@ -114,9 +114,9 @@ std::vector<Rival> find_rivals(const Samples& samples, const Topology& topology,
     for (std::size_t i = 0; i < wide.size(); ++i)
       for (std::size_t j = i + 1; j < wide.size(); ++j) {
         const std::pair key{wide[i], wide[j]};
-        auto found = places.find(key);
-        if (found == places.end())
-          found = places.emplace(key, find_place(store.of(wide[i]), store.of(wide[j]))).first;
+        auto found = sites.find(key);
+        if (found == sites.end())
+          found = sites.emplace(key, find_place(store.of(wide[i]), store.of(wide[j]))).first;
         const auto& place = found->second;
         if (place && place->turn_rad[0] >= options.least_turn_rad && place->gap_m <= kMostGap_m &&
             std::max(place->reach_a_m, place->reach_b_m) <= kReach_m)

@@ -23,7 +23,7 @@ Place ball(double x, double gap_m) {
   return place;
 }
 
-TEST(Rivals, PlacesThatAgreeAreOneJoint) {
+TEST(Rivals, PositionsThatAgreeAreOneJoint) {
   const std::vector<Rival> rivals{
       {{}, 0.5, {ball(0.0, 0.002)}}, {{}, 0.3, {ball(0.008, 0.002)}}, {{}, 0.2, {}}};
   const auto found = find_agreements(rivals);

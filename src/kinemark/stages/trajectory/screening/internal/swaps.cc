@@ -175,7 +175,7 @@ void report_exchanges(Trajectories& t, double least, Defects& out) {
         whole ? describe_frames(t.time, first, last)
               : fmt::format("{} frames: {}", pair.frames.size(), data::words_of_frames(pair.frames, t.time));
     const double sure = confidence_of(pair.ratio, 0.4);
-    const bool one_turn = whole && !pair.ends && !pair.told_by_distances;
+    const bool one_turn = whole && !pair.ends && !pair.stated_by_distances;
     const char* side =
         !pair.side_known
             ? "; which of these and the other frames are right cannot be decided, the fewer are named"

@@ -110,8 +110,8 @@ TEST(Swaps, TheOtherSideOfTheBodyTellsWhichHalfIsWrong) {
     for (std::int64_t f = 0; f < 200; ++f)
       for (std::int64_t m = 0; m < 6; ++m) {
         const double s = t.time.time_s(f), side = m < 3 ? 1.0 : -1.0;
-        const Eigen::Vector3d places[] = {{0, 0, 0}, {0.20, 0.0, 0}, {0.17, 0.07 * side, 0}};
-        t.x(f, m) = places[m % 3] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s + m / 3), 0.2 * side, 0.0);
+        const Eigen::Vector3d sites[] = {{0, 0, 0}, {0.20, 0.0, 0}, {0.17, 0.07 * side, 0}};
+        t.x(f, m) = sites[m % 3] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s + m / 3), 0.2 * side, 0.0);
         for (double& x : t.x(f, m)) x += 0.0003 * random.gaussian();
         t.state[t.index(f, m)] = data::SampleState::measured;
       }
