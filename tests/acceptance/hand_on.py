@@ -111,11 +111,11 @@ def check_clean(folder, seed):
         table = as_csv(cleaned)
         worst = worst_of(table, raw)
         row(worst == 0.0, f"clean to {ending}: samples from before the filter", "to the last bit of the recording", f"{worst:g} m off")
-        told = filters_of(table)
-        account = account or told
-        row(told == account and all(name == "kalman" for name, *_ in told.values()), f"clean to {ending}: filter of each marker",
-            "kalman, order, cut-off and noise as in the other formats", f"{told['hand']}")
-        noises = [abs(float(n) / 4e-4 - 1) for *_, n in told.values()]
+        stated = filters_of(table)
+        account = account or stated
+        row(stated == account and all(name == "kalman" for name, *_ in stated.values()), f"clean to {ending}: filter of each marker",
+            "kalman, order, cut-off and noise as in the other formats", f"{stated['hand']}")
+        noises = [abs(float(n) / 4e-4 - 1) for *_, n in stated.values()]
         row(max(noises) < 0.15, f"clean to {ending}: noise before it", "0.4 mm within 15 %", f"{100 * max(noises):.1f} % off")
         blank = sum(s["state"] == "measured" and s["method"] != "smoothed by kalman" for s in table.values())
         row(blank == 0, f"clean to {ending}: samples that are measured and do not say that they were smoothed", "0", f"{blank}")
@@ -163,9 +163,9 @@ def check_reconstruct(folder, seed):
         apart = max(math.dist(triple(table[k], RAW), triple(frames[k], ("x_m", "y_m", "z_m"))) for k in both)
         row(len(both) > 0.9 * len(frames) and 0 < apart < 0.05, f"reconstruct to {ending}: frames from before the smoother",
             "> 90 %, moved by less than 50 mm to their frame", f"{100 * len(both) / len(frames):.0f} %, {1e3 * apart:.1f} mm")
-        told = filters_of(table)
-        row(all(t[0] == "kalman" and float(t[2]) > 0 and 1e-6 < float(t[3]) < 0.05 for t in told.values()),
-            f"reconstruct to {ending}: filter and noise of each LED", "kalman, cut-off, noise", f"{next(iter(told.values()))}")
+        stated = filters_of(table)
+        row(all(t[0] == "kalman" and float(t[2]) > 0 and 1e-6 < float(t[3]) < 0.05 for t in stated.values()),
+            f"reconstruct to {ending}: filter and noise of each LED", "kalman, cut-off, noise", f"{next(iter(stated.values()))}")
         blank = sum(s["state"] == "measured" and not s["method"].startswith("smoothed by") for s in table.values())
         row(blank == 0, f"reconstruct to {ending}: measured samples without a word of smoothing", "0", f"{blank}")
 
