@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr std::int64_t kHalf = 3;        // frames on both sides that are averaged
 constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
 constexpr double kRival = 6.0;           // explanations this much less likely are named
-constexpr double kLeastShift_m = 0.015;  // smaller ones are how markers are placed
+constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
 
 /// Where the body's markers are in a recording.
 std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
@@ -128,6 +128,15 @@ std::string words_of(const StandingBody& body, const internal::Hypothesis& h) {
   return fmt::format("{} and {} exchanged", first, body.markers[at(h.second)].name);
 }
 
+/// Shoulders, arms and heads move on the trunk by more than a rigid body tells: beside a movement, a single
+/// marker is accused on pelvis and legs alone.
+bool keeps_its_place(const StandingBody::Marker& marker) {
+  const auto landmark = landmark_of(marker.name);
+  if (!landmark) return false;
+  return landmark->part == BodyPart::pelvis || landmark->part == BodyPart::thigh ||
+         landmark->part == BodyPart::shank || landmark->part == BodyPart::foot;
+}
+
 /// Spread of the length of a shift.
 double length_sd(const Vector3d& shift, const Vector3d& sd) {
   const double length = shift.norm();
@@ -192,7 +201,8 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
     for (std::size_t i = 1; i < explanations.size(); ++i)
       if (explanations[i].score > best.score - kRival)
         finding.rivals.push_back(words_of(body, explanations[i]));
-    out.findings.push_back(std::move(finding));
+    if (moving.empty() || best.second >= 0 || keeps_its_place(body.markers[at(best.first)]))
+      out.findings.push_back(std::move(finding));
     if (best.second < 0) {
       frame.x.col(best.first).setConstant(kNaN);
     } else {
