@@ -301,7 +301,7 @@ class Search {
   /// What the path of one point through three samples misses a straight one by, with its names by the signs
   /// (or as recorded).
   [[nodiscard]] double deflection_of(const Line& l, std::size_t n, std::int64_t one, std::int64_t other,
-                               bool by_signs) const {
+                                     bool by_signs) const {
     const auto place = [&](std::size_t k) {
       return Vector3d(x(l.frame[k], by_signs && l.sign[k] < 0 ? other : one));
     };

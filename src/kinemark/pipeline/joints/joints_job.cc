@@ -176,7 +176,9 @@ std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutc
 /// no other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   std::vector<data::SegmentLayout> waiting;
-  if (!outcome.layout.joints.empty()) waiting = parts_of(job, outcome, outcome.layout);
+  // Named segments without a joint are refused by the estimator, which says why.
+  if (!outcome.segmentation || !outcome.layout.joints.empty())
+    waiting = parts_of(job, outcome, outcome.layout);
   std::vector<data::Skeleton> solved;
   Status first;
   outcome.layout = {};

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -100,7 +101,9 @@ void add_spread(data::Skeleton& skeleton, std::size_t j, double spread_m) {
     if (at(length.joint_a) == j || at(length.joint_b) == j)
       length.sd_m = std::hypot(length.sd_m, std::sqrt(variance));
   joint.description += fmt::format(
-      "; rivals of its segmentation place it {:.1f} mm away (RMS), which is in the SD", 1e3 * spread_m);
+      "; rivals of its segmentation place it {:.1f} mm away (RMS), which widens this to {:.1f} mm and is in "
+      "the SD",
+      1e3 * spread_m, 1e3 * worst_sd(joint));
 }
 
 /// Joints of the layout that the skeleton has, and their segments.
@@ -307,7 +310,11 @@ data::Skeleton keep_joints(const data::Skeleton& skeleton, const std::vector<std
   out.markers = skeleton.markers;
   out.time = skeleton.time;
   out.noise_sd_m = skeleton.noise_sd_m;
-  out.warnings = skeleton.warnings;
+  std::ranges::copy_if(skeleton.warnings, std::back_inserter(out.warnings), [&](const auto& warning) {
+    for (std::size_t j = 0; j < keep.size(); ++j)
+      if (!keep[j] && warning.contains(fmt::format("'{}'", skeleton.joints[j].name))) return false;
+    return true;
+  });
   std::vector<int> segment(skeleton.segments.size(), -1), joint(skeleton.joints.size(), -1);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
     if (keep[j])

@@ -118,9 +118,13 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   if (!fit.in_parent) return;
   const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit);
   if (!slide.known) return;
-  // Half-way to the expected place: that the prior's size is right is no more sure than that there is skin.
-  Correction by{.shift = 0.5 * slide.shift};
-  by.slides = positive_part(slide.covariance - slide.noise) + by.shift * by.shift.transpose();
+  joint.skin = account_of_skin(find_skin(samples, parent, child, motion, fit), slide);
+  // Half-way to the expected place where skin is seen: the prior's size is no more sure. Else the joint
+  // stays, and the whole way counts as error.
+  Correction by;
+  if (joint.skin.verdict == data::SkinVerdict::follows) by.shift = 0.5 * slide.shift;
+  const Vector6 rest = slide.shift - by.shift;
+  by.slides = positive_part(slide.covariance - slide.noise) + rest * rest.transpose();
   by.in_parent = of_fewer_frames(joint.covariance_in_parent, slide.frames_alike, joint.axis_in_parent);
   by.in_child = of_fewer_frames(joint.covariance_in_child, slide.frames_alike, joint.axis_in_child);
   const Matrix6 repeats = positive_part(slide.repeatability - slide.noise);
@@ -132,7 +136,6 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   joint.covariance_in_child += by.in_child + by.slides.bottomRightCorner<3, 3>();
   if (joint.kind == data::JointKind::hinge) widen_axis(slide, joint);
   joint.prior_share = slide.prior_share;
-  joint.skin = account_of_skin(find_skin(samples, parent, child, motion, fit), slide);
   joint.range_of_motion_rad = motion.range_rad;
   joint.description = describe_joint(joint, motion.sd_rad);
   correct_centres(j, parent, child, by, skeleton);
