@@ -59,8 +59,12 @@ class Gait(CommandTest):
         self.assertFalse(reported["gait"]["treadmill"])
         deviations = [e["sd_s"] for e in reported["gait"]["events"]]
         known = [sd for sd in deviations if sd is not None]
-        # Of these coarse strikes some refits find none: what more than a tenth of them miss has no SD.
-        self.assertGreater(len(known), 0.8 * len(deviations))
+        self.assertEqual(len(known), len(deviations))
+        kind = {key: reported["gait"][key] for key in ("type", "surface", "direction", "turning", "person")}
+        self.assertEqual(
+            kind, {"type": "walk", "surface": "ground", "direction": "forward", "turning": False, "person": None}
+        )
+        self.assertAlmostEqual(reported["gait"]["speed"], STRIDE_MM / STRIDE_S, delta=20)
         self.assertTrue(all(0 < sd < 0.1 for sd in known))
 
     def test_walking_is_measured_without_being_asked_for(self):
@@ -145,7 +149,7 @@ class Gait(CommandTest):
             ((self.file, "--gait-marker", "left_knee=LHEE"), 2, "no marker of walking"),
             ((self.file, "--measures", "gait", "--gait-marker", "left_heel=LHEEL"), 3, "nearest: LHEE"),
             ((self.file, "--measures", "gait", "--events", "plates"), 3, "no events of feet by plates"),
-            ((self.folder / "no_toe.trc", "--measures", "gait"), 3, "the left toes"),
+            ((self.folder / "no_toe.trc", "--measures", "gait"), 3, "no marker besides those of the feet"),
             ((self.file, "--write-events", self.folder / "a.txt"), 2, "events are written as .csv or .c3d"),
             ((self.file, "--measures", "gait", "--write-cycles", self.folder / "c.csv"), 3, "need --angles"),
         ):
@@ -161,8 +165,45 @@ class Gait(CommandTest):
             "analyze", self.folder / "no_toe.trc", "--measures", "gait,path_length", "--refits", "0"
         )
         self.assertEqual(result.status, 0, result.err)
-        self.assertIn("Walking is not measured: there is no marker", result.err)
+        self.assertIn("Walking is not measured: no marker besides", result.err)
         self.assertIn("Path length", result.out)
+
+    def test_backward_walking_is_called_so(self):
+        write_trc(self.folder / "back.trc", walk()[::-1], names=NAMES)
+        reported = self.measures(self.folder / "back.trc", "--measures", "gait")
+        self.assertEqual(reported["gait"]["direction"], "backward")
+        self.assertEqual(reported["gait"]["surface"], "ground")
+        values = {(m["measure"], m.get("context", "")): m["value"] for m in reported["measures"]}
+        self.assertAlmostEqual(values["gait_speed", ""], STRIDE_MM / STRIDE_S, delta=13)
+        self.assertAlmostEqual(values["step_width", ""], 100, delta=2)
+
+    def test_who_stands_is_refused_with_the_reason(self):
+        rows = walk()
+        still = [[tuple(v + 0.3 * wobble(i, 3 * m) for v in p) for m, p in enumerate(rows[0])] for i in range(len(rows))]
+        write_trc(self.folder / "still.trc", still, names=NAMES)
+        result = self.run_in("analyze", self.folder / "still.trc", "--measures", "gait", "--refits", "0")
+        self.assertEqual(result.status, 3)
+        self.assertIn("not locomotion: no foot swings", result.err)
+
+    def test_a_hidden_foot_and_exchanged_sides_are_said(self):
+        rows = [[(math.nan,) * 3 if m == 0 and 150 < i < 300 else p for m, p in enumerate(row)] for i, row in enumerate(walk())]
+        write_trc(self.folder / "hidden.trc", rows, names=NAMES)
+        result = self.run_in("analyze", self.folder / "hidden.trc", "--measures", "gait", "--refits", "0")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertIn("left foot: hidden from 1.5", result.err)
+        write_trc(self.folder / "exchanged.trc", walk(), names=("RHEE", "RTOE", "LHEE", "LTOE", "SACR"))
+        result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
+        self.assertIn("the names of the sides are exchanged, or the recording is mirrored", result.err)
+
+    def test_kinematics_never_sees_plates(self):
+        recording = real_file("btk-others/PiG_Motion3_FF.c3d")
+        reported = self.measures(recording, "--measures", "gait", "--events", "kinematics")
+        self.assertTrue(all(e["source"] == "kinematics" for e in reported["gait"]["events"]))
+        bare = self.folder / "bare.trc"
+        self.assertEqual(self.run_in("convert", recording, bare).status, 0)
+        alone = self.measures(bare, "--measures", "gait", "--events", "kinematics")["gait"]["events"]
+        for one, other in zip(reported["gait"]["events"], alone, strict=True):
+            self.assertAlmostEqual(one["time_s"], other["time_s"], delta=0.002)
 
     def test_steps_on_real_plates(self):
         reported = self.measures(real_file("btk-others/PiG_Motion3_FF.c3d"), "--measures", "gait")

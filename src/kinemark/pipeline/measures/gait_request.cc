@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/plates.h"
@@ -87,6 +88,16 @@ Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const dat
 
 nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
   Json out;
+  const auto& kind = gait.kind;
+  out["type"] = analysis::to_string(kind.manner);
+  out["surface"] = gait.treadmill ? "treadmill" : "ground";
+  out["direction"] = analysis::to_string(kind.direction);
+  out["turning_deg"] = kind.turn_rad * 180.0 / std::numbers::pi;
+  out["turning"] = kind.turning;
+  out["speed"] = 1e3 * kind.speed_m_per_s;
+  out["stride_time_s"] = kind.stride_s;
+  out["person"] = gait.person.empty() ? Json(nullptr) : Json(gait.person);
+  out["plates_out_of_step"] = gait.out_of_step;
   out["treadmill"] = gait.treadmill;
   out["belt_speed"] = gait.treadmill ? Json(1e3 * gait.belt_speed_m_per_s) : Json(nullptr);
   out["events"] = Json::array();
@@ -102,6 +113,8 @@ nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
 
 std::string events_text(const analysis::Gait& gait) {
   std::string out = "Events of walking\n";
+  if (gait.kind.stride_s > 0.0 && gait.kind.not_gait.empty())
+    out += fmt::format("  {}\n", gait.kind.sentence());
   for (const auto& event : gait.events)
     out += fmt::format(
         "  {:<5} {:<11} {:8.3f} {} s  {}\n", data::to_string(event.side), data::to_string(event.what),

@@ -21,13 +21,9 @@ namespace {
 using data::FootEvent;
 using data::Side;
 
-constexpr double kBelt_m_per_s = 0.15;  // slower is no belt, but a foot that rolls
-
-bool is_belt(const Ground& ground) { return ground.velocity.norm() > kBelt_m_per_s; }
-
 // How the ground moves, as far as it does, with an error of its speed.
-Eigen::RowVector2d belt_of(const Ground& ground, double error_m_per_s = 0.0) {
-  if (!is_belt(ground)) return {0.0, 0.0};
+Eigen::RowVector2d belt_of(const GaitKind& kind, const Ground& ground, double error_m_per_s = 0.0) {
+  if (!kind.belt) return {0.0, 0.0};
   return (1.0 + error_m_per_s / ground.velocity.norm()) * ground.velocity;
 }
 
@@ -59,9 +55,9 @@ struct Slot {
 
 class GaitMeasurement {
  public:
-  GaitMeasurement(const GaitSmoother& smoother, const EventsFound& found, const TimeBase& time,
-                  const GaitOptions& options)
-      : smoother_(smoother), found_(found), time_(time), options_(options) {
+  GaitMeasurement(const GaitSmoother& smoother, const MarkerEvents& markers, const EventsFound& found,
+                  const TimeBase& time, const GaitOptions& options)
+      : smoother_(smoother), markers_(markers), found_(found), time_(time), options_(options) {
     regions_ = options.regions;
     if (regions_.empty())
       regions_.push_back({.first_frame = time.number(0), .last_frame = time.number(time.frames - 1)});
@@ -76,7 +72,7 @@ class GaitMeasurement {
 
   void measure(Gait& out) const {
     const auto& paths = smoother_.paths();
-    out.cycles = find_cycles(paths, found_.events, belt_of(found_.ground));
+    out.cycles = find_cycles(paths, found_.events, belt_of(markers_.kind, markers_.belt), backward());
     const auto values = values_of(out.cycles);
     const auto refits = at(options_.refits);
     std::vector<std::vector<double>> deviations(slots_.size(), std::vector<double>(refits));
@@ -96,6 +92,8 @@ class GaitMeasurement {
   }
 
  private:
+  [[nodiscard]] bool backward() const { return markers_.kind.direction == GaitDirection::backward; }
+
   std::vector<GaitCycle> cycles_in(std::span<const GaitCycle> cycles, std::size_t region) const {
     std::vector<GaitCycle> out;
     for (const auto& cycle : cycles)
@@ -123,37 +121,35 @@ class GaitMeasurement {
   // found.
   std::vector<double> refit(std::int64_t k, std::vector<std::vector<double>>& noise) const {
     const auto paths = smoother_.with_noise(options_.seed, k);
-    const auto ground = ground_velocity(paths, found_.swings);
-    std::array<std::array<std::vector<double>, 2>, 2> again;
-    for (const Side side : data::kBothSides)
-      for (const FootEvent what : data::kFootEvents)
-        again[data::index_of(side)][data::index_of(what)] =
-            find_in_windows(paths, side, what, found_.chosen[data::index_of(what)].method,
-                            found_.swings[data::index_of(side)], ground.velocity);
+    const auto ground = ground_velocity(paths, markers_.ground.velocity);
+    const auto again = find_edges_again(paths, markers_.steps, ground.velocity, markers_.edges);
+    const bool running = markers_.kind.manner != GaitManner::walk;
     Random random(options_.seed, mix64(0x6576656e74) ^ static_cast<std::uint64_t>(k));
     std::array<double, 2> common{};
-    for (const FootEvent what : data::kFootEvents)
-      common[data::index_of(what)] =
-          found_.chosen[data::index_of(what)].error.offset_sd_s * random.gaussian();
+    for (const FootEvent what : data::kFootEvents) common[data::index_of(what)] = random.gaussian();
     auto events = found_.events;
     for (std::size_t i = 0; i < events.size(); ++i) {
       auto& event = events[i];
       const double draw = random.gaussian();
-      if (found_.window[i] < 0) {
+      if (found_.edge[i] < 0) {
         event.time_s += std::isfinite(event.sd_s) ? event.sd_s * draw : 0.0;
         continue;
       }
-      const auto what = data::index_of(event.what);
-      const auto& error = found_.chosen[what].error;
-      const double frame = again[data::index_of(event.side)][what][at(found_.window[i])];
-      noise[i][at(k)] = paths.time_s(frame) - error.offset_s - event.time_s;
-      event.time_s += noise[i][at(k)] + common[what] + error.event_sd_s * draw;
+      const auto& edge = again[at(found_.edge[i])];
+      const auto& fused = markers_.fused[at(found_.edge[i])];
+      const auto& offset = found_.offset[data::index_of(event.what)];
+      const double after = fuse(edge.after_s, edge.what, running, paths.foot(edge.side).set, 0.0).after_s;
+      noise[i][at(k)] = paths.time_s(edge.frame) + after - offset.offset_s - event.time_s;
+      event.time_s += noise[i][at(k)] +
+                      common[data::index_of(event.what)] * offset.share * fused.common_sd_s +
+                      draw * fused.own_sd_s;
     }
     // What this recording would not have shown, no cycle can begin or end with.
     std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
-    const double belt_error = found_.ground.sd * random.gaussian();
-    auto cycles =
-        find_cycles(paths, events, belt_of(is_belt(found_.ground) ? ground : found_.ground, belt_error));
+    const double belt_error = markers_.belt.sd * random.gaussian();
+    auto cycles = find_cycles(
+        paths, events, belt_of(markers_.kind, belt_velocity(paths, markers_.steps, ground), belt_error),
+        backward());
     jitter(cycles, random);
     return values_of(cycles);
   }
@@ -197,6 +193,7 @@ class GaitMeasurement {
   }
 
   const GaitSmoother& smoother_;
+  const MarkerEvents& markers_;
   const EventsFound& found_;
   TimeBase time_;
   const GaitOptions& options_;
@@ -204,25 +201,29 @@ class GaitMeasurement {
   std::vector<Slot> slots_;
 };
 
-void note_choice(const EventsFound& found, Gait& out) {
-  std::array<int, 2> by_plate{}, by_markers{};
-  for (const auto& event : found.events) {
-    by_plate[data::index_of(event.what)] += event.source == data::EventSource::plate;
-    by_markers[data::index_of(event.what)] += event.source == data::EventSource::kinematics;
-  }
+// How many events come from where, how sources agree, and strikes between which one is missing.
+void note_events(const EventsFound& found, Gait& out) {
   for (const FootEvent what : data::kFootEvents) {
-    const auto i = data::index_of(what);
-    const auto& chosen = found.chosen[i];
-    if (by_plate[i] > 0)
-      out.notes.push_back(fmt::format("{}: {} by plates", data::to_string(what), by_plate[i]));
-    if (by_markers[i] > 0)
-      out.notes.push_back(fmt::format(
-          "{}: {} by {}{}", data::to_string(what), by_markers[i], to_string(chosen.method),
-          chosen.compared > 0 ? fmt::format(", which agrees best with the plates; {:.0f} ms were taken off",
-                                            1e3 * chosen.error.offset_s)
-                              : ", as no plate decides"));
+    std::string by;
+    for (const auto source :
+         {data::EventSource::plate, data::EventSource::kinematics, data::EventSource::file}) {
+      const auto count = std::ranges::count_if(
+          found.events, [&](const auto& event) { return event.what == what && event.source == source; });
+      if (count > 0)
+        by += fmt::format("{}{} by {}", by.empty() ? "" : ", ", count,
+                          source == data::EventSource::plate        ? "plates"
+                          : source == data::EventSource::kinematics ? "markers"
+                                                                    : "the file");
+    }
+    if (!by.empty()) out.notes.push_back(fmt::format("{}: {}", data::to_string(what), by));
   }
+  std::ranges::copy(found.notes, std::back_inserter(out.notes));
   for (const auto& agreement : found.agreement) out.notes.push_back(sentence_of(agreement));
+  for (const auto& bridge : find_bridges(found.events))
+    out.notes.push_back(fmt::format(
+        "{} foot: no strike is found between {:.2f} and {:.2f} s, {:.1f} times the usual stride; that is no "
+        "stride",
+        bridge.side == Side::left ? "left" : "right", bridge.start_s, bridge.end_s, bridge.strides));
 }
 
 }  // namespace
@@ -238,35 +239,33 @@ double event_noise(std::span<const double> moved_s) {
 
 Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                           const GaitOptions& options) {
-  const auto which = find_gait_markers(markers.names, options.markers);
+  const auto which = find_gait_markers(markers, options.markers);
   if (!which) return std::unexpected(which.error());
-  const auto smoother = GaitSmoother::create(markers, *which, options.noise_sd_m);
+  auto smoother = GaitSmoother::create(markers, *which, options.noise_sd_m);
   if (!smoother) return std::unexpected(smoother.error());
-  Gait out;
-  out.notes = which->notes;
-  const auto& paths = smoother->paths();
+  const auto of_markers = find_marker_events(*smoother, *which);
+  if (!of_markers) return std::unexpected(of_markers.error());
+  const bool by_markers = options.choice == EventChoice::best || options.choice == EventChoice::kinematics;
+  if (by_markers && !of_markers->kind.not_gait.empty())
+    return fail(Code::bad_input, "not locomotion: " + of_markers->kind.not_gait);
+  Gait out{.kind = of_markers->kind, .person = which->person};
+  out.treadmill = out.kind.belt, out.belt_speed_m_per_s = out.kind.belt_m_per_s;
+  if (out.kind.not_gait.empty()) out.notes.push_back(out.kind.sentence());
+  std::ranges::copy(which->notes, std::back_inserter(out.notes));
+  std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
   if (evidence.plates != nullptr)
-    of_plates = find_plate_events(*evidence.plates, evidence.corners, paths, smoother->upright());
+    of_plates = find_plate_events(*evidence.plates, evidence.corners, smoother->paths(), smoother->upright());
   std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
   auto of_file = events_of_file(evidence.events, markers.time);
   std::ranges::move(of_file.notes, std::back_inserter(out.notes));
-  const auto found = find_gait_events(paths, of_plates.events, of_file.events, options.choice);
+  const auto found = find_gait_events(*of_markers, of_plates.events, of_file.events, options.choice);
   if (found.events.empty())
-    return fail(Code::bad_input,
-                options.choice == EventChoice::best || options.choice == EventChoice::kinematics
-                    ? std::string("no foot steps: neither swings by 0.15 m against the other")
-                    : fmt::format("there are no events of feet by {}", to_string(options.choice)));
+    return fail(Code::bad_input, fmt::format("there are no events of feet by {}", to_string(options.choice)));
   out.agreement = found.agreement;
-  note_choice(found, out);
-  if (is_belt(found.ground)) {
-    out.treadmill = true;
-    out.belt_speed_m_per_s = found.ground.velocity.norm();
-    out.notes.push_back(
-        fmt::format("walking on a treadmill: the feet slide back at {:.3f} m/s while they stand",
-                    out.belt_speed_m_per_s));
-  }
-  GaitMeasurement(*smoother, found, markers.time, options).measure(out);
+  out.out_of_step = found.out_of_step;
+  note_events(found, out);
+  GaitMeasurement(*smoother, *of_markers, found, markers.time, options).measure(out);
   return out;
 }
 

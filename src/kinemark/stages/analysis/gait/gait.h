@@ -47,10 +47,13 @@ struct Gait {
   std::vector<data::GaitEvent> events;  ///< ascending in time, with SDs
   std::vector<GaitCycle> cycles;        ///< by side and time
   std::vector<data::Measure> measures;  ///< by region, in the order of gait_definitions(), left before right
-  bool treadmill = false;               ///< the feet slide back during stance
+  GaitKind kind;                        ///< walk, run or sprint, on ground or belt, which way
+  std::string person;                   ///< before the colon of the markers' names; empty: one person
+  bool treadmill = false;               ///< the ground moves under the feet: kind.belt
   double belt_speed_m_per_s = 0.0;      ///< of a treadmill
-  std::vector<Agreement> agreement;     ///< between sources, between methods
-  std::vector<std::string> notes;       ///< which markers, which methods, what was left out; a sentence each
+  std::vector<Agreement> agreement;     ///< between sources
+  bool out_of_step = false;             ///< plates and markers do not run on one clock
+  std::vector<std::string> notes;  ///< kind, markers, sources, what is hidden or missing; a sentence each
 };
 
 /// Find events, cycles and measures of walking (docs/theory/gait.md).
@@ -59,7 +62,8 @@ struct Gait {
 /// drawn with their SDs, all measures computed again.
 ///
 /// @return  Code::usage for an unknown measure (callers tell what else there is) or role; Code::bad_input as
-///          find_gait_markers() and GaitSmoother::create(), and where no foot steps.
+///          find_gait_markers() and GaitSmoother::create(), where `best` or `kinematics` is asked for and the
+///          recording holds no locomotion, with the reason, and where there is no event.
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
 

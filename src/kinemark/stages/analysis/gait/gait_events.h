@@ -13,8 +13,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/gait_event.h"
 #include "kinemark/data/trial.h"
-#include "kinemark/stages/analysis/gait/gait_paths.h"
-#include "kinemark/stages/analysis/gait/kinematic_events.h"
+#include "kinemark/stages/analysis/gait/marker_events.h"
 
 namespace kinemark::analysis {
 
@@ -30,37 +29,31 @@ enum class EventChoice : std::uint8_t {
 /// The choice of that name; Code::usage, with all names, for another.
 [[nodiscard]] Result<EventChoice> parse_event_choice(std::string_view name);
 
-/// The error of a method's times against plates, of one recording.
-struct MethodError {
-  double offset_s = 0.0;     ///< subtracted from its times: what plates showed, 0 without them
-  double offset_sd_s = 0.0;  ///< common to all events of its kind
-  double event_sd_s = 0.0;   ///< of each event by itself
-};
-
-/// Events of one kind by one method.
-struct KinematicChoice {
-  EventMethod method = EventMethod::foot_velocity;  ///< that was chosen
-  MethodError error;                                ///< of it
-  int compared = 0;                                 ///< events that plates saw too
-};
-
 /// How two sources differ over the instants of one kind that both tell.
 struct Agreement {
-  std::string what;     ///< "Foot Strike: Zeni 2008 against O'Connor 2007"
+  std::string what;     ///< "Foot Strike: markers and the plates"
   int count = 0;        ///< of instants
   double mean_s = 0.0;  ///< the first less the second
   double sd_s = kNaN;   ///< of the differences, N - 1; NaN of one
   double most_s = 0.0;  ///< the largest difference, without sign
 };
 
+/// Offset of the markers' events of one kind against the plates of the recording, taken off where `best` is
+/// asked for.
+struct PlateOffset {
+  double offset_s = 0.0;  ///< subtracted from the markers' times; 0: nothing was
+  double share = 1.0;     ///< of each event's common SD that is left
+  int compared = 0;       ///< events that the plates saw too
+};
+
 /// Events of a recording by one choice.
 struct EventsFound {
   std::vector<data::GaitEvent> events;  ///< ascending in time
-  std::vector<std::int64_t> window;     ///< of each event: in swings of its side and kind; -1: not by markers
-  std::array<KinematicChoice, 2> chosen;  ///< for strike, for leaving
-  std::array<FootSwings, 2> swings;       ///< left, right
-  Ground ground;                          ///< ground_velocity()
-  std::vector<Agreement> agreement;       ///< between sources, between methods
+  std::vector<std::int64_t> edge;       ///< of each event: in MarkerEvents::edges; -1: not by markers
+  std::array<PlateOffset, 2> offset;    ///< of strikes, of leavings
+  std::vector<Agreement> agreement;     ///< between sources
+  bool out_of_step = false;             ///< plates and markers do not run on one clock
+  std::vector<std::string> notes;       ///< on plates out of step, on what was taken off; a sentence each
 };
 
 /// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or
@@ -74,20 +67,22 @@ struct FileEvents {
 /// @param time    of the recording
 [[nodiscard]] FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& time);
 
-/// Find the events of all feet.
+/// Choose among events of markers, plates and file.
 ///
-/// For each kind, the method is the one that agrees best with the plates: each has an offset and errors of
-/// events, both normal (docs/theory/gait.md has their SDs), and the method of the greatest likelihood is
-/// taken. Without plates, strike is by O'Connor 2007 and leaving by Zeni 2008, else by the next that finds
-/// any. The offset to plates is taken off, shrunk by its variance; the SD of events is updated by what
-/// differs from plates. Without them, by what differs between the two methods preferred, whose mean
-/// difference the SD of the offset is at least half of. Noise is not in these SDs: analyze_gait() adds it.
+/// `best` takes a plate's event in place of the markers' of the same instant (nearest, within 0.15 s), and
+/// takes the mean difference of the others to the plates off, shrunk by what one laboratory's offset and the
+/// errors of events are worth (docs/theory/gait.md): said in `notes`. `kinematics` is what the markers tell,
+/// whatever plates and file hold.
+///
+/// Plates and markers are out of step where strikes and leavings differ by more than 30 ms on average, both
+/// the same way: `best` then takes no event of a plate.
 ///
 /// @param of_plates, of_file  what they tell; their events are compared, and taken as `choice` says
-[[nodiscard]] EventsFound find_gait_events(const GaitPaths& paths, std::span<const data::GaitEvent> of_plates,
+[[nodiscard]] EventsFound find_gait_events(const MarkerEvents& of_markers,
+                                           std::span<const data::GaitEvent> of_plates,
                                            std::span<const data::GaitEvent> of_file, EventChoice choice);
 
-/// In words: "Foot Off: Zeni 2008 and O'Connor 2007 differ by -8 +- 5 ms in 6 events, by 14 ms at most".
+/// In words: "Foot Off: markers and the plates differ by -8 +- 5 ms in 6 events, by 14 ms at most".
 [[nodiscard]] std::string sentence_of(const Agreement& agreement);
 
 }  // namespace kinemark::analysis

@@ -15,7 +15,7 @@ using data::FootEvent;
 using data::Side;
 using Eigen::Vector2d;
 
-constexpr double kLeastCycle_s = 0.4, kMostCycle_s = 3.0, kMostOfMedian = 1.6;
+constexpr double kLeastCycle_s = 0.3, kMostCycle_s = 3.0, kMostOfMedian = 1.6;
 constexpr double kPrintFrom = 0.2, kPrintTo = 0.45;  // of the stance
 constexpr double kUsualStance = 0.6;                 // of the cycle
 
@@ -48,6 +48,15 @@ Footprint print_of(const GaitPaths& paths, const FootPaths& foot, double strike_
           .sd = std::sqrt(std::max(0.0, 0.5 * (squares / n - mean.squaredNorm())))};
 }
 
+Times times_of(std::span<const data::GaitEvent> events) {
+  Times out;
+  for (const auto& event : events)
+    out[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
+  for (auto& side : out)
+    for (auto& kind : side) std::ranges::sort(kind);
+  return out;
+}
+
 // A strike's stance: to the foot's leaving before its next strike, else the usual share of a cycle.
 double stance_of(const Times& times, Side side, double strike_s, double cycle_s) {
   const double off = first_between(times[data::index_of(side)][data::index_of(FootEvent::off)], strike_s,
@@ -64,29 +73,46 @@ double GaitCycle::step_length() const {
 double GaitCycle::step_width() const {
   const Vector2d along = (next_print.x - print.x).normalized(), across = other_print.x - print.x;
   const double to_the_left = along.x() * across.y() - along.y() * across.x();
-  return side == Side::right ? to_the_left : -to_the_left;
+  return (side == Side::right) != backward ? to_the_left : -to_the_left;
+}
+
+std::vector<Bridge> find_bridges(std::span<const data::GaitEvent> events) {
+  const auto times = times_of(events);
+  std::vector<double> durations;
+  std::vector<Bridge> out;
+  for (const Side side : data::kBothSides) {
+    const auto& strikes = times[data::index_of(side)][data::index_of(FootEvent::strike)];
+    for (std::size_t i = 0; i + 1 < strikes.size(); ++i) {
+      durations.push_back(strikes[i + 1] - strikes[i]);
+      out.push_back({.side = side, .start_s = strikes[i], .end_s = strikes[i + 1]});
+    }
+  }
+  const double usual = math::median(durations);
+  std::erase_if(out, [&](const Bridge& bridge) {
+    const auto& offs = times[data::index_of(bridge.side)][data::index_of(FootEvent::off)];
+    const auto between =
+        std::ranges::count_if(offs, [&](double t) { return t > bridge.start_s && t < bridge.end_s; });
+    return between < 2 && !(bridge.end_s - bridge.start_s > kMostOfMedian * usual);
+  });
+  for (auto& bridge : out) bridge.strides = (bridge.end_s - bridge.start_s) / usual;
+  return out;
 }
 
 std::vector<GaitCycle> find_cycles(const GaitPaths& paths, std::span<const data::GaitEvent> events,
-                                   const Eigen::RowVector2d& ground) {
-  Times times;
-  for (const auto& event : events)
-    times[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
-  for (auto& side : times)
-    for (auto& kind : side) std::ranges::sort(kind);
-  std::vector<double> durations;
+                                   const Eigen::RowVector2d& ground, bool backward) {
+  const auto times = times_of(events);
+  const auto bridges = find_bridges(events);
   std::vector<GaitCycle> out;
   for (const Side side : data::kBothSides) {
     const auto& strikes = times[data::index_of(side)][data::index_of(FootEvent::strike)];
     for (std::size_t i = 0; i + 1 < strikes.size(); ++i) {
       const double duration = strikes[i + 1] - strikes[i];
-      if (duration < kLeastCycle_s || duration > kMostCycle_s) continue;
-      durations.push_back(duration);
-      out.push_back({.side = side, .start_s = strikes[i], .end_s = strikes[i + 1]});
+      const bool bridge = std::ranges::any_of(
+          bridges, [&](const Bridge& one) { return one.side == side && one.start_s == strikes[i]; });
+      if (bridge || duration < kLeastCycle_s || duration > kMostCycle_s) continue;
+      out.push_back({.side = side, .start_s = strikes[i], .end_s = strikes[i + 1], .backward = backward});
     }
   }
-  const double usual = math::median(durations);
-  std::erase_if(out, [&](const auto& cycle) { return cycle.end_s - cycle.start_s > kMostOfMedian * usual; });
   for (auto& cycle : out) {
     const Side other = data::opposite(cycle.side);
     const auto& own = times[data::index_of(cycle.side)];

@@ -32,6 +32,7 @@ struct GaitCycle {
   Footprint print;                     ///< of this step
   Footprint other_print;               ///< of the other foot's step
   Footprint next_print;                ///< of the next step of this foot
+  bool backward = false;               ///< the feet point against the way that they go
 
   /// From print to print of this foot, m.
   [[nodiscard]] double stride_length() const { return (next_print.x - print.x).norm(); }
@@ -41,15 +42,28 @@ struct GaitCycle {
   [[nodiscard]] double step_width() const;
 };
 
-/// Cycles of both feet, ascending by side and time. A cycle lasts 0.4 to 3 s, and at most 1.6 times the
-/// median: longer ones have lost a strike.
+/// From one strike of a foot to its next, where another one is missing between: no stride.
+struct Bridge {
+  data::Side side = data::Side::left;  ///< of the foot
+  double start_s = 0.0;                ///< its strike
+  double end_s = 0.0;                  ///< the next that was found
+  double strides = 0.0;                ///< usual ones that it lasts
+};
+/// Pairs of strikes that lie more than 1.6 times the median of both feet apart, or that two leavings of the
+/// foot lie between; by side and time.
+/// @param events  ascending in time
+[[nodiscard]] std::vector<Bridge> find_bridges(std::span<const data::GaitEvent> events);
+
+/// Cycles of both feet, ascending by side and time. A cycle lasts 0.3 to 3 s and is no bridge of
+/// find_bridges().
 ///
 /// A footprint is the mean place of the heel from 20 to 45 % of the stance (of 60 % of the cycle, where the
 /// foot's leaving was not seen).
 /// @param events  ascending in time
-/// @param ground  how it moves, m/s; 0: over ground
+/// @param ground    how it moves, m/s; 0: over ground
+/// @param backward  of all cycles
 [[nodiscard]] std::vector<GaitCycle> find_cycles(const GaitPaths& paths,
                                                  std::span<const data::GaitEvent> events,
-                                                 const Eigen::RowVector2d& ground);
+                                                 const Eigen::RowVector2d& ground, bool backward = false);
 
 }  // namespace kinemark::analysis

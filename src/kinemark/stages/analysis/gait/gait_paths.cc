@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
-#include "kinemark/core/text.h"
 #include "kinemark/math/smoothing_choice.h"
 
 namespace kinemark::analysis {
@@ -20,112 +20,172 @@ namespace {
 using math::SeriesMatrix;
 
 constexpr double kLeastRate_hz = 20.0;
-constexpr std::int64_t kLeastFrames = 20;
-constexpr double kUnknown_s = 0.1;  // from the nearest frame in which a foot was measured
-constexpr int kOrder = 2;           // gain 1 / (1 + (f / cut-off)^4)
+constexpr std::int64_t kLeastSamples = 8;
+constexpr double kBridged_s = 0.25, kPelvisBridged_s = 1.0;  // gaps up to these are known all the same
+constexpr int kOrder = 2;                                    // gain 1 / (1 + (f / cut-off)^4)
+// A smoother that halves the amplitude at f halves the power at (sqrt(2) - 1)^(1/4) f.
+constexpr double kHalfPowerOfHalfGain = 0.8022;
+constexpr double kMostOfRate = 0.4;
 
-bool measured(const data::Trajectories& markers, std::int64_t f, std::int64_t m) {
-  return markers.state[markers.index(f, m)] == data::SampleState::measured;
+std::vector<FrameSpan> gaps_of(const std::vector<bool>& seen) {
+  std::vector<FrameSpan> out;
+  const auto n = static_cast<std::int64_t>(seen.size());
+  for (std::int64_t f = 0; f < n; ++f) {
+    if (seen[at(f)]) continue;
+    std::int64_t last = f;
+    while (last + 1 < n && !seen[at(last + 1)]) ++last;
+    out.push_back({.first = f, .last = last});
+    f = last;
+  }
+  return out;
 }
 
-std::int64_t frames_measured(const data::Trajectories& markers, const std::vector<std::int64_t>& of) {
-  std::int64_t count = 0;
+// Seen, or within a gap of that many seconds between frames that are.
+std::vector<bool> bridged(std::vector<bool> seen, double most_s, double rate_hz) {
+  const auto n = static_cast<std::int64_t>(seen.size());
+  for (const auto& gap : gaps_of(seen))
+    if (gap.first > 0 && gap.last + 1 < n && static_cast<double>(gap.count()) <= most_s * rate_hz)
+      std::fill(seen.begin() + gap.first, seen.begin() + gap.last + 1, true);
+  return seen;
+}
+
+std::vector<bool> both(const std::vector<bool>& a, const std::vector<bool>& b) {
+  std::vector<bool> out(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] && b[i];
+  return out;
+}
+
+SeriesMatrix samples_of(const data::Trajectories& markers, std::int64_t m, const std::vector<bool>& seen) {
+  SeriesMatrix out = SeriesMatrix::Zero(markers.frames(), 3);
   for (std::int64_t f = 0; f < markers.frames(); ++f)
-    count += std::ranges::all_of(of, [&](auto m) { return measured(markers, f, m); });
-  return count;
-}
-
-std::vector<bool> known_frames(const data::Trajectories& markers, const FootMarkers& foot) {
-  const std::int64_t n = markers.frames();
-  const std::int64_t reach = std::llround(kUnknown_s * markers.time.rate_hz);
-  std::vector<bool> out(at(n), false);
-  std::int64_t filled = 0;  // frames before this one are settled
-  for (std::int64_t f = 0; f < n; ++f) {
-    if (!measured(markers, f, foot.heel) || !measured(markers, f, foot.toe)) continue;
-    const std::int64_t end = std::min(n, f + reach + 1);
-    for (std::int64_t k = std::max(filled, f - reach); k < end; ++k) out[at(k)] = true;
-    filled = end;
-  }
+    if (seen[at(f)]) out.row(f) = markers.x(f, m).transpose();
   return out;
 }
 
-// The laboratory's axis along which the body stands above its feet: its pelvis, else all markers but the
-// feet's.
-Result<Eigen::Vector3d> find_up(const data::Trajectories& markers, const GaitMarkers& which,
-                                const std::vector<std::int64_t>& pelvis) {
-  std::vector<bool> of_foot(at(markers.markers()), false);
-  for (const auto& foot : which.feet)
-    if (foot.complete()) of_foot[at(foot.heel)] = of_foot[at(foot.toe)] = true;
-  Eigen::Vector3d feet = Eigen::Vector3d::Zero(), body = Eigen::Vector3d::Zero();
-  double feet_count = 0.0, body_count = 0.0;
-  const auto add = [&](std::int64_t f, std::int64_t m) {
-    if (!measured(markers, f, m)) return;
-    (of_foot[at(m)] ? feet : body) += markers.x(f, m);
-    (of_foot[at(m)] ? feet_count : body_count) += 1.0;
-  };
-  const auto step = std::max<std::int64_t>(1, markers.frames() / 500);
-  for (std::int64_t f = 0; f < markers.frames(); f += step) {
-    for (std::int64_t m = 0; m < markers.markers(); ++m)
-      if (of_foot[at(m)] || pelvis.empty()) add(f, m);
-    for (const auto m : pelvis) add(f, m);
+// Mean of what is believed of some markers in each frame; NaN where none is.
+SeriesMatrix mean_of_markers(const data::Trajectories& markers, const std::vector<std::int64_t>& of) {
+  SeriesMatrix sum = SeriesMatrix::Zero(markers.frames(), 3);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(markers.frames());
+  for (const auto m : of) {
+    const auto seen = believe_samples(markers, m).seen;
+    for (std::int64_t f = 0; f < markers.frames(); ++f)
+      if (seen[at(f)]) sum.row(f) += markers.x(f, m).transpose(), count[f] += 1.0;
   }
-  const Eigen::Vector3d upward = body / body_count - feet / feet_count;
-  Eigen::Index axis = 0;
-  if (!(upward.cwiseAbs().maxCoeff(&axis) > 0.8 * upward.norm()))
-    return fail(Code::bad_input, "nobody can tell which way is up: no marker stands above those of the feet");
-  return Eigen::Vector3d((upward[axis] < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis));
-}
-
-// Where the feet point to, over a second around each frame.
-SeriesMatrix forward_of(const std::array<FootPaths, 2>& feet, std::int64_t n, double rate_hz) {
-  SeriesMatrix sums = SeriesMatrix::Zero(n + 1, 2);
-  for (std::int64_t f = 0; f < n; ++f) {
-    sums.row(f + 1) = sums.row(f);
-    for (const auto& foot : feet)
-      if (foot.present() && foot.known[at(f)])
-        sums.row(f + 1) += (foot.toe.row(f) - foot.heel.row(f)).leftCols<2>();
-  }
-  SeriesMatrix out(n, 2);
-  const std::int64_t half = std::llround(0.5 * rate_hz);
-  Eigen::RowVector2d before =
-      sums.row(n).norm() > 0.0 ? Eigen::RowVector2d(sums.row(n).normalized()) : Eigen::RowVector2d(1.0, 0.0);
-  for (std::int64_t f = 0; f < n; ++f) {
-    const Eigen::RowVector2d sum =
-        sums.row(std::min(n, f + half + 1)) - sums.row(std::max<std::int64_t>(0, f - half));
-    if (sum.norm() > 0.0) before = sum.normalized();
-    out.row(f) = before;
-  }
-  return out;
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    if (count[f] < static_cast<double>(of.size())) sum.row(f).setConstant(kNaN);
+  return sum.array().colwise() / count.array();
 }
 
 }  // namespace
 
-Result<GaitSmoother::Point> GaitSmoother::smooth_point(const data::Trajectories& markers,
-                                                       const std::vector<std::int64_t>& of,
-                                                       double noise_sd_m) {
-  const std::int64_t n = markers.frames();
-  SeriesMatrix x = SeriesMatrix::Zero(n, 3);
-  std::vector<bool> seen(at(n), false);
-  std::int64_t count = 0;
-  for (std::int64_t f = 0; f < n; ++f) {
-    if (!std::ranges::all_of(of, [&](auto m) { return measured(markers, f, m); })) continue;
-    for (const auto m : of) x.row(f) += markers.x(f, m).transpose() / static_cast<double>(of.size());
-    seen[at(f)] = true;
-    ++count;
-  }
-  std::vector<std::string> names;
-  for (const auto m : of) names.push_back(markers.names[at(m)]);
-  if (count < kLeastFrames)
-    return fail(Code::bad_input, fmt::format("{} was measured in {} frames; need {} at least",
-                                             join_names(names, 3), count, kLeastFrames));
-  double noise = math::noise_from_differences(x, seen);
+Result<GaitSmoother::Point> GaitSmoother::make_point(SeriesMatrix raw, std::vector<bool> seen,
+                                                     double noise_sd_m, const std::string& what) {
+  const auto count = std::ranges::count(seen, true);
+  if (count < kLeastSamples)
+    return fail(Code::bad_input,
+                fmt::format("{} is believed in {} frames; need {} at least", what, count, kLeastSamples));
+  double noise = math::noise_from_differences(raw, seen);
   if (!(noise > noise_sd_m)) noise = noise_sd_m;
-  Point out{.smoother = math::DifferenceSmoother(std::move(seen), kOrder), .noise_sd_m = noise, .smooth = {}};
-  if (!out.smoother.factor(kGaitCutOff_hz / markers.time.rate_hz))
-    return fail(Code::bad_input, fmt::format("no smoother fits the samples of {}", join_names(names, 3)));
-  out.smoother.smooth(x);
-  out.smooth = std::move(x);
-  return out;
+  return Point{.raw = std::move(raw),
+               .smoother = math::DifferenceSmoother(std::move(seen), kOrder),
+               .noise_sd_m = noise,
+               .smooth = {}};
+}
+
+Status GaitSmoother::add_foot(const data::Trajectories& markers, const FootMarkers& foot, data::Side side,
+                              double noise_sd_m) {
+  const auto i = data::index_of(side);
+  heel_[i] = static_cast<int>(points_.size());
+  set_[i] = foot.set;
+  toe_[i] = heel_[i] + (foot.points() ? 1 : 0);
+  auto& how = seen_[i];
+  std::vector<bool> all(at(markers.frames()), true), known(at(markers.frames()), true);
+  for (const auto m : {foot.heel, foot.toe}) {
+    if (m == foot.toe && !foot.points() && static_cast<int>(points_.size()) > heel_[i]) break;  // one marker
+    auto believed = believe_samples(markers, m);
+    all = both(all, believed.seen);
+    known = both(known, bridged(believed.seen, kBridged_s, markers.time.rate_hz));
+    how.leaps += believed.leaps;
+    how.held.insert(how.held.end(), believed.held.begin(), believed.held.end());
+    auto raw = samples_of(markers, m, believed.seen);
+    auto point = make_point(std::move(raw), std::move(believed.seen), noise_sd_m, markers.names[at(m)]);
+    if (!point) return std::unexpected(point.error());
+    points_.push_back(std::move(*point));
+  }
+  std::ranges::sort(how.held, {}, &FrameSpan::first);
+  for (const auto& gap : gaps_of(known))
+    if (static_cast<double>(gap.count()) > kBridged_s * markers.time.rate_hz) how.hidden.push_back(gap);
+  how.share = static_cast<double>(std::ranges::count(all, true)) / static_cast<double>(markers.frames());
+  known_[i] = std::move(known);
+  return {};
+}
+
+Status GaitSmoother::add_pelvis(const data::Trajectories& markers, const GaitMarkers& which,
+                                double noise_sd_m) {
+  const std::int64_t n = markers.frames();
+  std::vector<std::vector<bool>> seen;
+  for (const auto m : which.pelvis) seen.push_back(believe_samples(markers, m).seen);
+  const auto most =
+      std::ranges::max_element(seen, {}, [](const auto& one) { return std::ranges::count(one, true); });
+  const auto reference = static_cast<std::size_t>(most - seen.begin());
+  // Each marker stands for the mean of all by its mean place among them, so that one that is missing makes no
+  // jump.
+  std::vector<Eigen::Vector3d> offset(seen.size(), Eigen::Vector3d::Zero());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    double count = 0.0;
+    for (std::int64_t f = 0; f < n; ++f)
+      if (seen[k][at(f)] && seen[reference][at(f)]) {
+        offset[k] += markers.x(f, which.pelvis[k]) - markers.x(f, which.pelvis[reference]);
+        count += 1.0;
+      }
+    if (count > 0.0) offset[k] /= count;
+    middle += offset[k] / static_cast<double>(seen.size());
+  }
+  SeriesMatrix raw = SeriesMatrix::Zero(n, 3);
+  std::vector<bool> any(at(n), false);
+  for (std::int64_t f = 0; f < n; ++f) {
+    double count = 0.0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      if (seen[k][at(f)]) sum += markers.x(f, which.pelvis[k]) - offset[k], count += 1.0;
+    if (count == 0.0) continue;
+    any[at(f)] = true;
+    raw.row(f) = (sum / count + middle).transpose();
+  }
+  pelvis_known_ = bridged(any, kPelvisBridged_s, markers.time.rate_hz);
+  auto point = make_point(std::move(raw), std::move(any), noise_sd_m, "the pelvis");
+  if (!point) return std::unexpected(point.error());
+  points_.push_back(std::move(*point));
+  if (!which.front.empty() && !which.back.empty())
+    front_ = mean_of_markers(markers, which.front) - mean_of_markers(markers, which.back);
+  if (which.front.size() == 2)
+    across_ = mean_of_markers(markers, {which.front[0]}) - mean_of_markers(markers, {which.front[1]});
+  return {};
+}
+
+// The laboratory's axis along which the pelvis stands above the feet, in frames in which both are seen.
+void GaitSmoother::find_up() {
+  const auto& pelvis = points_.back();
+  Eigen::Vector3d above = Eigen::Vector3d::Zero(), anyway = Eigen::Vector3d::Zero();
+  for (const auto side : data::kBothSides) {
+    if (heel_[data::index_of(side)] < 0) continue;
+    for (const int k : {heel_[data::index_of(side)], toe_[data::index_of(side)]}) {
+      const auto& point = points_[at(k)];
+      for (std::int64_t f = 0; f < time_.frames; ++f)
+        if (point.smoother.seen()[at(f)] && pelvis.smoother.seen()[at(f)])
+          above += (pelvis.raw.row(f) - point.raw.row(f)).transpose();
+      anyway -= point.raw.colwise().sum().transpose() /
+                static_cast<double>(std::ranges::count(point.smoother.seen(), true));
+      anyway += pelvis.raw.colwise().sum().transpose() /
+                static_cast<double>(std::ranges::count(pelvis.smoother.seen(), true));
+    }
+  }
+  if (above.isZero()) above = anyway;
+  Eigen::Index axis = 0;
+  above.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Vector3d up = (above[axis] < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
+  upright_ = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, const GaitMarkers& which,
@@ -136,51 +196,60 @@ Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, con
                             markers.time.rate_hz, kLeastRate_hz));
   GaitSmoother out;
   out.time_ = markers.time;
-  for (const auto side : data::kBothSides) {
-    const auto& foot = which.foot(side);
-    if (!foot.complete()) continue;
-    out.heel_[data::index_of(side)] = static_cast<int>(out.points_.size());
-    for (const auto m : {foot.heel, foot.toe}) {
-      auto point = smooth_point(markers, {m}, noise_sd_m);
-      if (!point) return std::unexpected(point.error());
-      out.points_.push_back(std::move(*point));
-    }
-    out.known_[data::index_of(side)] = known_frames(markers, foot);
-  }
-  std::vector<std::int64_t> pelvis;
-  std::int64_t most = kLeastFrames - 1;
-  for (const auto& set : which.pelvis)  // a later set has to be seen in a fifth more frames
-    if (const auto count = frames_measured(markers, set); count > most + (pelvis.empty() ? 0 : most / 5)) {
-      pelvis = set;
-      most = count;
-    }
-  if (!pelvis.empty()) {
-    auto point = smooth_point(markers, pelvis, noise_sd_m);
-    if (!point) return std::unexpected(point.error());
-    out.pelvis_ = static_cast<int>(out.points_.size());
-    out.points_.push_back(std::move(*point));
-  }
-  const auto up = find_up(markers, which, pelvis);
-  if (!up) return std::unexpected(up.error());
-  out.upright_ = Eigen::Quaterniond::FromTwoVectors(*up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  std::vector<SeriesMatrix> points;
-  for (const auto& point : out.points_) points.push_back(point.smooth);
-  out.paths_ = out.arrange(points);
+  for (const auto side : data::kBothSides)
+    if (which.foot(side).complete())
+      if (auto s = out.add_foot(markers, which.foot(side), side, noise_sd_m); !s)
+        return std::unexpected(s.error());
+  if (auto s = out.add_pelvis(markers, which, noise_sd_m); !s) return std::unexpected(s.error());
+  out.find_up();
+  if (auto s = out.smooth_at(kFirstCutOff_hz); !s) return std::unexpected(s.error());
   return out;
 }
 
+Status GaitSmoother::smooth_at(double cut_off_hz) {
+  const double half_gain = std::min(cut_off_hz / time_.rate_hz, kMostOfRate) / kHalfPowerOfHalfGain;
+  std::vector<SeriesMatrix> points;
+  for (auto& point : points_) {
+    if (!point.smoother.factor(half_gain))
+      return fail(Code::bad_input, "no smoother fits the samples of the markers of walking");
+    point.smooth = point.raw;
+    point.smoother.smooth(point.smooth);
+    points.push_back(point.smooth);
+  }
+  paths_ = arrange(points);
+  return {};
+}
+
+void GaitSmoother::exchange_sides() {
+  std::swap(heel_[0], heel_[1]);
+  std::swap(set_[0], set_[1]);
+  std::swap(toe_[0], toe_[1]);
+  std::swap(known_[0], known_[1]);
+  std::swap(seen_[0], seen_[1]);
+  std::swap(paths_.feet[0], paths_.feet[1]);
+}
+
 GaitPaths GaitSmoother::arrange(const std::vector<SeriesMatrix>& points) const {
-  GaitPaths out{.rate_hz = time_.rate_hz, .start_s = time_.t0_s, .feet = {}, .pelvis = {}, .forward = {}};
+  GaitPaths out{.rate_hz = time_.rate_hz,
+                .start_s = time_.t0_s,
+                .feet = {},
+                .pelvis = {},
+                .pelvis_known = pelvis_known_,
+                .pelvis_front = {},
+                .pelvis_across = {}};
   const Eigen::Matrix3d turn = upright_.transpose();
   for (const auto side : data::kBothSides) {
-    const int heel = heel_[data::index_of(side)];
-    if (heel < 0) continue;
-    out.feet[data::index_of(side)] = {.heel = points[at(heel)] * turn,
-                                      .toe = points[at(heel + 1)] * turn,
-                                      .known = known_[data::index_of(side)]};
+    const auto i = data::index_of(side);
+    if (heel_[i] < 0) continue;
+    out.feet[i] = {.heel = points[at(heel_[i])] * turn,
+                   .toe = points[at(toe_[i])] * turn,
+                   .known = known_[i],
+                   .set = set_[i],
+                   .points = toe_[i] != heel_[i] && set_[i] != FootSet::by_place};
   }
-  if (pelvis_ >= 0) out.pelvis = points[at(pelvis_)] * turn;
-  out.forward = forward_of(out.feet, time_.frames, time_.rate_hz);
+  out.pelvis = points.back() * turn;
+  if (front_.rows() > 0) out.pelvis_front = (front_ * turn).leftCols<2>();
+  if (across_.rows() > 0) out.pelvis_across = (across_ * turn).leftCols<2>();
   return out;
 }
 

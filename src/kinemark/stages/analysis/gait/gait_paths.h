@@ -6,73 +6,105 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/gait_event.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/math/difference_smoother.h"
+#include "kinemark/stages/analysis/gait/bad_samples.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
 
 namespace kinemark::analysis {
 
-/// Low-pass of the published methods: gain 1/2 at this frequency, as a second-order Butterworth filter run
-/// both ways has it (O'Connor et al. 2007).
-inline constexpr double kGaitCutOff_hz = 7.0;
+/// Cut-off before the pace of the steps is known; at it a two-pass Butterworth filter of the second order
+/// halves the power.
+inline constexpr double kFirstCutOff_hz = 8.0;
 
 /// Smoothed paths of one foot, n x 3, m, z up.
 struct FootPaths {
-  math::SeriesMatrix heel, toe;  ///< 0 rows: the foot has no markers
-  std::vector<bool> known;       ///< n; false farther than 0.1 s from a frame in which both were measured
+  math::SeriesMatrix heel, toe;         ///< 0 rows: the foot has no markers
+  std::vector<bool> known;              ///< n; both were measured, or lie within a gap of 0.25 s at most
+  FootSet set = FootSet::heel_and_toe;  ///< which markers they are
+  bool points = false;                  ///< heel and toe are two markers: the foot points somewhere
 
   [[nodiscard]] bool present() const { return heel.rows() > 0; }  ///< whether the foot has markers
 };
 
 /// Feet and pelvis through a recording of n frames.
 struct GaitPaths {
-  double rate_hz = 0.0;           ///< above 0
-  double start_s = 0.0;           ///< time of the first frame
-  std::array<FootPaths, 2> feet;  ///< left, right
-  math::SeriesMatrix pelvis;      ///< n x 3; 0 rows: not known
-  math::SeriesMatrix forward;     ///< n x 2; horizontal direction that the feet point to, length 1
+  double rate_hz = 0.0;              ///< above 0
+  double start_s = 0.0;              ///< time of the first frame
+  std::array<FootPaths, 2> feet;     ///< left, right
+  math::SeriesMatrix pelvis;         ///< n x 3
+  std::vector<bool> pelvis_known;    ///< n; measured, or within a gap of 1 s at most
+  math::SeriesMatrix pelvis_front;   ///< n x 2, from its back to its front, NaN where not measured; 0 rows:
+                                     ///< not known
+  math::SeriesMatrix pelvis_across;  ///< the same from the right to the left of its front
 
-  [[nodiscard]] std::int64_t frames() const { return forward.rows(); }  ///< n
+  [[nodiscard]] std::int64_t frames() const { return pelvis.rows(); }  ///< n
   /// Of one foot.
   [[nodiscard]] const FootPaths& foot(data::Side side) const { return feet[data::index_of(side)]; }
   /// Seconds on the recording's clock of a frame that need not be whole.
   [[nodiscard]] double time_s(double frame) const { return start_s + frame / rate_hz; }
 };
 
+/// Markers whose samples are not all believed, or not all there.
+struct FootSeen {
+  std::vector<FrameSpan>
+      hidden;  ///< stretches longer than 0.25 s without heel or toe, ends included; ascending
+  std::vector<FrameSpan> held;  ///< stretches in which a marker did not move by one bit
+  std::int64_t leaps = 0;       ///< samples that leap there and back
+  double share = 0.0;           ///< of the frames in which both are believed
+};
+
 /// Smooths the markers of walking, once as recorded and as often as needed with simulated noise on top.
 class GaitSmoother {
  public:
+  /// Takes what believe_samples() believes and smooths at kFirstCutOff_hz.
+  ///
   /// @param noise_sd_m  per axis, 0: found from each marker's sixth differences
-  /// @return  Code::bad_input where the rate is below 20 Hz, a marker was measured in fewer than 20 frames,
-  /// or
-  ///          nobody can tell which way is up.
+  /// @return  Code::bad_input where the rate is below 20 Hz, or a marker is believed in fewer than 8 frames.
   [[nodiscard]] static Result<GaitSmoother> create(const data::Trajectories& markers,
                                                    const GaitMarkers& which, double noise_sd_m);
+
+  /// Smooth again at another cut-off, at most 0.4 of the rate.
+  [[nodiscard]] Status smooth_at(double cut_off_hz);
 
   [[nodiscard]] const GaitPaths& paths() const { return paths_; }  ///< as recorded
   /// As recorded, with what noise of stream (1, number) of the seed leaves after smoothing.
   [[nodiscard]] GaitPaths with_noise(std::uint64_t seed, std::int64_t number) const;
   /// Rotation that turns the recording's axes so that z is up.
   [[nodiscard]] const Eigen::Matrix3d& upright() const { return upright_; }
+  /// How a foot was seen.
+  [[nodiscard]] const FootSeen& seen(data::Side side) const { return seen_[data::index_of(side)]; }
+  /// Left becomes right, and right left.
+  void exchange_sides();
 
  private:
   struct Point {
+    math::SeriesMatrix raw;  // zero where not seen
     math::DifferenceSmoother smoother;
     double noise_sd_m = 0.0;
     math::SeriesMatrix smooth;
   };
-  [[nodiscard]] static Result<Point> smooth_point(const data::Trajectories& markers,
-                                                  const std::vector<std::int64_t>& of, double noise_sd_m);
+  [[nodiscard]] static Result<Point> make_point(math::SeriesMatrix raw, std::vector<bool> seen,
+                                                double noise_sd_m, const std::string& what);
+  [[nodiscard]] Status add_foot(const data::Trajectories& markers, const FootMarkers& foot, data::Side side,
+                                double noise_sd_m);
+  [[nodiscard]] Status add_pelvis(const data::Trajectories& markers, const GaitMarkers& which,
+                                  double noise_sd_m);
+  void find_up();
   [[nodiscard]] GaitPaths arrange(const std::vector<math::SeriesMatrix>& points) const;
 
-  std::vector<Point> points_;  // heel and toe of each foot that is there, then the pelvis if it is
-  std::array<int, 2> heel_{-1, -1};
-  int pelvis_ = -1;
+  std::vector<Point> points_;  // one or two of each foot that is there, then the pelvis
+  std::array<int, 2> heel_{-1, -1}, toe_{-1, -1};
+  std::array<FootSet, 2> set_{};
   std::array<std::vector<bool>, 2> known_;
+  std::array<FootSeen, 2> seen_;
+  std::vector<bool> pelvis_known_;
+  math::SeriesMatrix front_, across_;  // n x 3 in the recording's axes, or 0 rows
   Eigen::Matrix3d upright_ = Eigen::Matrix3d::Identity();
   TimeBase time_;
   GaitPaths paths_;

@@ -76,10 +76,9 @@ TEST(Gait, IntervalsHoldTheTruthAndDoNotDependOnThreads) {
     if (m.id == "stride_time") {
       EXPECT_LT(m.interval.low, 1.08);
       EXPECT_GT(m.interval.high, 1.08);
-      EXPECT_LT(m.sd, 0.006);
+      EXPECT_LT(m.sd, 0.008);
     }
-  // Without plates, at least half of what the two methods preferred differ by.
-  for (const auto& event : one.events) EXPECT_TRUE(event.sd_s > 0.005 && event.sd_s < 0.06) << event.sd_s;
+  for (const auto& event : one.events) EXPECT_TRUE(event.sd_s > 0.014 && event.sd_s < 0.06) << event.sd_s;
 }
 
 TEST(Gait, PlatesReplaceAndCorrectWhatMarkersTell) {
@@ -120,7 +119,7 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
         {std::string(data::to_string(event.what)), std::string(data::to_string(event.side)), event.time_s});
   const auto compared = analyze_gait(markers, evidence, {.refits = 0}).value();
   EXPECT_TRUE(std::ranges::any_of(
-      compared.agreement, [](const auto& a) { return a.what == "Foot Strike: these and the file's"; }));
+      compared.agreement, [](const auto& a) { return a.what == "Foot Strike: markers and the file's"; }));
   const auto taken = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 0}).value();
   EXPECT_EQ(taken.events.size(), walk.events().size());
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
@@ -156,7 +155,7 @@ TEST(Gait, WhoStandsHasNone) {
       markers.x(f, m) = markers.x(0, m) + 1e-4 * (markers.x(f, m) - markers.x(0, m));
   const auto gait = analyze_gait(markers, {}, {.refits = 0});
   ASSERT_FALSE(gait);
-  EXPECT_EQ(gait.error().message, "no foot steps: neither swings by 0.15 m against the other");
+  EXPECT_EQ(gait.error().message, "not locomotion: no foot swings: none moves by 80 mm over the ground");
 }
 
 TEST(EventsOfFile, AreReadUnderTheirNames) {

@@ -4,234 +4,267 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
-#include "kinemark/math/statistics.h"
 
 namespace kinemark::analysis {
 namespace {
 
 using data::FootEvent;
 using data::Side;
+using Eigen::RowVector2d;
+using math::SeriesMatrix;
 using Series = Eigen::VectorXd;
 
-constexpr double kLeastSwing_m = 0.15;  // of one foot against the other, each way
-constexpr double kShareOfSwing = 0.4;   // of the median swing: less is no step
-constexpr double kEdge_s = 0.03;        // of the recording
-constexpr double kThreshold_m_per_s = 0.5;
-constexpr double kLowHeel = 0.35;  // of the range of its height: a heel that comes down is not higher
-constexpr double kExcluded = -1e9;
-// Windows around the frames at which a foot is farthest before and behind, in cycles.
-constexpr double kStrikeBefore = 0.12, kStrikeAfter = 0.15, kOffBefore = 0.06, kOffAfter = 0.22;
-// Of a stance, from where the foot is farthest before: it lies flat.
-constexpr double kFlatFrom = 0.15, kFlatTo = 0.28;
+constexpr double kOver_s = 0.3, kMeanOver_s = 1.2;
+constexpr double kRearSpeed = 0.14;  // of the usual greatest
+// Windows in strides about Detector::middle.
+constexpr double kStrikeBack = 0.25, kStrikeOn = 0.13, kFallBack = 0.12, kFallOn = 0.11, kOffBack = 0.16,
+                 kOffOn = 0.16, kRearBack = 0.1, kOfStance = 0.25, kAgain = 0.1;
+constexpr double kLeastFall = 0.3;  // of the fastest fall in the window
+constexpr Eigen::Index kLeastWindow = 4;
+constexpr double kEdge_s = 0.05;
 
-Series central_slope(const Series& y, double rate_hz) {
-  const auto n = y.size();
-  Series out = Series::Zero(n);
-  for (Eigen::Index i = 1; i + 1 < n; ++i) out[i] = 0.5 * rate_hz * (y[i + 1] - y[i - 1]);
-  if (n > 2) out[0] = out[1], out[n - 1] = out[n - 2];
+double refined(const Series& y, Eigen::Index k) {
+  if (k <= 0 || k + 1 >= y.size()) return static_cast<double>(k);
+  const double bent = y[k - 1] - 2.0 * y[k] + y[k + 1];
+  return static_cast<double>(k) +
+         (bent != 0.0 ? std::clamp(0.5 * (y[k - 1] - y[k + 1]) / bent, -0.5, 0.5) : 0.0);
+}
+
+// A frame, between two neighbours, at which a series passes a level; all in [first, last].
+std::vector<double> crossings(const Series& y, double level, Eigen::Index first, Eigen::Index last,
+                              bool down) {
+  std::vector<double> out;
+  for (Eigen::Index k = std::max<Eigen::Index>(first, 0); k < std::min<Eigen::Index>(last, y.size() - 1); ++k)
+    if (down ? (y[k] >= level && level > y[k + 1]) : (y[k] <= level && level < y[k + 1]))
+      out.push_back(static_cast<double>(k) + (level - y[k]) / (y[k + 1] - y[k]));
   return out;
 }
 
-// Where the parabola through a sample and its neighbours has its extreme.
-double refined(const Series& y, Eigen::Index i) {
-  const double bent = y[i - 1] - 2.0 * y[i] + y[i + 1];
-  return static_cast<double>(i) + (bent != 0.0 ? 0.5 * (y[i - 1] - y[i + 1]) / bent : 0.0);
+std::vector<Eigen::Index> peaks(const Series& y, double first, double last) {
+  std::vector<Eigen::Index> out;
+  const auto from = static_cast<Eigen::Index>(std::max(first, 1.0)),
+             to = std::min(static_cast<Eigen::Index>(last), y.size() - 2);
+  for (Eigen::Index k = from; k <= to; ++k)
+    if (y[k] >= y[k - 1] && y[k] > y[k + 1]) out.push_back(k);
+  return out;
 }
 
-// A frame between two neighbours at which a line reaches a value.
-double crossing(const Series& y, Eigen::Index i, double value) {
-  return static_cast<double>(i) + (value - y[i]) / (y[i + 1] - y[i]);
+// The last peak that is no ripple.
+double last_peak(const Series& y, double first, double last) {
+  const auto all = peaks(y, first, last);
+  if (all.empty()) return kNaN;
+  double most = -INFINITY;
+  for (const auto k : all) most = std::max(most, y[k]);
+  double out = kNaN;
+  for (const auto k : all)
+    if (y[k] >= kLeastFall * most) out = refined(y, k);
+  return out;
 }
 
-Series along(const math::SeriesMatrix& x, const math::SeriesMatrix& forward) {
-  return x.leftCols<2>().cwiseProduct(forward).rowwise().sum();
+double highest_peak(const Series& y, double first, double last) {
+  const auto all = peaks(y, first, last);
+  if (all.empty()) return kNaN;
+  return refined(y, *std::ranges::max_element(all, {}, [&](auto k) { return y[k]; }));
 }
 
-// Of the largest value within a window, not at its ends.
-std::optional<double> largest_within(const Series& y, const StepWindow& window) {
-  const auto first = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(window.first)));
-  const auto last = std::min<Eigen::Index>(y.size() - 2, static_cast<Eigen::Index>(std::floor(window.last)));
-  std::optional<Eigen::Index> best;
-  for (Eigen::Index i = first; i <= last; ++i)
-    if (y[i - 1] > kExcluded && y[i + 1] > kExcluded && y[i] >= y[i - 1] && y[i] > y[i + 1] &&
-        (!best || y[i] > y[*best]))
-      best = i;
-  if (!best) return std::nullopt;
-  return refined(y, *best);
+// The greatest value within a window; NaN at its ends, where it is no turn.
+double greatest(const Series& y, Eigen::Index first, Eigen::Index last) {
+  Eigen::Index k = 0;
+  y.segment(first, last - first + 1).maxCoeff(&k);
+  const double out = refined(y, first + k);
+  return out > static_cast<double>(first) + 0.01 && out < static_cast<double>(last) - 0.01 ? out : kNaN;
 }
 
-// Extremes in turn, each differing from the one before by at least `least`.
-struct Turn {
-  Eigen::Index frame;
-  bool high;
+// Series of one foot that the detectors look at.
+class FootSignals {
+ public:
+  FootSignals(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground, const Progress& progress,
+              Side side)
+      : paths_(paths), steps_(steps), side_(side), foot_(paths.foot(side)) {
+    const SeriesMatrix middle = 0.5 * (foot_.heel + foot_.toe);
+    rise_ = slopes(middle, paths.rate_hz).col(2);
+    rear_ = speed_over_ground(foot_.heel, paths.rate_hz, ground);
+    share_ = speed_over_ground(middle, paths.rate_hz, ground).cwiseQuotient(steps.usual);
+    const auto before = [&](const SeriesMatrix& x) {
+      return Series((x - paths.pelvis).leftCols<2>().cwiseProduct(progress.direction).rowwise().sum());
+    };
+    heel_before_ = before(foot_.heel);
+    toe_behind_ = -before(foot_.toe);
+    stride_ = steps.stride_s * paths.rate_hz;
+  }
+
+  [[nodiscard]] SwingEdge strike(std::size_t i, double c) const {
+    const auto& swings = steps_.foot(side_).swings;
+    const auto& swing = swings[i];
+    auto out = begin(FootEvent::strike, i, c);
+    // Not beyond the middle of the stance that follows.
+    double until = static_cast<double>(frames() - 1);
+    if (i + 1 < swings.size())
+      until = 0.5 * static_cast<double>(*swing.lands + swings[i + 1].leaves.value_or(*swing.lands));
+    until = std::min(until, static_cast<double>(*swing.lands) + kOfStance * stride_);
+    const auto first = known_back(c, std::max(static_cast<double>(swing.peak), c - kStrikeBack * stride_)),
+               last = known_on(c, std::min(until, c + kStrikeOn * stride_));
+    if (last - first < kLeastWindow) return out;
+    set(out, Detector::vertical,
+        last_peak(-rise_, std::max(static_cast<double>(first), c - kFallBack * stride_),
+                  std::min(static_cast<double>(known_on(c, c + kFallOn * stride_)), c + kFallOn * stride_)));
+    set(out, Detector::pelvis, against_pelvis(heel_before_, first, last));
+    const auto slow =
+        crossings(rear_, kRearSpeed * steps_.usual[*swing.lands], first_known(swing.peak, first), last, true);
+    set(out, Detector::rear, slow.empty() ? kNaN : slow.back());
+    return out;
+  }
+
+  [[nodiscard]] SwingEdge off(std::size_t i, double c) const {
+    const auto& swings = steps_.foot(side_).swings;
+    const auto& swing = swings[i];
+    auto out = begin(FootEvent::off, i, c);
+    double from = 0.0;  // not before the middle of the stance
+    const auto leaves = static_cast<double>(*swing.leaves);
+    if (i > 0) from = 0.5 * (leaves + static_cast<double>(swings[i - 1].lands.value_or(*swing.leaves)));
+    from = std::max({0.0, from, leaves - kOfStance * stride_});
+    const auto first = known_back(c, std::max(from, c - kOffBack * stride_)),
+               last = known_on(c, std::min(static_cast<double>(swing.peak), c + kOffOn * stride_));
+    if (last - first < kLeastWindow) return out;
+    set(out, Detector::vertical, highest_peak(rise_, static_cast<double>(first), static_cast<double>(last)));
+    set(out, Detector::pelvis, against_pelvis(toe_behind_, first, last));
+    const auto fast = crossings(rear_, kRearSpeed * steps_.usual[*swing.leaves],
+                                known_back(c, static_cast<double>(first) - kRearBack * stride_), last, false);
+    set(out, Detector::rear, fast.empty() ? kNaN : fast.back());
+    return out;
+  }
+
+  // Passings of kStands nearest to a frame.
+  [[nodiscard]] double nearest_passing(FootEvent what, double frame, double reach) const {
+    double out = kNaN;
+    for (const double c : crossings(share_, kStands, static_cast<Eigen::Index>(frame - reach),
+                                    static_cast<Eigen::Index>(frame + reach) + 2, what == FootEvent::strike))
+      if (!(std::abs(c - frame) >= std::abs(out - frame))) out = c;
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index frames() const { return rise_.size(); }
+  [[nodiscard]] bool known(Eigen::Index f) const { return f >= 0 && f < frames() && foot_.known[at(f)]; }
+
+  // From an instant back to a frame, as far as the foot is known.
+  [[nodiscard]] Eigen::Index known_back(double c, double to) const {
+    auto f = static_cast<Eigen::Index>(c);
+    while (f - 1 >= static_cast<Eigen::Index>(std::max(to, 0.0)) && known(f - 1)) --f;
+    return f;
+  }
+  [[nodiscard]] Eigen::Index known_on(double c, double to) const {
+    auto f = std::min(static_cast<Eigen::Index>(c), frames() - 1);
+    while (f + 1 <= static_cast<Eigen::Index>(to) && known(f + 1)) ++f;
+    return f;
+  }
+  [[nodiscard]] Eigen::Index first_known(Eigen::Index wanted, Eigen::Index known_from) const {
+    auto f = known_from;
+    while (f > wanted && known(f - 1)) --f;
+    return f;
+  }
+
+  [[nodiscard]] double against_pelvis(const Series& y, Eigen::Index first, Eigen::Index last) const {
+    for (auto f = first; f <= last; ++f)
+      if (!paths_.pelvis_known[at(f)]) return kNaN;
+    return greatest(y, first, last);
+  }
+
+  [[nodiscard]] SwingEdge begin(FootEvent what, std::size_t i, double c) const {
+    SwingEdge out{.side = side_, .what = what, .swing = i, .frame = c};
+    out.after_s = {kNaN, kNaN, kNaN, 0.0};
+    const auto near = static_cast<Eigen::Index>(c);
+    const auto reach = std::max<Eigen::Index>(2, static_cast<Eigen::Index>(kEdge_s * paths_.rate_hz));
+    for (const Eigen::Index f : {near - 1, near, near + 1, near + 2})
+      if (f >= 0 && f < frames()) out.seen = out.seen && known(f);
+    for (auto f = near - reach; f <= near + reach; ++f)
+      if (f >= 0 && f < frames()) out.at_gap = out.at_gap || !known(f);
+    const double edge = kEdge_s * paths_.rate_hz;
+    out.at_end = c < edge || c > static_cast<double>(frames() - 1) - edge;
+    return out;
+  }
+
+  void set(SwingEdge& out, Detector detector, double frame) const {
+    out.after_s[static_cast<std::size_t>(detector)] = (frame - out.frame) / paths_.rate_hz;
+  }
+
+  const GaitPaths& paths_;
+  const Steps& steps_;
+  Side side_;
+  const FootPaths& foot_;
+  Series rise_, rear_, share_, heel_before_, toe_behind_;
+  double stride_ = 0.0;
 };
-std::vector<Turn> turns_of(const Series& y, double least) {
-  std::vector<Turn> out;
-  Eigen::Index low = 0, high = 0;
-  int sought = 0;  // 1: a high one, -1: a low one, 0: either
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    if (y[i] > y[high]) high = i;
-    if (y[i] < y[low]) low = i;
-    if (sought >= 0 && y[high] - y[i] > least) {
-      out.push_back({high, true});
-      sought = -1, low = i;
-    } else if (sought <= 0 && y[i] - y[low] > least) {
-      out.push_back({low, false});
-      sought = 1, high = i;
-    }
-  }
-  // The last needs no turn back, only to lie within.
-  if (sought != 0) out.push_back({sought > 0 ? high : low, sought > 0});
-  return out;
-}
-
-bool known_at(const FootPaths& foot, double frame) {
-  const auto i = static_cast<std::int64_t>(std::llround(frame));
-  return i >= 0 && i < static_cast<std::int64_t>(foot.known.size()) && foot.known[at(i)];
-}
-
-// Speed over the ground in the plane of walking and the vertical.
-Series sagittal_speed(const GaitPaths& paths, const math::SeriesMatrix& x, const Eigen::RowVector2d& ground) {
-  Series out(x.rows());
-  const Series vx = central_slope(x.col(0), paths.rate_hz), vy = central_slope(x.col(1), paths.rate_hz),
-               vz = central_slope(x.col(2), paths.rate_hz);
-  for (Eigen::Index i = 0; i < x.rows(); ++i)
-    out[i] = std::hypot((vx[i] - ground[0]) * paths.forward(i, 0) + (vy[i] - ground[1]) * paths.forward(i, 1),
-                        vz[i]);
-  return out;
-}
-
-// The signal whose largest value, or crossing of the threshold, is the event.
-std::optional<Series> signal_of(const GaitPaths& paths, const FootPaths& foot, FootEvent what,
-                                EventMethod method, const Eigen::RowVector2d& ground) {
-  const bool strike = what == FootEvent::strike;
-  switch (method) {
-    case EventMethod::foot_velocity: {
-      Series v = central_slope(0.5 * (foot.heel.col(2) + foot.toe.col(2)), paths.rate_hz);
-      if (!strike) return v;
-      v = -v;
-      const auto height = foot.heel.col(2);
-      const double low = height.minCoeff(), most = low + kLowHeel * (height.maxCoeff() - low);
-      for (Eigen::Index i = 0; i < v.size(); ++i)
-        if (height[i] > most) v[i] = kExcluded;
-      return v;
-    }
-    case EventMethod::coordinates: {
-      if (paths.pelvis.rows() == 0) return std::nullopt;
-      const Series before = along((strike ? foot.heel : foot.toe) - paths.pelvis, paths.forward);
-      return strike ? before : Series(-before);
-    }
-    case EventMethod::speed_threshold:
-      if (!ground.allFinite()) return std::nullopt;
-      return sagittal_speed(paths, strike ? foot.heel : foot.toe, ground);
-  }
-  return std::nullopt;
-}
-
-// Strike: the last frame in the window at which the speed falls; off: the first at which it rises.
-std::optional<double> threshold_within(const Series& y, FootEvent what, const StepWindow& window) {
-  const auto first = std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::ceil(window.first)));
-  const auto last = std::min<Eigen::Index>(y.size() - 2, static_cast<Eigen::Index>(std::floor(window.last)));
-  for (Eigen::Index k = first; k <= last; ++k) {
-    const bool strike = what == FootEvent::strike;
-    const auto i = strike ? last - (k - first) : k;
-    const bool falls = y[i] >= kThreshold_m_per_s && y[i + 1] < kThreshold_m_per_s;
-    const bool rises = y[i] < kThreshold_m_per_s && y[i + 1] >= kThreshold_m_per_s;
-    if (strike ? falls : rises) return crossing(y, i, kThreshold_m_per_s);
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
-std::string_view to_string(EventMethod method) {
-  switch (method) {
-    case EventMethod::foot_velocity:
-      return "O'Connor 2007";
-    case EventMethod::coordinates:
-      return "Zeni 2008";
-    case EventMethod::speed_threshold:
-      break;
-  }
-  return "Ghoussayni 2004";
-}
-
-FootSwings find_swings(const GaitPaths& paths, Side side) {
-  FootSwings out;
-  const auto &foot = paths.foot(side), &other = paths.foot(data::opposite(side));
-  if (!foot.present() || (!other.present() && paths.pelvis.rows() == 0)) return out;
-  const math::SeriesMatrix middle = 0.5 * (foot.heel + foot.toe);
-  const math::SeriesMatrix from =
-      other.present() ? math::SeriesMatrix(0.5 * (other.heel + other.toe)) : paths.pelvis;
-  const Series before = along(middle - from, paths.forward);
-  auto turns = turns_of(before, kLeastSwing_m);
-  std::vector<double> swings;
-  for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-    swings.push_back(std::abs(before[turns[i + 1].frame] - before[turns[i].frame]));
-  if (swings.empty()) return out;
-  turns = turns_of(before, std::max(kLeastSwing_m, kShareOfSwing * math::median(swings)));
-  // The first and the last may be where the recording begins or ends, which is no turn.
-  const double edge = kEdge_s * paths.rate_hz, last = static_cast<double>(before.size() - 1) - edge;
-  std::erase_if(turns, [&](const Turn& turn) {
-    return static_cast<double>(turn.frame) < edge || static_cast<double>(turn.frame) > last;
-  });
-  std::vector<double> halves;  // from farthest before to farthest behind and back
-  for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-    halves.push_back(static_cast<double>(turns[i + 1].frame - turns[i].frame));
-  if (halves.empty()) return out;
-  out.cycle = 2.0 * math::median(halves);
-  for (const auto& turn : turns) {
-    const auto centre = static_cast<double>(turn.frame);
-    const double back = out.cycle * (turn.high ? kStrikeBefore : kOffBefore),
-                 on = out.cycle * (turn.high ? kStrikeAfter : kOffAfter);
-    out.windows[turn.high ? 0 : 1].push_back({.centre = centre, .first = centre - back, .last = centre + on});
+Progress progress_of(const GaitPaths& paths, const RowVector2d& ground) {
+  const auto n = paths.frames();
+  const auto reach = std::max<Eigen::Index>(1, std::llround(0.5 * kOver_s * paths.rate_hz));
+  const auto around = std::max<Eigen::Index>(1, std::llround(0.5 * kMeanOver_s * paths.rate_hz));
+  const auto over = [&](Eigen::Index f, Eigen::Index half) {
+    const auto first = std::max<Eigen::Index>(0, f - half), last = std::min<Eigen::Index>(n - 1, f + half);
+    return RowVector2d((paths.pelvis.row(last) - paths.pelvis.row(first)).leftCols<2>() * paths.rate_hz /
+                           static_cast<double>(std::max<Eigen::Index>(1, last - first)) -
+                       ground);
+  };
+  Progress out{.velocity = SeriesMatrix(n, 2), .direction = SeriesMatrix(n, 2)};
+  RowVector2d before(1.0, 0.0);
+  for (Eigen::Index f = 0; f < n; ++f) {
+    out.velocity.row(f) = over(f, reach);
+    const RowVector2d mean = over(f, around);
+    if (mean.norm() > 1e-6) before = mean.normalized();
+    out.direction.row(f) = before;
   }
   return out;
 }
 
-Ground ground_velocity(const GaitPaths& paths, const std::array<FootSwings, 2>& swings) {
-  std::array<std::vector<double>, 2> mean, apart;  // of heel and toe, by axis
+std::vector<SwingEdge> find_edges(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground,
+                                  const Progress& progress) {
+  std::vector<SwingEdge> out;
   for (const Side side : data::kBothSides) {
-    const auto& foot = paths.foot(side);
-    const auto& of = swings[data::index_of(side)];
-    for (const auto& window : of.of(FootEvent::strike)) {
-      const auto first = static_cast<Eigen::Index>(std::llround(window.centre + kFlatFrom * of.cycle)),
-                 last = static_cast<Eigen::Index>(std::llround(window.centre + kFlatTo * of.cycle));
-      if (first < 0 || last >= paths.frames() || last <= first ||
-          !known_at(foot, static_cast<double>(first)) || !known_at(foot, static_cast<double>(last)))
-        continue;
-      const double per_s = paths.rate_hz / static_cast<double>(last - first);
-      const Eigen::RowVector3d heel = per_s * (foot.heel.row(last) - foot.heel.row(first)),
-                               toe = per_s * (foot.toe.row(last) - foot.toe.row(first));
-      for (const Eigen::Index axis : {0, 1}) {
-        mean[at(axis)].push_back(0.5 * (heel[axis] + toe[axis]));
-        apart[at(axis)].push_back(heel[axis] - toe[axis]);
+    if (steps.foot(side).speed.size() == 0) continue;
+    const FootSignals signals(paths, steps, ground, progress, side);
+    const auto& swings = steps.foot(side).swings;
+    for (std::size_t i = 0; i < swings.size(); ++i) {
+      if (swings[i].leaves) {
+        const auto frame = static_cast<double>(*swings[i].leaves);
+        const double c = signals.nearest_passing(FootEvent::off, frame, 1.0);
+        out.push_back(signals.off(i, std::isfinite(c) ? c : frame));
+      }
+      if (swings[i].lands) {
+        const auto frame = static_cast<double>(*swings[i].lands);
+        const double c = signals.nearest_passing(FootEvent::strike, frame, 1.0);
+        out.push_back(signals.strike(i, std::isfinite(c) ? c : frame));
       }
     }
   }
-  Ground out;
-  if (mean[0].empty()) return out;
-  out.velocity = {math::median(mean[0]), math::median(mean[1])};
-  out.sd = 0.5 * std::hypot(math::median(apart[0]), math::median(apart[1]));
   return out;
 }
 
-std::vector<double> find_in_windows(const GaitPaths& paths, Side side, FootEvent what, EventMethod method,
-                                    const FootSwings& swings, const Eigen::RowVector2d& ground) {
-  std::vector<double> out(swings.of(what).size(), kNaN);
-  const auto& foot = paths.foot(side);
-  if (out.empty()) return out;
-  const auto signal = signal_of(paths, foot, what, method, ground);
-  if (!signal) return out;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto& window = swings.of(what)[i];
-    const auto frame = method == EventMethod::speed_threshold ? threshold_within(*signal, what, window)
-                                                              : largest_within(*signal, window);
-    if (frame && known_at(foot, *frame)) out[i] = *frame;
+std::vector<SwingEdge> find_edges_again(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground,
+                                        const std::vector<SwingEdge>& edges) {
+  std::vector<SwingEdge> out;
+  const auto progress = progress_of(paths, ground);
+  for (const Side side : data::kBothSides) {
+    if (steps.foot(side).speed.size() == 0) continue;
+    const FootSignals signals(paths, steps, ground, progress, side);
+    for (const auto& edge : edges) {
+      if (edge.side != side) continue;
+      const double c =
+          signals.nearest_passing(edge.what, edge.frame, kAgain * steps.stride_s * paths.rate_hz);
+      if (!std::isfinite(c)) {
+        auto lost = edge;
+        lost.frame = kNaN;
+        out.push_back(lost);
+      } else {
+        out.push_back(edge.what == FootEvent::strike ? signals.strike(edge.swing, c)
+                                                     : signals.off(edge.swing, c));
+      }
+    }
   }
   return out;
 }

@@ -1,72 +1,51 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Foot strike and toe-off from the paths of markers, by published methods.
+// Foot strike and leaving from the paths of markers alone: one of each between two swings, by construction.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
-#include "kinemark/core/missing.h"
 #include "kinemark/data/gait_event.h"
+#include "kinemark/stages/analysis/gait/event_times.h"
 #include "kinemark/stages/analysis/gait/gait_paths.h"
+#include "kinemark/stages/analysis/gait/swings.h"
 
 namespace kinemark::analysis {
 
-/// How events are found, in the order in which they are preferred where nothing else decides.
-enum class EventMethod : std::uint8_t {
-  foot_velocity,    ///< strike: least vertical velocity of the middle of the foot, off: its greatest
-                    ///< (O'Connor, Thorpe, O'Malley & Vaughan 2007, Gait & Posture 25:469)
-  coordinates,      ///< strike: heel farthest before the pelvis, off: toe farthest behind it
-                    ///< (Zeni, Richards & Higginson 2008, Gait & Posture 27:710)
-  speed_threshold,  ///< strike: the heel's speed over the ground in the sagittal plane falls below 0.5 m/s,
-                    ///< off: the toe's rises above it (Ghoussayni et al. 2004, Gait & Posture 20:266;
-                    ///< threshold: Bruening & Ridge 2014, Gait & Posture 39:472)
+/// Where the pelvis goes.
+struct Progress {
+  math::SeriesMatrix velocity;   ///< n x 2, m/s over the ground, over 0.3 s around each frame
+  math::SeriesMatrix direction;  ///< n x 2, unit, of the mean velocity over 1.2 s
 };
-/// All.
-inline constexpr std::array<EventMethod, 3> kEventMethods{
-    EventMethod::foot_velocity, EventMethod::coordinates, EventMethod::speed_threshold};
-/// "O'Connor 2007", "Zeni 2008" or "Ghoussayni 2004".
-[[nodiscard]] std::string_view to_string(EventMethod method);
+/// Of the pelvis against the ground.
+[[nodiscard]] Progress progress_of(const GaitPaths& paths, const Eigen::RowVector2d& ground);
 
-/// A step of one foot: where its strike, or its leaving the ground, is to be looked for.
-struct StepWindow {
-  double centre = 0.0;  ///< frame at which the foot is farthest before, or behind, the other
-  double first = 0.0;   ///< frames between which the event lies
-  double last = 0.0;    ///< as `first`
+/// An event that the swings of a foot must have, before its detectors are fused.
+struct SwingEdge {
+  data::Side side = data::Side::left;              ///< of the foot
+  data::FootEvent what = data::FootEvent::strike;  ///< at the swing's end, or its beginning
+  std::size_t swing = 0;                           ///< index into the foot's swings
+  double frame = 0.0;                              ///< of Detector::middle
+  DetectorTimes after_s{};                         ///< of all
+  bool seen = true;     ///< the foot is known in the frames around it; else there is no telling when it was
+  bool at_gap = false;  ///< the foot is not known 50 ms before or after
+  bool at_end = false;  ///< within 50 ms of an end of the recording
 };
+/// Every edge of every swing, by side and time.
+[[nodiscard]] std::vector<SwingEdge> find_edges(const GaitPaths& paths, const Steps& steps,
+                                                const Eigen::RowVector2d& ground, const Progress& progress);
 
-/// Swings of a foot against the other one (against the pelvis, where there is no other): each time it is
-/// farthest before and farthest behind along the direction of walking.
-struct FootSwings {
-  std::array<std::vector<StepWindow>, 2> windows;  ///< of strikes, of leaving; ascending
-  double cycle = 0.0;                              ///< frames, median; 0: the foot does not walk
+/// The detectors of known edges on other paths, as simulated noise makes them.
+/// @param edges  their frames are looked for again within a tenth of a stride
+/// @return frames of Detector::middle and times after it, NaN where it is not passed
+[[nodiscard]] std::vector<SwingEdge> find_edges_again(const GaitPaths& paths, const Steps& steps,
+                                                      const Eigen::RowVector2d& ground,
+                                                      const std::vector<SwingEdge>& edges);
 
-  /// Of one kind of event.
-  [[nodiscard]] const std::vector<StepWindow>& of(data::FootEvent what) const {
-    return windows[data::index_of(what)];
-  }
-};
-
-/// The swings of a foot; none where it does not swing by 0.15 m or more.
-[[nodiscard]] FootSwings find_swings(const GaitPaths& paths, data::Side side);
-
-/// How the ground moves under the feet, horizontal: not at all over ground, backwards on a treadmill.
-struct Ground {
-  Eigen::RowVector2d velocity{kNaN,
-                              kNaN};  ///< m/s, median over the middles of stances; NaN where there is none
-  double sd = 0.0;  ///< m/s, of its length: half of what heels and toes, which lie flat then, differ by
-};
-/// From the feet while they lie flat.
-[[nodiscard]] Ground ground_velocity(const GaitPaths& paths, const std::array<FootSwings, 2>& swings);
-
-/// The event in each window, frames that need not be whole; NaN where the method finds none (no pelvis, not
-/// measured there, at the edge of the recording).
-/// @param ground  ground_velocity().velocity
-[[nodiscard]] std::vector<double> find_in_windows(const GaitPaths& paths, data::Side side,
-                                                  data::FootEvent what, EventMethod method,
-                                                  const FootSwings& swings, const Eigen::RowVector2d& ground);
+/// Extra SD of an event at a gap or an end of the recording, s.
+inline constexpr double kAtEdgeSd_s = 0.03;
 
 }  // namespace kinemark::analysis

@@ -26,6 +26,8 @@ constexpr double kLeast_s = 0.15, kMost_s = 3.0;
 constexpr double kBeside_m = 0.12;    // from the line between heel and toe to the centre of pressure
 constexpr double kShareBeside = 0.1;  // of a contact's frames
 constexpr double kOutside_m = 0.02;   // of a marker, beyond the edge of the plate
+constexpr double kRestOfFoot_m =
+    0.2;  // of one marker alone from the edge: the rest of its foot lies on the plate too
 constexpr double kLeastSd_s = 0.002, kSdInFrames = 0.2;
 
 // Frames with a load: first to last.
@@ -123,7 +125,8 @@ bool wholly_on(const std::vector<PlateCorners>& corners, const Plate& plate, con
   const auto* best = &corners.front();
   for (const auto& one : corners)
     if (outside(one, upright, centre) < outside(*best, upright, centre)) best = &one;
-  return outside(*best, upright, heel) < kOutside_m && outside(*best, upright, toe) < kOutside_m;
+  const double most = foot.points ? kOutside_m : -kRestOfFoot_m;
+  return outside(*best, upright, heel) < most && outside(*best, upright, toe) < most;
 }
 
 // Seconds, and their SD, at which the load rises above and falls below what is a contact.

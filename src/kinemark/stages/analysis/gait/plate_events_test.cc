@@ -17,7 +17,7 @@ class PlateEventsTest : public ::testing::Test {
  protected:
   PlateEventsTest()
       : markers_(walk_.markers(0.0003, 3)),
-        smoother_(GaitSmoother::create(markers_, find_gait_markers(markers_.names).value(), 0.0).value()) {
+        smoother_(GaitSmoother::create(markers_, find_gait_markers(markers_).value(), 0.0).value()) {
     plates_.time = markers_.time;
   }
   PlateEvents find(const std::vector<PlateCorners>& corners = {}) const {

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/event_times.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/core/missing.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+
+constexpr DetectorTimes kNone{kNaN, kNaN, kNaN, 0.0};
+
+TEST(EventTimes, OneDetectorGivesItsTimeLessItsBias) {
+  // Bias of the middle's passing for a walk's strike -25.6 ms, constant 3.0.
+  const auto fused = fuse(kNone, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
+  EXPECT_NEAR(fused.after_s, 0.0256 + 0.0030, 2e-4);
+}
+
+TEST(EventTimes, DetectorsThatAgreeGiveTheirTime) {
+  // All biased times 20 ms late against the middle's, once biases are off.
+  const DetectorTimes strike{0.00588 + 0.02556, -0.03432 + 0.02556, -0.01051 + 0.02556, 0.0};
+  const auto fused = fuse(strike, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
+  EXPECT_NEAR(fused.after_s, 0.02556 + 0.00299, 1e-4);
+  EXPECT_NEAR(std::hypot(fused.common_sd_s, fused.own_sd_s), 0.0182, 3e-4);
+  EXPECT_NEAR(fused.own_sd_s, std::hypot(0.007, 0.01 / std::sqrt(12.0)), 1e-4);
+}
+
+TEST(EventTimes, OneThatIsFarOffMovesTheTimeByItsClippedShareAndWidensTheSd) {
+  DetectorTimes times{0.00588 + 0.02556, -0.03432 + 0.02556, -0.01051 + 0.02556, 0.0};
+  const auto before = fuse(times, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
+  times[0] += 0.3;
+  const auto after = fuse(times, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
+  EXPECT_NEAR(after.after_s - before.after_s, 0.4272 * 0.040, 1e-3);
+  EXPECT_GT(after.own_sd_s, 2.0 * before.own_sd_s);
+  EXPECT_EQ(after.common_sd_s, before.common_sd_s);
+}
+
+TEST(EventTimes, RunningHasBiasesOfItsOwn) {
+  // A toe farthest behind the pelvis is 89 ms late in running and not in walking.
+  DetectorTimes times{kNaN, 0.0, kNaN, kNaN};
+  const auto walk = fuse(times, FootEvent::off, false, FootSet::heel_and_toe, 0.01),
+             run = fuse(times, FootEvent::off, true, FootSet::heel_and_toe, 0.01);
+  EXPECT_NEAR(walk.after_s - run.after_s, 0.0888 - 0.0008 - 0.0042 - 0.0010, 1e-3);
+}
+
+TEST(EventTimes, EverySetOfMarkersHasAnSdOfFourteenMillisecondsOrMore) {
+  for (const bool running : {false, true})
+    for (const auto what : data::kFootEvents)
+      for (const auto set : {FootSet::heel_and_toe, FootSet::ankle_and_toe, FootSet::toe_alone,
+                             FootSet::rear_alone, FootSet::by_place}) {
+        const auto fused = fuse(kNone, what, running, set, 0.001);
+        const double sd = std::hypot(fused.common_sd_s, fused.own_sd_s);
+        EXPECT_TRUE(sd >= 0.0139 && sd < 0.022) << sd;
+      }
+}
+
+}  // namespace
+}  // namespace kinemark::analysis

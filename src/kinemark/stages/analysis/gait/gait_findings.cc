@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kinemark/core/text.h"
+#include "kinemark/math/statistics.h"
+#include "kinemark/stages/analysis/gait/marker_events.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+using data::Side;
+
+constexpr std::size_t kMostNamed = 4;
+constexpr double kSeenMostly = 0.95;
+constexpr double kExchanged_m = 0.05, kFeetCross_m = 0.1;  // runners' feet cross: theirs has to be more
+constexpr double kUneven = 0.35;
+constexpr double kMostMore = 1.0, kMostMoreOfAll = 0.1;
+
+std::string_view word_of(Side side) { return side == Side::left ? "left" : "right"; }
+
+class Findings {
+ public:
+  Findings(const GaitSmoother& smoother, const MarkerEvents& found) : smoother_(smoother), found_(found) {}
+
+  std::vector<std::string> tell() {
+    for (const Side side : data::kBothSides)
+      if (smoother_.paths().foot(side).present()) {
+        tell_seen(side);
+        tell_strikes(side);
+      }
+    tell_both();
+    tell_sides();
+    if (sd_factor(found_.kind.direction) > 1.0)
+      out_.push_back(
+          fmt::format("no plates have judged events of going {}: their SDs are {:.1f} times those of going "
+                      "forward",
+                      to_string(found_.kind.direction), sd_factor(found_.kind.direction)));
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] std::string spans(const std::vector<FrameSpan>& of) const {
+    std::vector<std::string> out;
+    const auto& paths = smoother_.paths();
+    for (const auto& span : of)
+      out.push_back(fmt::format("from {:.2f} to {:.2f} s", paths.time_s(static_cast<double>(span.first)),
+                                paths.time_s(static_cast<double>(span.last))));
+    return join_names(out, kMostNamed);
+  }
+
+  void tell_seen(Side side) {
+    const auto& seen = smoother_.seen(side);
+    if (!seen.held.empty())
+      out_.push_back(fmt::format("{} foot: a marker is held still, {}; it is taken as hidden there",
+                                 word_of(side), spans(seen.held)));
+    if (seen.leaps > 0)
+      out_.push_back(fmt::format("{} foot: {} sample{} there and back and {} left out", word_of(side),
+                                 seen.leaps, seen.leaps == 1 ? " leaps" : "s leap",
+                                 seen.leaps == 1 ? "is" : "are"));
+    if (!seen.hidden.empty())
+      out_.push_back(
+          fmt::format("{} foot: hidden {}, events there cannot be found", word_of(side), spans(seen.hidden)));
+    else if (seen.share < kSeenMostly)
+      out_.push_back(fmt::format("{} foot: seen in {:.0f} % of the frames, gaps of up to 0.25 s are bridged",
+                                 word_of(side), 100.0 * seen.share));
+  }
+
+  [[nodiscard]] std::vector<double> times(Side side, FootEvent what) const {
+    std::vector<double> out;
+    for (const auto& event : found_.events)
+      if (event.side == side && event.what == what) out.push_back(event.time_s);
+    std::ranges::sort(out);
+    return out;
+  }
+
+  void tell_strikes(Side side) {
+    const auto strikes = times(side, FootEvent::strike);
+    if (strikes.empty()) out_.push_back(fmt::format("{} foot: no strike is found", word_of(side)));
+    std::vector<double> strides;
+    for (std::size_t i = 0; i + 1 < strikes.size(); ++i) strides.push_back(strikes[i + 1] - strikes[i]);
+    if (strides.size() < 4) return;
+    const double mean =
+        std::accumulate(strides.begin(), strides.end(), 0.0) / static_cast<double>(strides.size());
+    double squares = 0.0;
+    for (const double t : strides) squares += (t - mean) * (t - mean) / static_cast<double>(strides.size());
+    if (std::sqrt(squares) > kUneven * mean)
+      out_.push_back(fmt::format("{} foot: strides of very different duration, {:.2f} +- {:.2f} s",
+                                 word_of(side), mean, std::sqrt(squares)));
+  }
+
+  void tell_both() {
+    const auto left = times(Side::left, FootEvent::strike).size(),
+               right = times(Side::right, FootEvent::strike).size();
+    const auto more = static_cast<double>(std::max(left, right) - std::min(left, right));
+    if (more > kMostMore + kMostMoreOfAll * static_cast<double>(left + right))
+      out_.push_back(fmt::format("{} strikes of the left foot beside {} of the right one", left, right));
+  }
+
+  void tell_sides() {
+    const bool runs = found_.kind.manner != GaitManner::walk;
+    const double pelvis = found_.kind.pelvis_left_of_right_m;
+    const bool by_pelvis = runs && std::isfinite(pelvis);
+    const double apart = by_pelvis ? pelvis : found_.kind.left_of_right_m;
+    if (!(apart < -(runs && !by_pelvis ? kFeetCross_m : kExchanged_m))) return;
+    out_.push_back(
+        fmt::format("the left {} lies {:.0f} mm to the right of the right one: the names of the sides are "
+                    "exchanged, or the recording is mirrored",
+                    by_pelvis ? "front of the pelvis" : "foot", -1e3 * apart));
+  }
+
+  const GaitSmoother& smoother_;
+  const MarkerEvents& found_;
+  std::vector<std::string> out_;
+};
+
+}  // namespace
+
+std::vector<std::string> findings_of(const GaitSmoother& smoother, const MarkerEvents& found) {
+  return Findings(smoother, found).tell();
+}
+
+}  // namespace kinemark::analysis

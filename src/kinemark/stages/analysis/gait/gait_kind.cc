@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/gait_kind.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+using data::Side;
+using Eigen::RowVector2d;
+
+constexpr EnumNames<GaitManner::sprint> kManners{"walk", "run", "sprint"};
+constexpr EnumNames<GaitDirection::sideways> kDirections{"unknown", "forward", "backward", "sideways"};
+
+constexpr double kFlight = 0.03, kBounce_m = 0.01, kShortStance = 0.45, kNoWalk_m_per_s = 2.2,
+                 kQuarter = 0.25;
+constexpr double kSprint_m_per_s = 6.0;
+constexpr double kBelt_m_per_s = 0.12, kBeltOfBody = 0.5;
+constexpr double kLeastStride_m = 0.3, kShort_s = 2.0, kShortSpeed_m_per_s = 0.4;
+constexpr std::size_t kLeastEvents = 3;
+constexpr double kTogether = 0.12;  // of a stride: strikes of both feet in a jump
+constexpr double kFlat = 0.2;       // of the usual speed: a foot that points somewhere
+constexpr double kFlat_s = 0.03, kLeastFoot_m = 0.03, kPelvisStep_s = 0.3;
+constexpr double kMovesOfMedian = 0.3, kAlong = 0.5, kStands_m_per_s = 0.05;
+constexpr double kTurn_rad = std::numbers::pi / 4.0;
+
+// Where foot or pelvis points at a time, and where the body goes then.
+struct Heading {
+  double frame = 0.0;
+  RowVector2d points{0.0, 0.0}, goes{0.0, 0.0};
+};
+
+class Kinds {
+ public:
+  Kinds(const GaitPaths& paths, const Steps& steps, const Progress& progress)
+      : paths_(paths), steps_(steps), progress_(progress) {}
+
+  [[nodiscard]] std::vector<Heading> headings() const {
+    std::vector<Heading> out;
+    for (const Side side : data::kBothSides)
+      if (paths_.foot(side).present() && paths_.foot(side).points) add_stances(side, out);
+    if (out.empty() && paths_.pelvis_front.rows() > 0) add_pelvis(out);
+    std::ranges::stable_sort(out, {}, &Heading::frame);
+    return out;
+  }
+
+  [[nodiscard]] bool flat(Side side, std::int64_t f) const {
+    return paths_.foot(side).known[at(f)] && steps_.foot(side).speed[f] < kFlat * steps_.usual[f];
+  }
+
+  // Median place of a foot to the left of the pelvis while it stands, m.
+  [[nodiscard]] double leftward(Side side, const std::vector<Heading>& headings) const {
+    const auto& foot = paths_.foot(side);
+    if (!foot.present() || steps_.foot(side).speed.size() == 0 || headings.empty()) return kNaN;
+    std::vector<double> out;
+    for (std::int64_t f = 0; f < paths_.frames(); ++f) {
+      if (!flat(side, f) || !paths_.pelvis_known[at(f)]) continue;
+      const auto nearest = std::ranges::min_element(
+          headings, {}, [f](const Heading& one) { return std::abs(one.frame - static_cast<double>(f)); });
+      const RowVector2d from =
+          (0.5 * (foot.heel.row(f) + foot.toe.row(f)) - paths_.pelvis.row(f)).leftCols<2>();
+      out.push_back(nearest->points[0] * from[1] - nearest->points[1] * from[0]);
+    }
+    return out.empty() ? kNaN : math::median(out);
+  }
+
+  // Median of the left front of the pelvis to the left of its right front, m.
+  [[nodiscard]] double pelvis_leftward(const std::vector<Heading>& headings) const {
+    std::vector<double> out;
+    for (const auto& one : headings) {
+      const auto f = static_cast<std::int64_t>(one.frame);
+      if (paths_.pelvis_across.rows() == 0 || !paths_.pelvis_across.row(f).allFinite()) continue;
+      out.push_back(one.points[0] * paths_.pelvis_across(f, 1) - one.points[1] * paths_.pelvis_across(f, 0));
+    }
+    return out.empty() ? kNaN : math::median(out);
+  }
+
+  // Speed over the ground and the middle velocity, where the pelvis is known.
+  [[nodiscard]] std::pair<double, RowVector2d> speeds() const {
+    std::vector<double> speed, x, y;
+    for (std::int64_t f = 0; f < paths_.frames(); ++f) {
+      if (!paths_.pelvis_known[at(f)]) continue;
+      const RowVector2d v = progress_.velocity.row(f);
+      speed.push_back(v.norm()), x.push_back(v[0]), y.push_back(v[1]);
+    }
+    if (speed.empty()) return {0.0, RowVector2d(0.0, 0.0)};
+    return {math::median(speed), RowVector2d(math::median(x), math::median(y))};
+  }
+
+ private:
+  void add_stances(Side side, std::vector<Heading>& out) const {
+    const auto& foot = paths_.foot(side);
+    if (steps_.foot(side).speed.size() == 0) return;
+    const auto least = std::max<std::int64_t>(3, std::llround(kFlat_s * paths_.rate_hz));
+    for (std::int64_t f = 0; f < paths_.frames(); ++f) {
+      if (!flat(side, f)) continue;
+      auto last = f;
+      while (last + 1 < paths_.frames() && flat(side, last + 1)) ++last;
+      const auto n = last - f + 1;
+      const RowVector2d points = (foot.toe - foot.heel).block(f, 0, n, 2).colwise().mean();
+      if (n >= least && points.norm() >= kLeastFoot_m)
+        out.push_back({.frame = 0.5 * static_cast<double>(f + last),
+                       .points = points.normalized(),
+                       .goes = progress_.velocity.middleRows(f, n).colwise().mean()});
+      f = last;
+    }
+  }
+
+  void add_pelvis(std::vector<Heading>& out) const {
+    const auto step = std::max<std::int64_t>(1, static_cast<std::int64_t>(kPelvisStep_s * paths_.rate_hz));
+    for (std::int64_t f = 0; f < paths_.frames(); f += step) {
+      RowVector2d points(0.0, 0.0), goes(0.0, 0.0);
+      double count = 0.0;
+      for (auto k = f; k < std::min(paths_.frames(), f + step); ++k) {
+        goes += progress_.velocity.row(k) / static_cast<double>(step);
+        if (paths_.pelvis_front.row(k).allFinite()) points += paths_.pelvis_front.row(k), count += 1.0;
+      }
+      if (count > 0.0 && points.norm() > 0.0)
+        out.push_back({.frame = static_cast<double>(f), .points = points.normalized(), .goes = goes});
+    }
+  }
+
+  const GaitPaths& paths_;
+  const Steps& steps_;
+  const Progress& progress_;
+};
+
+void judge_direction(const std::vector<Heading>& headings, double speed, GaitKind& out) {
+  std::vector<double> along;
+  for (const auto& one : headings)
+    if (one.goes.norm() > kMovesOfMedian * speed && one.goes.norm() > 0.0)
+      along.push_back(one.points.dot(one.goes) / one.goes.norm());
+  if (headings.empty() || !(speed > kStands_m_per_s)) return;
+  const double cosine = along.empty() ? 0.0 : math::median(along);
+  out.direction = cosine > kAlong    ? GaitDirection::forward
+                  : cosine < -kAlong ? GaitDirection::backward
+                                     : GaitDirection::sideways;
+  // Headings of two stances in a row, so that toeing out is no turn.
+  std::vector<double> angles;
+  for (const auto& one : headings) {
+    double angle = std::atan2(one.points[1], one.points[0]);
+    if (!angles.empty())
+      angle = angles.back() + std::remainder(angle - angles.back(), 2.0 * std::numbers::pi);
+    angles.push_back(angle);
+  }
+  if (angles.size() >= 4) {
+    for (std::size_t i = 0; i + 1 < angles.size(); ++i) angles[i] = 0.5 * (angles[i] + angles[i + 1]);
+    angles.pop_back();
+  }
+  out.turn_rad = std::ranges::max(angles) - std::ranges::min(angles);
+  out.turning = out.turn_rad > kTurn_rad;
+}
+
+// Share of the left foot's strikes at which the right one lands too.
+bool lands_together(const std::vector<data::GaitEvent>& events, double stride_s) {
+  int strikes = 0, together = 0;
+  for (const auto& left : events) {
+    if (left.side != Side::left || left.what != FootEvent::strike) continue;
+    ++strikes;
+    together += std::ranges::any_of(events, [&](const data::GaitEvent& right) {
+      return right.side == Side::right && right.what == FootEvent::strike &&
+             std::abs(right.time_s - left.time_s) < kTogether * stride_s;
+    });
+  }
+  return 2 * together > strikes;
+}
+
+}  // namespace
+
+std::string_view to_string(GaitManner manner) { return kManners[manner]; }
+std::string_view to_string(GaitDirection direction) { return kDirections[direction]; }
+
+bool RunEvidence::runs() const {
+  if (!(flight_share > kFlight)) return false;
+  if (std::isfinite(bounce_m)) return bounce_m < kBounce_m;
+  return stance_share < kShortStance || speed_m_per_s > kNoWalk_m_per_s;
+}
+
+RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground) {
+  RunEvidence out;
+  std::int64_t first = 0, last = paths.frames() - 1;
+  while (first < last && !paths.pelvis_known[at(first)]) ++first;
+  while (last > first && !paths.pelvis_known[at(last)]) --last;
+  if (last > first)
+    out.speed_m_per_s = ((paths.pelvis.row(last) - paths.pelvis.row(first)).leftCols<2>() * paths.rate_hz /
+                             static_cast<double>(last - first) -
+                         ground)
+                            .norm();
+  std::vector<double> bounces, swings;
+  const auto quarter = static_cast<std::int64_t>(kQuarter * steps.stride_s * paths.rate_hz);
+  for (const auto& foot : steps.feet)
+    for (std::size_t i = 0; i < foot.swings.size(); ++i) {
+      const auto& swing = foot.swings[i];
+      if (swing.leaves && swing.lands)
+        swings.push_back(static_cast<double>(*swing.lands - *swing.leaves) / paths.rate_hz);
+      if (i + 1 == foot.swings.size() || !swing.lands || !foot.swings[i + 1].leaves) continue;
+      const auto middle = (*swing.lands + *foot.swings[i + 1].leaves) / 2;
+      if (*foot.swings[i + 1].leaves <= *swing.lands || middle < quarter ||
+          middle + quarter >= paths.frames())
+        continue;
+      bounces.push_back(paths.pelvis(middle, 2) -
+                        0.5 * (paths.pelvis(middle - quarter, 2) + paths.pelvis(middle + quarter, 2)));
+    }
+  if (!bounces.empty()) out.bounce_m = math::median(bounces);
+  if (!swings.empty()) out.stance_share = 1.0 - math::median(swings) / steps.stride_s;
+  if (steps.feet[0].speed.size() == 0 || steps.feet[1].speed.size() == 0) return out;
+  std::int64_t both = 0;
+  for (std::int64_t f = 0; f < paths.frames(); ++f)
+    both += std::ranges::all_of(data::kBothSides, [&](Side side) {
+      return paths.foot(side).known[at(f)] && steps.foot(side).speed[f] > kStands * steps.usual[f];
+    });
+  out.flight_share = static_cast<double>(both) / static_cast<double>(paths.frames());
+  return out;
+}
+
+GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& steps,
+                    const Progress& progress, const std::vector<data::GaitEvent>& events) {
+  GaitKind out{.stride_s = steps.stride_s};
+  const Kinds kinds(paths, steps, progress);
+  const auto [speed, velocity] = kinds.speeds();
+  const auto evidence = run_evidence(paths, steps, ground.velocity);
+  const double seconds = static_cast<double>(paths.frames() - 1) / paths.rate_hz;
+  out.speed_m_per_s = speed;
+  out.flight_share = evidence.flight_share;
+  out.bounce_m = evidence.bounce_m;
+  out.belt = ground.velocity.norm() > std::max(kBelt_m_per_s, kBeltOfBody * velocity.norm());
+  out.belt_m_per_s = out.belt ? ground.velocity.norm() : 0.0;
+  out.manner = !evidence.runs()          ? GaitManner::walk
+               : speed > kSprint_m_per_s ? GaitManner::sprint
+                                         : GaitManner::run;
+  out.brief = seconds < steps.stride_s;
+  const auto headings = kinds.headings();
+  judge_direction(headings, speed, out);
+  out.left_of_right_m = kinds.leftward(Side::left, headings) - kinds.leftward(Side::right, headings);
+  out.pelvis_left_of_right_m = kinds.pelvis_leftward(headings);
+  if (steps.feet[0].swings.empty() && steps.feet[1].swings.empty())
+    out.not_gait = "no foot swings: none moves by 80 mm over the ground";
+  else if (!(speed * steps.stride_s > kLeastStride_m))
+    out.not_gait =
+        fmt::format("the feet move, but the body goes {:.2f} m a stride over the ground; need {:.1f}",
+                    speed * steps.stride_s, kLeastStride_m);
+  else if (events.size() < kLeastEvents &&
+           !(!events.empty() && speed > kShortSpeed_m_per_s && seconds < kShort_s))
+    out.not_gait =
+        fmt::format("the feet land and leave {} times in all; need {}", events.size(), kLeastEvents);
+  else if (lands_together(events, steps.stride_s))
+    out.not_gait = "both feet land together, as in a jump";
+  return out;
+}
+
+std::string GaitKind::sentence() const {
+  const auto* const goes = manner == GaitManner::walk  ? "walking"
+                           : manner == GaitManner::run ? "running"
+                                                       : "sprinting";
+  std::string out =
+      fmt::format("{}{} {}", brief ? "about " : "", goes, belt ? "on a treadmill" : "over ground");
+  if (direction != GaitDirection::unknown) out += fmt::format(", {}", to_string(direction));
+  if (turning) out += fmt::format(", turning by {:.0f} deg", turn_rad * 180.0 / std::numbers::pi);
+  out += fmt::format(": {:.2f} m/s, strides of {:.2f} s", speed_m_per_s, stride_s);
+  if (belt) out += fmt::format("; the feet slide back at {:.3f} m/s while they stand", belt_m_per_s);
+  if (direction == GaitDirection::unknown)
+    out +=
+        "; forward or backward is not known, as no foot's heel and toe and no front of the pelvis are named";
+  return out;
+}
+
+}  // namespace kinemark::analysis

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/gait_kind.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "kinemark/stages/analysis/gait/marker_events.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using testing::KnownWalk;
+
+MarkerEvents judged(const data::Trajectories& markers) {
+  const auto which = find_gait_markers(markers).value();
+  auto smoother = GaitSmoother::create(markers, which, 0.0).value();
+  return find_marker_events(smoother, which).value();
+}
+
+// Somebody who springs: stances of 36 % and a pelvis that is lowest in the middle of them.
+data::Trajectories running(double speed_m_per_s, bool treadmill, double stride_s = 0.7) {
+  KnownWalk run;
+  run.speed_m_per_s = speed_m_per_s, run.stride_s = stride_s, run.stance = {0.36, 0.36},
+  run.treadmill = treadmill;
+  run.rate_hz = 200.0;
+  auto out = run.markers(0.0003, 4);
+  for (std::int64_t f = 0; f < out.frames(); ++f) {
+    const double share = (out.time.time_s(f) - run.first_strike_s) / run.stride_s - 0.18;
+    out.x(f, 4).z() = 0.95 - 0.04 * std::cos(4.0 * std::numbers::pi * share);
+  }
+  return out;
+}
+
+TEST(GaitKind, WalkingIsForwardOverGroundOrOnABelt) {
+  for (const bool treadmill : {false, true}) {
+    KnownWalk walk;
+    walk.treadmill = treadmill;
+    const auto kind = judged(walk.markers(0.0003, 3)).kind;
+    EXPECT_EQ(kind.not_gait, "");
+    EXPECT_EQ(kind.manner, GaitManner::walk);
+    EXPECT_EQ(kind.belt, treadmill);
+    EXPECT_EQ(kind.direction, GaitDirection::forward);
+    EXPECT_FALSE(kind.turning || kind.brief);
+    EXPECT_NEAR(kind.speed_m_per_s, 1.3, 0.02);
+    EXPECT_NEAR(kind.left_of_right_m, 0.1, 0.03);
+    EXPECT_EQ(kind.flight_share, 0.0);
+    EXPECT_GT(kind.bounce_m, 0.01);
+    EXPECT_NE(
+        kind.sentence().find(treadmill ? "walking on a treadmill, forward" : "walking over ground, forward"),
+        std::string::npos);
+  }
+}
+
+TEST(GaitKind, TheSameReversedInTimeIsBackward) {
+  const auto walk = KnownWalk{}.markers(0.0003, 3);
+  auto back = walk;
+  for (std::int64_t f = 0; f < walk.frames(); ++f)
+    for (std::int64_t m = 0; m < walk.markers(); ++m) back.x(f, m) = walk.x(walk.frames() - 1 - f, m);
+  const auto found = judged(back);
+  EXPECT_EQ(found.kind.direction, GaitDirection::backward);
+  EXPECT_EQ(found.kind.manner, GaitManner::walk);
+  EXPECT_FALSE(found.kind.belt);
+  EXPECT_NEAR(found.kind.speed_m_per_s, 1.3, 0.02);
+  // Their SDs are 1.5 times those of the walk forward.
+  EXPECT_NEAR(found.events[4].sd_s / judged(walk).events[4].sd_s, 1.5, 0.2);
+}
+
+TEST(GaitKind, FlightAndASpringAreARunAndAboveSixMetresASecondASprint) {
+  const auto run = judged(running(3.2, false)).kind, belt = judged(running(3.2, true)).kind,
+             sprint = judged(running(6.8, false, 0.5)).kind;
+  EXPECT_EQ(run.manner, GaitManner::run);
+  EXPECT_FALSE(run.belt);
+  EXPECT_EQ(belt.manner, GaitManner::run);
+  EXPECT_TRUE(belt.belt);
+  EXPECT_NEAR(belt.belt_m_per_s, 3.2, 0.1);
+  EXPECT_EQ(sprint.manner, GaitManner::sprint);
+  EXPECT_FALSE(sprint.belt);
+  EXPECT_LT(run.bounce_m, 0.0);
+  EXPECT_GT(run.flight_share, 0.1);
+}
+
+TEST(GaitKind, NeitherFlightNorASpringAloneIsARun) {
+  EXPECT_FALSE((RunEvidence{.flight_share = 0.046, .bounce_m = 0.02, .stance_share = 0.6}.runs()));
+  EXPECT_FALSE((RunEvidence{.flight_share = 0.0, .bounce_m = -0.05, .stance_share = 0.6}.runs()));
+  EXPECT_TRUE((RunEvidence{.flight_share = 0.1, .bounce_m = -0.05, .stance_share = 0.6}.runs()));
+  EXPECT_TRUE((RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = 0.4}.runs()));
+  EXPECT_FALSE((RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = kNaN}.runs()));
+  EXPECT_TRUE((
+      RunEvidence{.flight_share = 0.1, .bounce_m = kNaN, .stance_share = 0.56, .speed_m_per_s = 2.7}.runs()));
+  EXPECT_FALSE(
+      (RunEvidence{.flight_share = 0.01, .bounce_m = kNaN, .stance_share = 0.56, .speed_m_per_s = 2.7}
+           .runs()));
+}
+
+TEST(GaitKind, ACurveIsATurn) {
+  const auto walk = KnownWalk{}.markers(0.0003, 3);
+  auto curve = walk;
+  for (std::int64_t f = 0; f < walk.frames(); ++f)
+    for (std::int64_t m = 0; m < walk.markers(); ++m) {
+      // The way along the heading becomes an arc of 4 m radius.
+      const Eigen::Vector3d x = walk.x(f, m);
+      const double along = std::cos(0.4) * x.x() + std::sin(0.4) * x.y(),
+                   left = -std::sin(0.4) * x.x() + std::cos(0.4) * x.y(), a = along / 4.0;
+      curve.x(f, m) = Eigen::Vector3d((4.0 - left) * std::sin(a), 4.0 - (4.0 - left) * std::cos(a), x.z());
+    }
+  const auto kind = judged(curve).kind;
+  EXPECT_TRUE(kind.turning);
+  EXPECT_EQ(kind.direction, GaitDirection::forward);
+  EXPECT_NEAR(kind.turn_rad, 7.0 / 4.0, 0.5);
+  EXPECT_FALSE(judged(walk).kind.turning);
+}
+
+TEST(GaitKind, WhatIsNoLocomotionIsSaidWhy) {
+  auto stands = KnownWalk{}.markers(0.0003, 3);
+  for (std::int64_t f = 1; f < stands.frames(); ++f)
+    for (std::int64_t m = 0; m < stands.markers(); ++m)
+      stands.x(f, m) = stands.x(0, m) + 1e-4 * (stands.x(f, m) - stands.x(0, m));
+  EXPECT_NE(judged(stands).kind.not_gait.find("no foot swings"), std::string::npos);
+  // Feet that go to and fro under a body that stays.
+  auto exercise = KnownWalk{}.markers(0.0003, 3);
+  for (std::int64_t f = 0; f < exercise.frames(); ++f) {
+    const double t = exercise.time.time_s(f), s = 0.3 * std::sin(2.0 * std::numbers::pi * t);
+    for (std::int64_t m = 0; m < 4; ++m)
+      exercise.x(f, m) = Eigen::Vector3d(m < 2 ? s : 0.0, m < 2 ? 0.1 : -0.1, 0.05) +
+                         Eigen::Vector3d(m % 2 == 1 ? 0.2 : 0.0, 0, 0);
+    exercise.x(f, 4) = Eigen::Vector3d(0.0, 0.0, 0.95 + 1e-4 * s);
+  }
+  EXPECT_NE(judged(exercise).kind.not_gait.find("the body goes"), std::string::npos)
+      << judged(exercise).kind.not_gait;
+  // Both feet as one.
+  const auto walk = KnownWalk{}.markers(0.0003, 3);
+  auto jumps = walk;
+  for (std::int64_t f = 0; f < walk.frames(); ++f)
+    for (const std::int64_t m : {2, 3}) jumps.x(f, m) = walk.x(f, m - 2) + Eigen::Vector3d(0.05, -0.1, 0.0);
+  EXPECT_EQ(judged(jumps).kind.not_gait, "both feet land together, as in a jump");
+}
+
+TEST(GaitKind, WithoutHeelsAndPelvisTheDirectionIsNotSaid) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  markers.names = {"X1", "LTOE", "X2", "RTOE", "SACR"};
+  const auto kind = judged(markers).kind;
+  EXPECT_EQ(kind.direction, GaitDirection::unknown);
+  EXPECT_NE(kind.sentence().find("forward or backward is not known"), std::string::npos);
+}
+
+TEST(GaitKind, HasNames) {
+  EXPECT_EQ(to_string(GaitManner::sprint), "sprint");
+  EXPECT_EQ(to_string(GaitDirection::sideways), "sideways");
+}
+
+}  // namespace
+}  // namespace kinemark::analysis

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/marker_events.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
+
+namespace kinemark::analysis {
+namespace {
+
+using data::FootEvent;
+using data::Side;
+using testing::KnownWalk;
+
+struct Told {
+  MarkerEvents found;
+  std::vector<std::string> sentences;
+  [[nodiscard]] bool says(std::string_view words) const {
+    return std::ranges::any_of(sentences,
+                               [&](const auto& one) { return one.find(words) != std::string::npos; });
+  }
+};
+Told tell(const data::Trajectories& markers) {
+  const auto which = find_gait_markers(markers).value();
+  auto smoother = GaitSmoother::create(markers, which, 0.0).value();
+  Told out{.found = find_marker_events(smoother, which).value()};
+  out.sentences = findings_of(smoother, out.found);
+  return out;
+}
+
+// Of the walker's events away from the ends: how many have one of the markers within 0.1 s.
+int found_of(const KnownWalk& walk, const MarkerEvents& found, Side side, int& all) {
+  int out = 0;
+  for (const auto& event : walk.events()) {
+    if (event.side != side || event.time_s < 0.15 || event.time_s > walk.duration_s - 0.15) continue;
+    ++all;
+    out += std::ranges::any_of(found.events, [&](const data::GaitEvent& one) {
+      return one.side == side && one.what == event.what && std::abs(one.time_s - event.time_s) < 0.1;
+    });
+  }
+  return out;
+}
+
+TEST(MarkerEvents, EveryEventIsFoundAtAnyRateAndNoise) {
+  for (const double rate : {25.0, 60.0, 100.0, 240.0, 1000.0})
+    for (const double noise : {0.0002, 0.005}) {
+      KnownWalk walk;
+      walk.rate_hz = rate;
+      const auto told = tell(walk.markers(noise, 3));
+      int all = 0;
+      for (const Side side : data::kBothSides) {
+        int of_side = 0;
+        EXPECT_EQ(found_of(walk, told.found, side, of_side), of_side) << rate << " Hz " << noise;
+        all += of_side;
+      }
+      EXPECT_NEAR(static_cast<double>(told.found.events.size()), all, 3.0) << rate << " Hz " << noise;
+    }
+}
+
+TEST(MarkerEvents, NothingIsSaidOfACleanWalk) {
+  EXPECT_TRUE(tell(KnownWalk{}.markers(0.0003, 3)).sentences.empty());
+}
+
+TEST(MarkerEvents, AHiddenFootIsSaidAndTheOtherKeepsItsEvents) {
+  const KnownWalk walk;
+  auto markers = walk.markers(0.0003, 3);
+  for (std::int64_t f = 120; f < 360; ++f)
+    for (const std::int64_t m : {0, 1}) markers.set_missing(f, m);
+  const auto told = tell(markers);
+  EXPECT_TRUE(told.says("left foot: hidden from 1.20 to 3.59 s, events there cannot be found"));
+  EXPECT_FALSE(told.says("right foot"));
+  int all = 0;
+  EXPECT_EQ(found_of(walk, told.found, Side::right, all), all);
+}
+
+TEST(MarkerEvents, AFootHeldStillIsSaid) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  for (std::int64_t f = 121; f < 360; ++f)
+    for (const std::int64_t m : {2, 3}) markers.x(f, m) = Eigen::Vector3d(markers.x(120, m));
+  const auto told = tell(markers);
+  EXPECT_TRUE(told.says("right foot: a marker is held still")) << told.sentences.size();
+  EXPECT_TRUE(told.says("right foot: hidden from 1.21 to 3.59 s"));
+}
+
+TEST(MarkerEvents, LeapsAreCountedAndCostNoEvent) {
+  const KnownWalk walk;
+  auto markers = walk.markers(0.0003, 3);
+  for (std::int64_t f = 40; f < markers.frames(); f += 150) markers.x(f, 0).x() += 0.3;
+  const auto told = tell(markers);
+  EXPECT_TRUE(told.says("there and back"));
+  int all = 0;
+  const int left = found_of(walk, told.found, Side::left, all);
+  EXPECT_EQ(left + found_of(walk, told.found, Side::right, all), all);
+}
+
+TEST(MarkerEvents, ExchangedSidesAreSaidAndRightOnesAreNot) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  markers.names = {"RHEE", "RTOE", "LHEE", "LTOE", "SACR"};
+  EXPECT_TRUE(tell(markers).says("the names of the sides are exchanged, or the recording is mirrored"));
+}
+
+TEST(MarkerEvents, OneFootAloneIsFound) {
+  const KnownWalk walk;
+  auto markers = walk.markers(0.0003, 3);
+  markers.names = {"LHEE", "LTOE", "X1", "X2", "SACR"};
+  const auto told = tell(markers);
+  int all = 0;
+  EXPECT_EQ(found_of(walk, told.found, Side::left, all), all);
+  for (const auto& event : told.found.events) EXPECT_EQ(event.side, Side::left);
+}
+
+TEST(MarkerEvents, SidesWithoutNamesAreThoseOfTheWay) {
+  const KnownWalk walk;
+  const auto known = walk.markers(0.0003, 3);
+  // No names tell; a head makes the body tall.
+  auto markers = data::Trajectories::all_missing({"m1", "m2", "m3", "m4", "m5", "m6", "m7"}, known.time);
+  for (std::int64_t f = 0; f < known.frames(); ++f)
+    for (std::int64_t m = 0; m < 7; ++m) {
+      const Eigen::Vector3d pelvis = known.x(f, 4);
+      markers.x(f, m) = m < 5 ? Eigen::Vector3d(known.x(f, (m + 2) % 5))
+                              : Eigen::Vector3d(pelvis + Eigen::Vector3d(0.0, m == 5 ? 0.02 : -0.02, 0.7));
+      markers.state[markers.index(f, m)] = data::SampleState::measured;
+    }
+  const auto which = find_gait_markers(markers);
+  ASSERT_TRUE(which) << which.error().message;
+  EXPECT_FALSE(which->sides_known);
+  const auto told = tell(markers);
+  for (const Side side : data::kBothSides) {
+    int all = 0;
+    EXPECT_GE(found_of(walk, told.found, side, all), 7);
+  }
+}
+
+TEST(MarkerEvents, SdsAreCommonAndOwn) {
+  const auto found = tell(KnownWalk{}.markers(0.0003, 3)).found;
+  ASSERT_EQ(found.events.size(), found.edges.size());
+  ASSERT_EQ(found.events.size(), found.fused.size());
+  for (std::size_t i = 0; i < found.events.size(); ++i) {
+    EXPECT_NEAR(found.events[i].sd_s, std::hypot(found.fused[i].common_sd_s, found.fused[i].own_sd_s), 1e-12);
+    EXPECT_TRUE(found.fused[i].common_sd_s > 0.012 && found.fused[i].common_sd_s < 0.018);
+  }
+  EXPECT_EQ(sd_factor(GaitDirection::forward), 1.0);
+  EXPECT_EQ(sd_factor(GaitDirection::unknown), 1.0);
+  EXPECT_EQ(sd_factor(GaitDirection::sideways), 1.5);
+}
+
+}  // namespace
+}  // namespace kinemark::analysis
