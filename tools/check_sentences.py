@@ -35,7 +35,7 @@ FOLDERS = ("src/kinemark/data", "src/kinemark/stages", "src/kinemark/pipeline", 
 NOT_SOURCE = ("_test.cc", "_fuzz.cc", "_benchmark.cc")
 TABLE = "tests/sentences.toml"
 LEAST_WORDS = 4
-LEAST_SHARED = 12  # characters that a test and a sentence must have in common
+LEAST_SHARED = 18  # characters that a test and a sentence must have in common
 
 LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
 PIECE = re.compile(r'"((?:[^"\\\n]|\\.)*)"')

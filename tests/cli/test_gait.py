@@ -190,6 +190,13 @@ class Gait(CommandTest):
         write_trc(self.folder / "hidden.trc", rows, names=NAMES)
         result = self.run_in("analyze", self.folder / "hidden.trc", "--measures", "gait", "--refits", "0")
         self.assertEqual(result.status, 0, result.err)
+        self.assertIn("left foot: LHEE is hidden from 1.51 to 2.99 s", result.err)
+        self.assertIn("LTOE stands for the whole foot", result.err)
+        self.assertNotIn("right foot", result.err)
+        rows = [[(math.nan,) * 3 if m < 2 and 150 < i < 300 else p for m, p in enumerate(row)] for i, row in enumerate(walk())]
+        write_trc(self.folder / "foot_hidden.trc", rows, names=NAMES)
+        result = self.run_in("analyze", self.folder / "foot_hidden.trc", "--measures", "gait", "--refits", "0")
+        self.assertEqual(result.status, 0, result.err)
         self.assertIn("left foot: hidden from 1.5", result.err)
         write_trc(self.folder / "exchanged.trc", walk(), names=("RHEE", "RTOE", "LHEE", "LTOE", "SACR"))
         result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")

@@ -109,7 +109,7 @@ class Finder {
       }
       for (const auto& [of, word] : sided_words(plain)) {
         const int rank = of == *side ? rank_of(place, word) : -1;
-        if (rank >= 0 && (word.size() > 1 || has_twin(plain, *side, word))) found.emplace_back(rank, m);
+        if (rank >= 0 && (word.size() > 1 || has_pair(plain, *side, word))) found.emplace_back(rank, m);
       }
     }
     std::ranges::stable_sort(found);
@@ -120,7 +120,7 @@ class Finder {
   }
 
   // Whether the other foot has a marker of the same word: single letters mean nothing alone.
-  [[nodiscard]] bool has_twin(const std::string& plain, Side side, const std::string& word) const {
+  [[nodiscard]] bool has_pair(const std::string& plain, Side side, const std::string& word) const {
     return std::ranges::any_of(mine_, [&](auto m) {
       const auto other = plain_name(name(m));
       return other != plain && std::ranges::any_of(sided_words(other), [&](const SidedWord& read) {

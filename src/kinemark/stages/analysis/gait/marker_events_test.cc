@@ -16,7 +16,7 @@ using data::FootEvent;
 using data::Side;
 using testing::KnownWalk;
 
-struct Told {
+struct Stated {
   MarkerEvents found;
   std::vector<std::string> sentences;
   [[nodiscard]] bool says(std::string_view words) const {
@@ -24,10 +24,10 @@ struct Told {
                                [&](const auto& one) { return one.find(words) != std::string::npos; });
   }
 };
-Told tell(const data::Trajectories& markers) {
+Stated tell(const data::Trajectories& markers) {
   const auto which = find_gait_markers(markers).value();
   auto smoother = GaitSmoother::create(markers, which, 0.0).value();
-  Told out{.found = find_marker_events(smoother, which).value()};
+  Stated out{.found = find_marker_events(smoother, which).value()};
   out.sentences = findings_of(smoother, out.found);
   return out;
 }
@@ -50,14 +50,14 @@ TEST(MarkerEvents, EveryEventIsFoundAtAnyRateAndNoise) {
     for (const double noise : {0.0002, 0.005}) {
       KnownWalk walk;
       walk.rate_hz = rate;
-      const auto told = tell(walk.markers(noise, 3));
+      const auto stated = tell(walk.markers(noise, 3));
       int all = 0;
       for (const Side side : data::kBothSides) {
         int of_side = 0;
-        EXPECT_EQ(found_of(walk, told.found, side, of_side), of_side) << rate << " Hz " << noise;
+        EXPECT_EQ(found_of(walk, stated.found, side, of_side), of_side) << rate << " Hz " << noise;
         all += of_side;
       }
-      EXPECT_NEAR(static_cast<double>(told.found.events.size()), all, 3.0) << rate << " Hz " << noise;
+      EXPECT_NEAR(static_cast<double>(stated.found.events.size()), all, 3.0) << rate << " Hz " << noise;
     }
 }
 
@@ -70,31 +70,31 @@ TEST(MarkerEvents, AHiddenFootIsSaidAndTheOtherKeepsItsEvents) {
   auto markers = walk.markers(0.0003, 3);
   for (std::int64_t f = 120; f < 360; ++f)
     for (const std::int64_t m : {0, 1}) markers.set_missing(f, m);
-  const auto told = tell(markers);
-  EXPECT_TRUE(told.says("left foot: hidden from 1.20 to 3.59 s, events there cannot be found"));
-  EXPECT_FALSE(told.says("right foot"));
+  const auto stated = tell(markers);
+  EXPECT_TRUE(stated.says("left foot: hidden from 1.20 to 3.59 s, events there cannot be found"));
+  EXPECT_FALSE(stated.says("right foot"));
   int all = 0;
-  EXPECT_EQ(found_of(walk, told.found, Side::right, all), all);
+  EXPECT_EQ(found_of(walk, stated.found, Side::right, all), all);
 }
 
 TEST(MarkerEvents, AFootHeldStillIsSaid) {
   auto markers = KnownWalk{}.markers(0.0003, 3);
   for (std::int64_t f = 121; f < 360; ++f)
     for (const std::int64_t m : {2, 3}) markers.x(f, m) = Eigen::Vector3d(markers.x(120, m));
-  const auto told = tell(markers);
-  EXPECT_TRUE(told.says("right foot: a marker is held still")) << told.sentences.size();
-  EXPECT_TRUE(told.says("right foot: hidden from 1.21 to 3.59 s"));
+  const auto stated = tell(markers);
+  EXPECT_TRUE(stated.says("right foot: a marker is held still")) << stated.sentences.size();
+  EXPECT_TRUE(stated.says("right foot: hidden from 1.21 to 3.59 s"));
 }
 
 TEST(MarkerEvents, LeapsAreCountedAndCostNoEvent) {
   const KnownWalk walk;
   auto markers = walk.markers(0.0003, 3);
   for (std::int64_t f = 40; f < markers.frames(); f += 150) markers.x(f, 0).x() += 0.3;
-  const auto told = tell(markers);
-  EXPECT_TRUE(told.says("there and back"));
+  const auto stated = tell(markers);
+  EXPECT_TRUE(stated.says("there and back"));
   int all = 0;
-  const int left = found_of(walk, told.found, Side::left, all);
-  EXPECT_EQ(left + found_of(walk, told.found, Side::right, all), all);
+  const int left = found_of(walk, stated.found, Side::left, all);
+  EXPECT_EQ(left + found_of(walk, stated.found, Side::right, all), all);
 }
 
 TEST(MarkerEvents, ExchangedSidesAreSaidAndRightOnesAreNot) {
@@ -107,10 +107,10 @@ TEST(MarkerEvents, OneFootAloneIsFound) {
   const KnownWalk walk;
   auto markers = walk.markers(0.0003, 3);
   markers.names = {"LHEE", "LTOE", "X1", "X2", "SACR"};
-  const auto told = tell(markers);
+  const auto stated = tell(markers);
   int all = 0;
-  EXPECT_EQ(found_of(walk, told.found, Side::left, all), all);
-  for (const auto& event : told.found.events) EXPECT_EQ(event.side, Side::left);
+  EXPECT_EQ(found_of(walk, stated.found, Side::left, all), all);
+  for (const auto& event : stated.found.events) EXPECT_EQ(event.side, Side::left);
 }
 
 TEST(MarkerEvents, SidesWithoutNamesAreThoseOfTheWay) {
@@ -128,10 +128,10 @@ TEST(MarkerEvents, SidesWithoutNamesAreThoseOfTheWay) {
   const auto which = find_gait_markers(markers);
   ASSERT_TRUE(which) << which.error().message;
   EXPECT_FALSE(which->sides_known);
-  const auto told = tell(markers);
+  const auto stated = tell(markers);
   for (const Side side : data::kBothSides) {
     int all = 0;
-    EXPECT_GE(found_of(walk, told.found, side, all), 7);
+    EXPECT_GE(found_of(walk, stated.found, side, all), 7);
   }
 }
 
