@@ -28,7 +28,6 @@ Json validate_json(const ValidateOutcome& outcome) {
       entry["error"] = checked.error->message;
     else
       entry["warnings"] = checked.warnings;
-    if (!checked.notes.empty()) entry["notes"] = checked.notes;
   }
   return list;
 }
