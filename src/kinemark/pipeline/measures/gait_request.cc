@@ -90,7 +90,6 @@ nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
   Json out;
   const auto& kind = gait.kind;
   out["type"] = analysis::to_string(kind.manner);
-  out["surface"] = gait.treadmill ? "treadmill" : "ground";
   out["direction"] = analysis::to_string(kind.direction);
   out["turning_deg"] = kind.turn_rad * 180.0 / std::numbers::pi;
   out["turning"] = kind.turning;

@@ -56,7 +56,7 @@ struct GaitOutputs {
 [[nodiscard]] Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
                                                   const analysis::GaitOptions& options);
 
-/// "type" (walk, run, sprint), "surface" (ground, treadmill), "direction" (forward, backward, sideways,
+/// "type" (walk, run, sprint), "direction" (forward, backward, sideways,
 /// unknown), "turning_deg", "turning", "speed" (mm/s over the ground or belt), "stride_time_s", "person"
 /// (null: one), "plates_out_of_step", "treadmill", "belt_speed" (mm/s; null over ground), "events".
 [[nodiscard]] nlohmann::ordered_json gait_json(const analysis::Gait& gait);

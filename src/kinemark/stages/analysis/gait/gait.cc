@@ -226,6 +226,17 @@ void note_events(const EventsFound& found, Gait& out) {
         bridge.side == Side::left ? "left" : "right", bridge.start_s, bridge.end_s, bridge.strides));
 }
 
+// The speed and stride that are said are those that are measured, where there are whole strides: one walk has
+// one speed.
+void take_strides(Gait& out) {
+  if (out.cycles.empty()) return;
+  for (const auto& definition : gait_definitions()) {
+    const double value = definition.scope == GaitScope::body ? definition.value(out.cycles) : kNaN;
+    if (definition.what.id == "gait_speed" && std::isfinite(value)) out.kind.speed_m_per_s = value;
+    if (definition.what.id == "cadence" && std::isfinite(value)) out.kind.stride_s = 2.0 / value;
+  }
+}
+
 }  // namespace
 
 double event_noise(std::span<const double> moved_s) {
@@ -250,7 +261,6 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
     return fail(Code::bad_input, "not locomotion: " + of_markers->kind.not_gait);
   Gait out{.kind = of_markers->kind, .person = which->person};
   out.treadmill = out.kind.belt, out.belt_speed_m_per_s = out.kind.belt_m_per_s;
-  if (out.kind.not_gait.empty()) out.notes.push_back(out.kind.sentence());
   std::ranges::copy(which->notes, std::back_inserter(out.notes));
   std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
@@ -266,6 +276,8 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   out.out_of_step = found.out_of_step;
   note_events(found, out);
   GaitMeasurement(*smoother, *of_markers, found, markers.time, options).measure(out);
+  take_strides(out);
+  if (out.kind.not_gait.empty()) out.notes.insert(out.notes.begin(), out.kind.sentence());
   return out;
 }
 

@@ -50,6 +50,19 @@ TEST(Gait, MeasuresAreThoseOfTheWalker) {
   }
 }
 
+TEST(Gait, OneWalkHasOneSpeed) {
+  KnownWalk walk;
+  const auto gait = measured(walk);
+  EXPECT_EQ(gait.kind.speed_m_per_s, value_of(gait, "gait_speed"));
+  EXPECT_NEAR(gait.kind.stride_s, 2.0 / value_of(gait, "cadence"), 1e-12);
+  EXPECT_EQ(gait.notes.front(), gait.kind.sentence());
+  walk.duration_s = 1.3;  // no whole stride: the pelvis tells about how fast
+  const auto brief = measured(walk);
+  ASSERT_TRUE(brief.cycles.empty());
+  EXPECT_TRUE(std::isnan(value_of(brief, "gait_speed")));
+  EXPECT_NEAR(brief.kind.speed_m_per_s, 1.3, 0.1);
+}
+
 TEST(Gait, StepsAddUpToStrides) {
   const auto gait = measured({.right_later = 0.52});
   for (const auto& cycle : gait.cycles) {
