@@ -105,6 +105,12 @@ Status Trajectories::validate() const {
   if (!sample_offset_s.empty() && sample_offset_s.size() != names.size() && sample_offset_s.size() != samples)
     return fail(Code::bad_input, fmt::format("trajectories hold {} sample times; need {}, {} or none",
                                              sample_offset_s.size(), names.size(), samples));
+  if (!filters.empty() && filters.size() != names.size())
+    return fail(Code::bad_input, fmt::format("trajectories name the filters of {} markers; need {} or none",
+                                             filters.size(), names.size()));
+  if (!unfiltered_in_world.empty() && unfiltered_in_world.size() != 3 * samples)
+    return fail(Code::bad_input, fmt::format("trajectories hold {} unfiltered coordinates; need {} or none",
+                                             unfiltered_in_world.size(), 3 * samples));
   std::set<std::string_view> seen;
   for (const std::string& name : names) {
     if (name.empty()) return fail(Code::bad_input, "a marker has no name");

@@ -11,6 +11,7 @@
 #include "kinemark/core/array.h"
 #include "kinemark/core/result.h"
 #include "kinemark/core/time_base.h"
+#include "kinemark/data/filter_used.h"
 
 namespace kinemark::data {
 
@@ -39,6 +40,10 @@ struct Trajectories {
   /// Time at which a marker was actually measured, s after its frame's time: M (the same in every frame), F x
   /// M, or empty (0).
   Array<double> sample_offset_s;
+  /// Filter that each marker went through before it came here: M, or empty where nothing says that one did.
+  std::vector<FilterUsed> filters;
+  /// Samples as they were before that filter: F x M x 3, m, NaN where not measured; empty when not kept.
+  Array<double> unfiltered_in_world;
 
   [[nodiscard]] std::int64_t frames() const { return time.frames; }                               ///< F
   [[nodiscard]] std::int64_t markers() const { return static_cast<std::int64_t>(names.size()); }  ///< M

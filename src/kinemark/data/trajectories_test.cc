@@ -77,6 +77,18 @@ TEST(Trajectories, ValidateNamesWhatIsWrong) {
   EXPECT_THAT(t.validate().error().message, HasSubstr("marked missing"));
 }
 
+TEST(Trajectories, FiltersAndUnfilteredSamplesAreOfAllMarkersOrOfNone) {
+  Trajectories t = two_by_two();
+  t.filters.assign(2, {.method = "kalman", .order = 3, .cutoff_hz = 8.0, .noise_sd_m = 1e-3});
+  t.unfiltered_in_world = t.x_in_world;
+  EXPECT_TRUE(t.validate());
+  t.filters.pop_back();
+  EXPECT_THAT(t.validate().error().message, HasSubstr("name the filters of 1 markers; need 2 or none"));
+  t.filters.clear();
+  t.unfiltered_in_world.resize(11);
+  EXPECT_THAT(t.validate().error().message, HasSubstr("11 unfiltered coordinates; need 12 or none"));
+}
+
 TEST(Trajectories, TheClockMustRunAndFramesBeCounted) {
   for (const double rate_hz : {-100.0, std::nan(""), HUGE_VAL}) {
     Trajectories t = two_by_two();
