@@ -19,7 +19,7 @@ struct CleanArguments {
   ManyArguments many;
   std::string gaps = "none", filter = "auto", upsampled = "mark", cutoff_rule = "winter";
   double noise_mm = 0.0, max_gap_sd_mm = 20.0;
-  bool uncorrected = false;
+  bool uncorrected = false, without_unfiltered = false;
 };
 
 void print_clean_outcome(const CommonOptions& common, const pipeline::CleanOutcome& outcome) {
@@ -68,6 +68,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
   job.gaps.max_sd_m = 1e-3 * arguments.max_gap_sd_mm;
   job.gaps.noise_sd_m = job.filter.noise_sd_m = 1e-3 * arguments.noise_mm;
   job.filter.correct_cutoff = !arguments.uncorrected;
+  job.keep_unfiltered = !arguments.without_unfiltered;
   auto& many = arguments.many;
   if (auto s = many.split_output(); !s) return report_error(s.error());
   if (!many.are_many()) {
@@ -135,6 +136,10 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
       ->capture_default_str();
   command->add_flag("--reject", job.reject_defects,
                     "Reject spikes, swaps, stuck and false samples instead of only reporting them");
+  command->add_flag("--without-unfiltered", arguments->without_unfiltered,
+                    "Do not keep the samples from before the filter beside the smoothed ones");
+  command->add_flag("!--keep-exchanges", job.exchange_back,
+                    "Leave markers that carry each other's label as they are; told all the same");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   command->add_option(

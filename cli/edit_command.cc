@@ -48,6 +48,7 @@ struct EditArguments {
   std::string method, context, author;
   int undo = 0, redo = 0;
   bool list = false;
+  std::string frames;
 };
 
 /// What was asked for, apart from when. Nothing: to look.
@@ -69,6 +70,8 @@ Status read_edit(EditArguments& arguments) {
   }
   if (arguments.undo > 0) edits.push_back({.kind = EditKind::undo, .count = arguments.undo});
   if (arguments.redo > 0) edits.push_back({.kind = EditKind::redo, .count = arguments.redo});
+  const bool exchanges = arguments.job.exchanges;
+  if (exchanges) edits.push_back({.kind = EditKind::swap});
   if (edits.size() > 1 || (edits.size() == 1 && arguments.list))
     return fail(Code::usage, "several operations; need one at a time");
   if (edits.empty() && !arguments.list)
@@ -77,6 +80,9 @@ Status read_edit(EditArguments& arguments) {
   auto& edit = edits.front();
   if (!arguments.method.empty() && edit.kind != EditKind::fill)
     return fail(Code::usage, "--method is for --fill");
+  if (!arguments.frames.empty() && (edit.kind != EditKind::swap || exchanges))
+    return fail(Code::usage, "--frames is for --swap");
+  edit.frames = arguments.frames;
   edit.method = arguments.method;
   edit.context = arguments.context;
   edit.author = arguments.author;
@@ -103,7 +109,7 @@ std::string list_text(const pipeline::EditOutcome& outcome) {
 void print_edit_outcome(const CommonOptions& common, const pipeline::EditOutcome& outcome, bool list) {
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   const auto depth = outcome.list.depth();
-  if (!list)
+  if (!list && !outcome.written.empty())
     say(common, fmt::format("{}: {}", outcome.journal.string(), describe(outcome.list.edits.back())));
   say(common, fmt::format("{} in force, {} undone that can be redone",
                           counted(static_cast<std::int64_t>(depth.undo), "edit"), depth.redo));
@@ -146,6 +152,10 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
           ->type_name(operation.type)
           ->group("Operation, one of");
   }
+  command
+      ->add_flag("--exchanges", job.exchanges,
+                 "Markers that surely carry each other's label get their own: a swap of each pair")
+      ->group("Operation, one of");
   const auto count = [&](const char* name, int& value, const char* text) {
     command->add_option(name, value, text)
         ->type_name("N")
@@ -161,6 +171,11 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
   };
   when("--from", job.from, "First frame; the recording's when absent");
   when("--to", job.to, "Last frame, included; the recording's when absent");
+  command
+      ->add_option("--frames", arguments->frames,
+                   "Of a swap: its frames, 1,4,19-20, or 1-127/3 for every third")
+      ->type_name("LIST")
+      ->group("Where and how");
   when("--at", job.at, "Of an event");
   command->add_option("--context", arguments->context, "Of an event: Left, Right, General")
       ->type_name("NAME")

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <memory>
+#include <string>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -69,9 +71,11 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   const auto outcome = pipeline::run_joints(job);
   if (!outcome) return report_error(outcome.error());
   const auto& skeleton = outcome->skeleton;
-  say(common, fmt::format("{} frames at {:g} Hz, {} segments, {} joints; marker noise {:.2f} mm per axis.",
-                          skeleton.frames(), skeleton.time.rate_hz, skeleton.segments.size(),
-                          skeleton.joints.size(), 1e3 * skeleton.noise_sd_m));
+  std::string counts = fmt::format("{} frames at {:g} Hz, {} segments, {} joints", skeleton.frames(),
+                                   skeleton.time.rate_hz, skeleton.segments.size(), skeleton.joints.size());
+  if (std::isfinite(skeleton.noise_sd_m))
+    counts += fmt::format("; marker noise {:.2f} mm per axis", 1e3 * skeleton.noise_sd_m);
+  say(common, counts + ".");
   for (const auto& line : pipeline::skeleton_description(skeleton)) say(common, line);
   for (const auto& warning : skeleton.warnings) say(common, "attention: " + warning);
   for (const auto& note : outcome->warnings) say(common, "note: " + note);
@@ -86,7 +90,10 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command =
       app.add_subcommand("joints", "Joint centres and axes from markers, each with its covariance");
   command->footer(
-      "Without --segments the markers are sorted into segments and joints by how they move. Exit status 1: "
+      "Without --segments the names of known marker sets tell the segments, else how the markers move: a "
+      "joint "
+      "is\n"
+      "known where segmentations that the data allow agree on it. Exit status 1: a joint is not determined, "
       "a\n"
       "segment or joint was left out as no body's, or a joint could be placed in no frame.\n"
       "Several recordings, or a folder of them: --output is a folder for a file of centres each, in the "

@@ -18,7 +18,7 @@ void print_adapted(const CommonOptions& common, const motion::AdaptResult& resul
                   result.frames, result.iterations, 1e3 * result.rms_after_m, 1e3 * result.rms_before_m));
   if (!result.converged)
     say(common, "attention: the adaptation did not converge; its numbers are intermediate");
-  if (result.tissue_sd_m > 0.0)
+  if (result.tissue_sd_m >= 0.05e-3)  // less is 0.0 as it is printed
     say(common,
         fmt::format("Markers slide on the body with the posture, {:.1f} mm per axis; deviations include it.",
                     1e3 * result.tissue_sd_m));
@@ -81,7 +81,7 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
       "deviations, and "
       "what\n"
       "the data do not determine. Exit status 1: the files are there, but the markers fit worse than "
-      "--max-rms.");
+      "--max-rms,\nor a marker of the static trial lies elsewhere or is exchanged.");
   const auto arguments = std::make_shared<ScaleArguments>();
   auto& job = arguments->job;
   command->add_option("-m,--model", job.model, "General body model, .osim")->group("Input");

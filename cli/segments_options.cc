@@ -20,6 +20,9 @@ void print_segments(const CommonOptions& common, const pipeline::SegmentsOutcome
       fmt::format("{}: {}, {} and {} in {}.", outcome.title, counted(std::ssize(motion.angles), "angle"),
                   counted(std::ssize(motion.values), "value"), counted(motion.points.markers(), "point"),
                   counted(motion.time.frames, "frame")));
+  if (const auto assumed = pipeline::assumed_measures(motion); !assumed.empty())
+    say(common, fmt::format("Assumed, and carried in the deviations: {}.", assumed));
+  if (!outcome.comparison.empty()) say(common, fmt::format("It {}.", outcome.comparison.summary()));
   if (!outcome.loads.series.empty())
     say(common, fmt::format("Joints: {} of forces, moments and powers, from {} on force plates.",
                             counted(std::ssize(outcome.loads.series), "series", "series"),
@@ -45,12 +48,15 @@ void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
                                 "Static trial of the subject; the recording itself: it is its own")
                     ->type_name("FILE");
   auto* vsk =
-      command.add_option("--vsk", job.vsk, "Measures of the subject, a Vicon .vsk")->type_name("FILE");
-  auto* subject = command
-                      .add_option("--subject", job.subject,
-                                  "A measure of the subject: LLegLength=920; mm, deg, kg. Repeatable.")
-                      ->type_name("NAME=VALUE")
-                      ->allow_extra_args(false);
+      command.add_option("--vsk", job.vsk, "Measures of the subject, a Vicon .vsk or .mp")->type_name("FILE");
+  auto* subject =
+      command
+          .add_option(
+              "--subject", job.subject,
+              "A measure of the subject: LLegLength=920, or with its deviation LThighRotation=4+-2.5; "
+              "mm, deg, kg. Repeatable.")
+          ->type_name("NAME=VALUE[+-SD]")
+          ->allow_extra_args(false);
   auto* trial = command
                     .add_option("--trial", job.trials,
                                 "A trial in which landmarks of the definition were shown. Repeatable.")

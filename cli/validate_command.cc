@@ -17,6 +17,7 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
     const std::string file = checked.file.string();
     if (checked.error) (void)report_error(*checked.error);
     for (const auto& warning : checked.warnings) say(common, fmt::format("{}: {}", file, warning));
+    for (const auto& note : checked.notes) say(common, fmt::format("{}: note: {}", file, note));
     if (checked.exit_status() == 0) say(common, fmt::format("{}: good", file));
   }
   if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """`kinemark joints FILE` without segments on every C3D and TRC of the real recordings.
 
-No result may hold a marker noise above 20 mm or a length outside 5 mm to 1.5 m; what was left out is said with a figure
-and its bound, and the exit status tells: 1 when anything was left out, 3 and no file when nothing of a body is there.
+No result may hold a marker noise above 20 mm, a length outside 5 mm to 1.5 m, a segment of two markers or a number of a joint that
+is not known; what was left out is said with a figure and its bound, what is not determined with its reason, and the exit status tells:
+1 when anything was left out or not determined, 3 and no file when nothing can be looked at.
 """
 
 import json
@@ -73,8 +74,18 @@ def wrong(done, out):
         if left["name"] not in done.stderr or left["words"] not in done.stderr or "expected" not in left["words"]:
             return f"left out without a word: {left}"
     placed = all(j["frames"]["undetermined"] < skeleton["frames"] for j in skeleton["joints"])
-    if (done.returncode == 1) != (bool(skeleton["left_out"]) or not placed):
-        return f"exit status {done.returncode} with {len(skeleton['left_out'])} left out"
+    account = skeleton["segmentation"]
+    few = [s["name"] for s in skeleton["segments"] if len(s["markers"]) < 3]
+    if few:
+        return f"segments of two markers: {few}"
+    if sorted(j["name"] for j in account["known"]) != sorted(j["name"] for j in skeleton["joints"]):
+        return "the joints that are known are not those that have numbers"
+    unsaid = [j["name"] for j in account["not_determined"] if j["words"] not in done.stderr]
+    if unsaid:
+        return f"not determined without a word: {unsaid}"
+    open_joints = bool(account["not_determined"]) or not skeleton["joints"]
+    if (done.returncode == 1) != (bool(skeleton["left_out"]) or not placed or open_joints):
+        return f"exit status {done.returncode} with {len(skeleton['left_out'])} left out, {len(account['not_determined'])} not determined"
     if skeleton["left_out"] and skeleton["next_step"] not in done.stderr:
         return "no next step"
     return ""

@@ -30,6 +30,22 @@ class Scale(CommandTest):
         self.scale("--model", self.model, "--static", self.markers, "-o", "M.osim")
         self.good("ik", "-m", "M.osim", "-t", self.markers, "-o", "Q.mot")
 
+    def test_a_static_trial_is_judged_before_it_is_built_on(self):
+        self.good("convert", self.markers, "standing.trc")
+        text = (self.folder / "standing.trc").read_text()
+        ran = self.scale("--model", self.model, "--static", "standing.trc", "-o", "M.osim")
+        self.assertEqual(ran.status, 0, ran.err)
+        self.assertNotIn("slide on the body", ran.out + ran.err)  # one posture cannot tell
+        head = text.splitlines()[3]
+        turned = head.replace("LTOE", "*").replace("LHEE", "LTOE").replace("*", "LHEE")
+        (self.folder / "wrong.trc").write_text(text.replace(head, turned))
+        ran = self.scale("--model", self.model, "--static", "wrong.trc", "-o", "N.osim")
+        self.assertEqual(ran.status, 1, ran.err)
+        self.assertRegex(ran.out + ran.err, "(LHEE and LTOE|LTOE and LHEE) are exchanged in wrong.trc")
+        report = json.loads((self.folder / "N_report.json").read_text())
+        self.assertEqual(report["exit_status"], 1)
+        self.assertEqual({report["static_trials"][0]["findings"][0][k] for k in ("marker", "partner")}, {"LTOE", "LHEE"})
+
     def test_functional_joints_go_into_the_model(self):
         thigh = '[[segment]]\nname = "thigh {0}"\nmarkers = ["{0}THI", "{0}THAP", "{0}KNE"]\n'
         hip = '[[joint]]\nname = "hip {0}"\nparent = "pelvis"\nchild = "thigh {0}"\n'

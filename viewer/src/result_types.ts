@@ -82,7 +82,7 @@ export interface Adapted {
   rms_before_m: number;
   rms_after_m: number;
   noise_sd_m: number;
-  soft_tissue_sd_m: number;
+  soft_tissue_sd_m: number | null;
   lengths: { name: string; initial_m: number; length_m: number; sd_m: Known; determined: boolean }[];
   parameters: { name: string; kind: "size" | "joint place" | "marker place"; initial: number; value: number; sd: Known; prior_sd: number; determined: boolean }[];
   not_determined: string[];

@@ -11,6 +11,7 @@
 #include "kinemark/core/counted.h"
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/data/frame_list.h"
 
 namespace kinemark::data {
 namespace {
@@ -73,7 +74,22 @@ Status check_event(const Edit& edit) {
   return {};
 }
 
+/// The frames of a swap that lists them.
+Status check_frames(const Edit& edit) {
+  if (edit.frames.empty()) return {};
+  if (edit.first_frame || edit.last_frame)
+    return fail(Code::bad_input,
+                fmt::format("{} has a range and a list of frames; need one of them", to_string(edit.kind)));
+  if (const auto frames = parse_frame_list(edit.frames); !frames)
+    return fail(Code::bad_input, fmt::format("{}: {}", to_string(edit.kind), frames.error().message));
+  return {};
+}
+
 std::string words_of_range(const Edit& edit) {
+  if (!edit.frames.empty())
+    if (const auto frames = parse_frame_list(edit.frames))
+      return fmt::format(", {}: {}", counted(std::ssize(*frames), "frame"),
+                         words_of_frames(*frames, {.frames = 0, .first_number = 0}));
   if (edit.first_frame && edit.last_frame)
     return *edit.first_frame == *edit.last_frame
                ? fmt::format(", frame {}", *edit.first_frame)
@@ -142,6 +158,7 @@ Status Edit::check() const {
     case EditKind::fill:
     case EditKind::unfill:
       if (auto s = check_markers(*this); !s) return s;
+      if (auto s = check_frames(*this); !s) return s;
       return check_range(*this);
     case EditKind::crop:
       return check_range(*this);
@@ -163,8 +180,8 @@ Status Edit::check() const {
 
 bool Edit::same_as(const Edit& that) const {
   const auto facts = [](const Edit& e) {
-    return std::tie(e.kind, e.marker, e.other, e.first_frame, e.last_frame, e.method, e.label, e.context,
-                    e.time_s, e.to_s, e.name, e.count);
+    return std::tie(e.kind, e.marker, e.other, e.first_frame, e.last_frame, e.frames, e.method, e.label,
+                    e.context, e.time_s, e.to_s, e.name, e.count);
   };
   return facts(*this) == facts(that);
 }

@@ -17,7 +17,7 @@ namespace kinemark::data {
 /// What an edit does. In brackets: the members of Edit that it needs, then those that it may have.
 enum class EditKind : std::uint8_t {
   relabel,       ///< samples of a marker become those of another [marker, other; range]
-  swap,          ///< two markers exchange their samples [marker, other; range]
+  swap,          ///< two markers exchange their samples [marker, other; range, or frames]
   cut,           ///< samples of a marker become `rejected` [marker; range]
   fill,          ///< gaps of a marker are filled [marker; method, range]
   unfill,        ///< filled samples of a marker become missing [marker; range]
@@ -42,6 +42,7 @@ struct Edit {
   std::string other;              ///< relabel: what the marker becomes; swap: its partner
   /// First and last frame in the file's own numbers, both included; none: from the start, to the end.
   std::optional<std::int64_t> first_frame, last_frame;
+  std::string frames;   ///< of a swap, instead of a range: its frames, as parse_frame_list() reads them
   std::string method;   ///< of a fill, as `clean --gaps` has them; empty: "auto"
   std::string label;    ///< of an event
   std::string context;  ///< of an event, may be empty

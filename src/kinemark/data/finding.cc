@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+
+#include "kinemark/data/frame_list.h"
 
 namespace kinemark::data {
 namespace {
@@ -17,7 +20,6 @@ constexpr std::array<std::string_view, 16> kKinds{
     "at limit",    "not settled", "flagged",          "outlier"};
 
 constexpr std::string_view kFromWhere = "from where the model and the frames beside have it";
-constexpr std::size_t kStretchesNamed = 6;  // of a marker that was left out
 
 /// "marker 'A'", or "all markers".
 std::string who(const Finding& f) {
@@ -39,6 +41,10 @@ std::string millimetres(const Finding& f, std::string_view before, std::string_v
 /// " in frame 3 (0.03 s)", " in frames 3 to 9 (0.03 to 0.09 s)", or nothing.
 std::string when(const Finding& f, const TimeBase& time) {
   if (f.first_frame < 0) return "";
+  if (!f.frames.empty())
+    return fmt::format(" in {} frames: {} ({:.6g} to {:.6g} s)", f.frames.size(),
+                       words_of_frames(f.frames, time), time.time_s(f.first_frame),
+                       time.time_s(f.last_frame));
   if (f.first_frame == f.last_frame)
     return fmt::format(" in frame {} ({:.6g} s)", time.number(f.first_frame), time.time_s(f.first_frame));
   return fmt::format(" in frames {} to {} ({:.6g} to {:.6g} s)", time.number(f.first_frame),
@@ -92,8 +98,9 @@ std::string core_of(const Finding& f, const TimeBase& time) {
       return fmt::format("{} jumps{} to the path of '{}'{} and back to its own", who(f), millimetres(f, ""),
                          f.partner, when(f, time));
     case FindingKind::label_swap:
-      return fmt::format("markers '{}' and '{}' carry each other's label{}{}", f.subject, f.partner,
-                         when(f, time), millimetres(f, "while ", " apart"));
+      return fmt::format("markers '{}' and '{}' {}{}{}", f.subject, f.partner,
+                         f.frames.empty() ? "carry each other's label" : "are exchanged", when(f, time),
+                         millimetres(f, "while ", " apart"));
     case FindingKind::marker_slip:
       return fmt::format("{} moved{} on {}{}", who(f), millimetres(f, ""), which_segment(f),
                          about_when(f, time));
@@ -125,29 +132,17 @@ std::string without_doubt(const Finding& f, const TimeBase& time) {
   return f.detail.empty() ? text : text + ": " + f.detail;
 }
 
-/// "3, 8 to 14, 20 and 3 more stretches".
-std::string stretches_in_words(std::span<const Finding* const> stretches) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(stretches.size(), kStretchesNamed); ++i) {
-    const Finding& f = *stretches[i];
-    text += i > 0 ? ", " : "";
-    text += f.first_frame == f.last_frame ? fmt::format("{}", f.first_frame)
-                                          : fmt::format("{} to {}", f.first_frame, f.last_frame);
-  }
-  if (stretches.size() > kStretchesNamed)
-    text += fmt::format(" and {} more stretches", stretches.size() - kStretchesNamed);
-  return text;
-}
-
-std::string outliers_in_words(std::span<const Finding* const> stretches) {
+std::string outliers_in_words(std::span<const Finding* const> stretches, const TimeBase& time) {
   Finding all = *stretches.front();
-  std::int64_t frames = 0;
+  std::vector<std::int64_t> frames;
   for (const Finding* f : stretches) {
-    frames += f->last_frame - f->first_frame + 1;
+    for (auto frame = f->first_frame; frame <= f->last_frame; ++frame) frames.push_back(frame);
     all.size = std::fmax(all.size, f->size);
   }
-  auto text = fmt::format("{} was left out in {} frames ({}):{} {}", who(all), frames,
-                          stretches_in_words(stretches), millimetres(all, "up to "), kFromWhere);
+  std::string which = words_of_frames(frames, time);
+  if (which.starts_with("frames ")) which.erase(0, std::string_view("frames ").size());
+  auto text = fmt::format("{} was left out in {} frames ({}):{} {}", who(all), frames.size(), which,
+                          millimetres(all, "up to "), kFromWhere);
   if (!all.detail.empty()) text += ": " + all.detail;
   return text;
 }
@@ -164,6 +159,9 @@ Status Finding::validate() const {
   if ((first_frame < 0) != (last_frame < 0) || last_frame < first_frame)
     return wrong(
         fmt::format("lasts from frame {} to {}; need both in order, or none", first_frame, last_frame));
+  if (!frames.empty() && (frames.front() != first_frame || frames.back() != last_frame ||
+                          std::ranges::adjacent_find(frames, std::greater_equal<>()) != frames.end()))
+    return wrong("lists frames that are not in order from its first to its last");
   if ((kind == FindingKind::swap_within || kind == FindingKind::label_swap) &&
       (subject.empty() || partner.empty() || subject == partner))
     return wrong(fmt::format("names '{}' as the other marker; need two markers", partner));
@@ -171,6 +169,11 @@ Status Finding::validate() const {
   if (confidence < 0.0 || confidence > 1.0)
     return wrong(fmt::format("has a confidence of {}; need 0 to 1", confidence));
   return {};
+}
+
+std::int64_t Finding::frame_count() const {
+  if (!frames.empty()) return std::ssize(frames);
+  return first_frame < 0 ? 0 : last_frame - first_frame + 1;
 }
 
 std::string describe(const Finding& finding, const TimeBase& time) {
@@ -202,7 +205,7 @@ std::vector<std::string> describe_all(std::span<const Finding> findings, const T
         alike.push_back(&findings[k]);
         done[k] = true;
       }
-    sentences.push_back(alike.size() == 1 ? describe(findings[i], time) : outliers_in_words(alike));
+    sentences.push_back(alike.size() == 1 ? describe(findings[i], time) : outliers_in_words(alike, time));
   }
   return sentences;
 }

@@ -47,6 +47,7 @@ struct Finding {
   std::string subject;                   ///< marker, joint, coordinate or method; empty: all markers
   std::string partner;                   ///< the other marker of a swap, the segment of a slip; empty: none
   std::int64_t first_frame = -1, last_frame = -1;  ///< both ends belong to it; -1: not tied to frames
+  std::vector<std::int64_t> frames;                ///< those of them, in order; empty: all
   double size = kNaN;                              ///< as its kind says, in m, frames, ...; NaN: not known
   double size_sd = kNaN;     ///< one standard deviation of the size, same unit; NaN: not known
   double confidence = kNaN;  ///< 0 to 1; NaN: whoever found it did not doubt it
@@ -55,6 +56,8 @@ struct Finding {
   /// do not hold; empty: describe() makes them from the facts.
   std::string description;
 
+  /// How many frames it is about.
+  [[nodiscard]] std::int64_t frame_count() const;
   /// Below 0.8 a person should look.
   [[nodiscard]] bool sure() const { return !(confidence < 0.8); }
   /// Frames come in order, swaps name both markers, SD and confidence are in range.

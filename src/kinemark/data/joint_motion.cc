@@ -37,6 +37,7 @@ Status JointMotion::validate() const {
   if (is_rotation.size() != n) return wrong("is_rotation", is_rotation.size(), n);
   if (!keeps_radians.empty() && keeps_radians.size() != n)
     return wrong("keeps_radians", keeps_radians.size(), n);
+  if (!open_frames.empty() && open_frames.size() != n) return wrong("open_frames", open_frames.size(), n);
   if (q.size() != F * n) return wrong("q", q.size(), F * n);
   if (!q_sd.empty() && q_sd.size() != F * n) return wrong("q_sd", q_sd.size(), F * n);
   const std::pair<std::string_view, const Array<double>*> optional[] = {

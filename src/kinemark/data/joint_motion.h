@@ -19,8 +19,8 @@ enum class FrameStatus : std::uint8_t {
   converged,        ///< the gradient vanished to the asked tolerance
   not_converged,    ///< the iteration limit was reached; the best pose found is given
   underdetermined,  ///< converged, but at least one coordinate is not fixed by the visible markers
-  no_markers,       ///< no marker visible: the pose is held from the frame before and all coordinates are
-                    ///< undetermined
+  no_markers,       ///< no marker visible: the pose is held from the nearest frame solved and all coordinates
+                    ///< are undetermined
 };
 
 /// "converged", "not_converged", "underdetermined", "no_markers"
@@ -37,7 +37,10 @@ struct JointMotion {
   Array<double> q;                   ///< F x n
   Array<double> q_sd;                ///< F x n, one standard deviation; NaN where not determined or unknown
   Array<std::uint8_t> determined;    ///< F x n; 0: the visible markers do not fix this coordinate
-  Array<double> qd, qdd;             ///< F x n, dq/dt and d2q/dt2; empty when not computed
+  /// n, or empty where it is not known: frames in which the visible markers leave this coordinate open. In
+  /// others that are not determined they fix it, but worse than an error bar can say, or two poses fit them.
+  std::vector<std::int64_t> open_frames;
+  Array<double> qd, qdd;      ///< F x n, dq/dt and d2q/dt2; empty when not computed
   Array<double> tau, tau_sd;  ///< F x n, generalised force of each coordinate, N m or N, and its SD; empty
                               ///< when not computed, NaN where it is not known
   Array<double> q_bound;  ///< F x n, what |q - q of the goals| cannot exceed; empty when not computed, NaN

@@ -22,6 +22,12 @@ std::string_view to_string(SegmentKind kind) {
 
 std::string_view to_string(JointKind kind) { return kind == JointKind::hinge ? "hinge" : "ball"; }
 
+std::string_view to_string(SkinVerdict verdict) {
+  static constexpr EnumNames<SkinVerdict::cannot_tell> kNames{"untested", "follows the posture", "none seen",
+                                                              "cannot be told"};
+  return kNames[verdict];
+}
+
 std::string_view to_string(CentreState state) {
   static constexpr EnumNames<CentreState::determined> kNames{"undetermined", "ambiguous", "bridged",
                                                              "determined"};

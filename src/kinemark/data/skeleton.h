@@ -29,8 +29,18 @@ enum class CentreState : std::uint8_t {
   determined,    ///< one position fits, from the markers of this frame alone
 };
 
+/// What the recording shows of markers that slide on their segment with the posture.
+enum class SkinVerdict : std::uint8_t {
+  untested,     ///< no method looked, or there was nothing to look at
+  follows,      ///< the shape follows the posture, the same in one movement as in the others
+  none_seen,    ///< enough movements, and nothing of it
+  cannot_tell,  ///< too few movements, or neither of these
+};
+
 [[nodiscard]] std::string_view to_string(SegmentKind kind);  ///< "line", "plane", "solid"
 [[nodiscard]] std::string_view to_string(JointKind kind);    ///< "ball", "hinge"
+/// "untested", "follows the posture", "none seen", "cannot be told"
+[[nodiscard]] std::string_view to_string(SkinVerdict verdict);
 /// "undetermined", "ambiguous", "bridged", "determined"
 [[nodiscard]] std::string_view to_string(CentreState state);
 
@@ -63,6 +73,19 @@ struct SkeletonSegment {
   Eigen::Matrix3Xd x_in_segment;          ///< one column a marker, m; line: along z, plane: in x and z
 };
 
+/// Markers that slide on their segments with a joint's posture: what was looked for and found.
+struct SkinAccount {
+  SkinVerdict verdict = SkinVerdict::untested;
+  std::int64_t movements = 0;  ///< of the joint in this recording
+  std::int64_t alike = 0;     ///< movements whose shape the others predict, on the segment that shows it more
+  double p_value = kNaN;      ///< of the shape, over movements; NaN: fewer than four
+  double explained = kNaN;    ///< share of the shape's variance in a movement that the others predict
+  double own_slide_m = kNaN;  ///< of a marker, per axis, m per rad of the joint's motion
+  double own_limit_m = kNaN;  ///< its 95 % limit
+  double gap_m = kNaN;        ///< RMS of the joint's motion with the posture, where the shape shows none
+  std::string description;    ///< a sentence or two; empty: untested
+};
+
 /// A joint between two segments.
 struct SkeletonJoint {
   std::string name;                           ///< as in the layout
@@ -84,6 +107,12 @@ struct SkeletonJoint {
   Eigen::Matrix3d axis_covariance_in_parent = Eigen::Matrix3d::Zero();
   /// The same by which another part of the trial would differ.
   Eigen::Matrix3d axis_repeatability_in_parent = Eigen::Matrix3d::Constant(kNaN);
+  /// How much of the accuracy is knowledge that the recording did not bring: variance of the place over what
+  /// the prior for skin alone says, 0 to 1; 0 where noise outweighs skin. NaN when unknown.
+  double prior_share = kNaN;
+  SkinAccount skin;
+  /// The number is mostly prior knowledge.
+  [[nodiscard]] bool prior_dominated() const { return prior_share > 0.5; }
   double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen
   std::string method;                ///< "SCoRE", "articulated", ...
   std::string description;           ///< what the motion shows of this joint and what it does not

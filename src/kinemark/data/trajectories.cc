@@ -24,6 +24,10 @@ std::string_view to_string(SampleState state) {
 void Trajectories::set_missing(std::int64_t frame, std::int64_t marker, SampleState why) {
   x(frame, marker).setConstant(std::numeric_limits<double>::quiet_NaN());
   state[index(frame, marker)] = why;
+  // What is taken away was not measured, before its filter neither.
+  if (!unfiltered_in_world.empty())
+    std::fill_n(unfiltered_in_world.begin() + static_cast<std::ptrdiff_t>(3 * index(frame, marker)), 3,
+                std::numeric_limits<double>::quiet_NaN());
 }
 
 std::string_view Trajectories::made_by(std::int64_t frame, std::int64_t marker) const {

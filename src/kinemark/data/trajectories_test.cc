@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinemark/core/check.h"
 
 namespace kinemark::data {
@@ -169,6 +171,13 @@ TEST(SampleState, EveryStateHasItsOwnName) {
   std::set<std::string_view> names;
   for (int s = 0; s < 6; ++s) names.insert(to_string(static_cast<SampleState>(s)));
   EXPECT_EQ(names.size(), 6U);
+}
+
+TEST(Trajectories, ASampleThatIsTakenAwayWasNotMeasuredBeforeItsFilterEither) {
+  auto t = Trajectories::all_missing({"A", "B"}, {.rate_hz = 100.0, .frames = 2});
+  t.unfiltered_in_world.assign(12, 1.0);
+  t.set_missing(1, 0, SampleState::rejected);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(std::isnan(t.unfiltered_in_world[i]), i >= 6 && i < 9) << i;
 }
 
 }  // namespace

@@ -24,13 +24,27 @@ struct Piece {
   SeriesMatrix series;
 };
 
+// Trace of the smoother times the covariance of noise, over a sample: mean of gain times spectrum, with as
+// many points below the cut-off as above.
+double coloured_share(int order, double half_power, const NoiseModel& noise) {
+  constexpr int kSteps = 256;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double u = (i + 0.5) / kSteps, f = 0.5 * u * u;
+    sum += gain_of(LowPass::spline, order, half_power, f) * noise.power(f) * 2.0 * u / kSteps;
+  }
+  return sum;
+}
+
 // Risk and trace at one cut-off over all pieces; NaN where double precision does not reach.
-SmoothingChoice judge(std::vector<Piece>& pieces, double half_power) {
+SmoothingChoice judge(std::vector<Piece>& pieces, double half_power, const NoiseModel* noise) {
   const int order = pieces.front().smoother.order();
   SmoothingChoice out{.order = order, .half_power = half_power};
   // ln r goes with 2m ln f.
   const double factor = std::exp(kStep / (2.0 * order));
-  double squares = 0.0, parameters = 0.0;
+  double squares = 0.0, parameters = 0.0, trace = 0.0;
+  const double share = noise == nullptr ? 0.0 : coloured_share(order, half_power, *noise);
+  const double slow = noise == nullptr ? 0.0 : noise->power(0.01 * half_power);
   std::int64_t seen = 0;
   for (auto& [smoother, series] : pieces) {
     if (!smoother.factor(half_power / factor)) return out;
@@ -40,16 +54,19 @@ SmoothingChoice judge(std::vector<Piece>& pieces, double half_power) {
     if (!smoother.factor(half_power)) return out;
     SeriesMatrix smoothed = series;
     smoother.smooth(smoothed);
+    const std::int64_t before = seen;
     for (std::int64_t i = 0; i < smoother.samples(); ++i)
       if (smoother.seen()[at(i)]) {
         squares += (series.row(i) - smoothed.row(i)).squaredNorm();
         ++seen;
       }
-    parameters += order + (above - below) / (2.0 * kStep);
+    const double own = order + (above - below) / (2.0 * kStep);
+    parameters += own;
+    trace += noise == nullptr ? own : static_cast<double>(seen - before) * share + 0.5 * order * slow;
   }
   const double count = static_cast<double>(seen), axes = static_cast<double>(pieces.front().series.cols());
   out.parameters = parameters;
-  out.risk = squares / (count * axes) + 2.0 * parameters / count - 1.0;
+  out.risk = squares / (count * axes) + 2.0 * trace / count - 1.0;
   if (!std::isfinite(out.risk)) out.risk = kNaN;
   return out;
 }
@@ -62,7 +79,7 @@ SmoothingChoice best_of_order(std::vector<Piece>& pieces, const SmoothingSearch&
   SmoothingChoice best;
   const double ratio = std::log(search.highest / search.lowest) / std::max(1, search.frequencies - 1);
   for (int i = 0; i < search.frequencies; ++i) {
-    const auto judged = judge(pieces, search.lowest * std::exp(ratio * i));
+    const auto judged = judge(pieces, search.lowest * std::exp(ratio * i), search.noise);
     if (better(judged, best)) best = judged;
   }
   if (std::isnan(best.risk)) return best;
@@ -70,7 +87,7 @@ SmoothingChoice best_of_order(std::vector<Piece>& pieces, const SmoothingSearch&
   for (const double shift : std::array{-0.6, -0.3, 0.3, 0.6}) {
     const double half_power = middle * std::exp(ratio * shift);
     if (half_power < search.lowest || half_power > search.highest) continue;
-    const auto judged = judge(pieces, half_power);
+    const auto judged = judge(pieces, half_power, search.noise);
     if (better(judged, best)) best = judged;
   }
   return best;

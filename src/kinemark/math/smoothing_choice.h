@@ -10,6 +10,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/math/difference_smoother.h"
+#include "kinemark/math/noise_model.h"
 
 namespace kinemark::math {
 
@@ -31,10 +32,14 @@ struct SmoothingSearch {
   /// of longer series as many, in four stretches from the first to the last sample, long ones because at an
   /// end less can be smoothed away: at least 4000
   std::int64_t samples = 16384;
+  /// Noise that is not white, in the unit of the series; null: white of variance 1. The trace is then that of
+  /// the smoother times the noise's covariance, by its spectrum.
+  const NoiseModel* noise = nullptr;
 };
 
 /// The order and cut-off of least expected error by Stein's unbiased estimate (SURE: residual sum of squares
-/// plus twice the trace of the smoother, Stein 1981; Craven & Wahba 1979), for white noise.
+/// plus twice the trace of the smoother, Stein 1981; Craven & Wahba 1979), for white noise or that of the
+/// search.
 ///
 /// @param series  n samples of some axes, over the standard deviation of their noise
 /// @return        nothing where no order has samples enough, or none can be computed in double precision.

@@ -15,6 +15,7 @@ type Length = Adapted["lengths"][number];
 /** A scaled model: each size with its interval, what the data do not determine, and how the markers fit. */
 export function scalePage({ summary, result }: ResultPageData<ScaleResult>): Content {
   const fit = result.motion ?? result.static ?? null;
+  const tissue = fit?.soft_tissue_sd_m ?? null;
   const sizes = fit?.parameters.filter((p) => p.kind === "size") ?? [];
   const others = fit?.parameters.filter((p) => p.kind !== "size") ?? [];
   const tiles: Tile[] = [
@@ -25,7 +26,7 @@ export function scalePage({ summary, result }: ResultPageData<ScaleResult>): Con
     [`${number(sizes.filter((p) => p.determined).length)} of ${number(sizes.length)}`, "sizes determined", "by the data, not by what was assumed"],
     [`${number(fit?.lengths.filter((l) => l.determined).length ?? 0)} of ${number(fit?.lengths.length ?? 0)}`, "lengths determined", "between joints of a segment"],
     [`${number(fit === null ? null : 1e3 * fit.noise_sd_m, 1)} mm`, "marker noise", "SD per axis"],
-    [fit === null || fit.soft_tissue_sd_m === 0 ? "–" : `${number(1e3 * fit.soft_tissue_sd_m, 1)} mm`, "soft tissue", fit !== null && fit.soft_tissue_sd_m === 0 ? "none found" : "SD per axis that follows the posture"],
+    [tissue === null || tissue === 0 ? "–" : `${number(1e3 * tissue, 1)} mm`, "soft tissue", tissue === null ? "one posture cannot tell" : tissue === 0 ? "none found" : "SD per axis that follows the posture"],
   ];
   const factors = Object.entries(result.factors);
   return {

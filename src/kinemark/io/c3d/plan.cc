@@ -12,6 +12,7 @@
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
+#include "kinemark/io/c3d/unfiltered.h"
 #include "kinemark/io/length_unit.h"
 #include "kinemark/io/set_mark.h"
 
@@ -90,7 +91,8 @@ std::int64_t first_frame(const data::Trial& trial) {
 }
 
 /// Which labels belong to which kind of channel, with the kind's unit and the pairs of TYPE_GROUPS.
-void add_channel_lists(C3dGroup& point, const data::Channels& channels, const std::string& length) {
+void add_channel_lists(C3dGroup& point, const data::Channels& channels, const std::string& length,
+                       const std::vector<std::string>& unfiltered) {
   std::vector<std::string> pairs;
   const auto add = [&](std::string_view list, std::string_view singular, data::ChannelKind kind) {
     std::vector<std::string> names;
@@ -109,6 +111,10 @@ void add_channel_lists(C3dGroup& point, const data::Channels& channels, const st
   };
   for (const C3dPointType& type : kC3dPointTypes) add(type.list, type.singular, type.kind);
   add("OTHERS", "OTHER", data::ChannelKind::other);
+  if (!unfiltered.empty()) {
+    add_texts(point, kC3dUnfilteredList, unfiltered);
+    pairs.insert(pairs.end(), 2, std::string(kC3dUnfilteredList));
+  }
   if (pairs.empty()) return;
   const int width = static_cast<int>(std::ranges::max(pairs, {}, &std::string::size).size());
   const int count = static_cast<int>(pairs.size() / 2);
@@ -116,17 +122,31 @@ void add_channel_lists(C3dGroup& point, const data::Channels& channels, const st
       {.name = "TYPE_GROUPS", .type = C3dType::text, .dims = {width, 2, count}, .texts = std::move(pairs)});
 }
 
-std::vector<std::string> point_names(const data::Trial& trial) {
-  std::vector<std::string> names = trial.markers.names;
-  names.insert(names.end(), trial.channels.names.begin(), trial.channels.names.end());
+std::vector<std::string> unfiltered_names(const C3dPlan& plan, const data::Trial& trial) {
+  std::vector<std::string> names;
+  const std::string prefix = plan.unfiltered.empty() ? "" : unfiltered_prefix(trial);
+  for (const auto m : plan.unfiltered)
+    names.push_back(prefix + trial.markers.names[static_cast<std::size_t>(m)]);
   return names;
+}
+
+/// What points of samples before a filter are, said with each; nothing with all others.
+std::vector<std::string> point_descriptions(const C3dPlan& plan, const data::Trial& trial) {
+  std::vector<std::string> out(trial.markers.names.size() + trial.channels.names.size());
+  for (const auto m : plan.unfiltered)
+    out.push_back(
+        fmt::format("{} before its filter", trial.markers.names[static_cast<std::size_t>(m)]).substr(0, 255));
+  return out;
 }
 
 void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string& units) {
   C3dGroup& point = plan.parameters.group("POINT");
   const std::int64_t frames = trial.markers.frames();
   const bool is_long = frames > kMaxWord;
-  const std::vector<std::string> names = point_names(trial);
+  const std::vector<std::string> unfiltered = unfiltered_names(plan, trial);
+  std::vector<std::string> names = trial.markers.names;
+  names.insert(names.end(), trial.channels.names.begin(), trial.channels.names.end());
+  names.insert(names.end(), unfiltered.begin(), unfiltered.end());
   add_number(point, "USED", C3dType::int16, static_cast<double>(names.size()));
   // A float here would be legal, too, but several readers accept an integer only.
   add_number(point, "FRAMES", C3dType::int16, static_cast<double>(std::min(frames, kMaxWord)));
@@ -137,8 +157,8 @@ void add_point_group(C3dPlan& plan, const data::Trial& trial, const std::string&
   add_number(point, std::string(kC3dResidualsParameter), C3dType::int16, 1.0);
   add_text(point, "UNITS", units);
   add_texts(point, "LABELS", names);
-  add_texts(point, "DESCRIPTIONS", std::vector<std::string>(names.size()));
-  add_channel_lists(point, trial.channels, units);
+  add_texts(point, "DESCRIPTIONS", point_descriptions(plan, trial));
+  add_channel_lists(point, trial.channels, units, unfiltered);
 }
 
 void add_analog_group(C3dPlan& plan, const data::Trial& trial) {
@@ -263,11 +283,11 @@ Status plan_analog(C3dPlan& plan, const data::Trial& trial) {
 
 }  // namespace
 
-Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options) {
+Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options, bool unfiltered) {
   if (auto status = trial.validate(); !status) return std::unexpected(status.error());
   const std::int64_t frames = trial.markers.frames();
   if (frames == 0) return fail(Code::bad_input, "the trial has no frames; there is nothing to write");
-  const std::int64_t points = trial.markers.markers() + trial.channels.count();
+  std::int64_t points = trial.markers.markers() + trial.channels.count();
   if (points > kMaxWord)
     return fail(Code::not_supported, fmt::format("has {} points; a C3D file can count {}", points, kMaxWord));
   const auto metres = metres_per_unit(options.units);
@@ -275,7 +295,15 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
 
   C3dPlan plan{
       .processor = options.processor, .integers = options.integers, .units_per_metre = 1.0 / *metres};
+  if (unfiltered) plan.unfiltered = unfiltered_markers(trial.markers);
+  points += std::ssize(plan.unfiltered);
+  if (points > kMaxWord)
+    return fail(Code::not_supported,
+                fmt::format("has {} points with those of samples before the filter; a C3D file can count {}",
+                            points, kMaxWord));
   double scale = largest(trial.markers.x_in_world) / kIntegerSteps;
+  if (!plan.unfiltered.empty())
+    scale = std::max(scale, largest(trial.markers.unfiltered_in_world) / kIntegerSteps);
   // Float files keep residuals whole by making the step as large as the largest needs.
   if (!plan.integers) scale = std::max(scale, largest(trial.residual_m) / 255.0);
   if (plan.integers) scale = std::max(scale, largest(trial.channels.values) * *metres / kIntegerSteps);
@@ -316,6 +344,7 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   if (std::ranges::none_of(trial.foreign, tells_recorder))
     add_text(plan.parameters.group(kC3dRecorderGroup), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);
+  add_filters(trial, !plan.unfiltered.empty(), plan.parameters);
   if (const std::string mark = set_mark(options.set); !mark.empty())
     plan.parameters.group(kProvenanceGroup)
         .parameters.push_back(

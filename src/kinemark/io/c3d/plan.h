@@ -18,11 +18,14 @@ struct C3dPlan {
   std::int64_t samples_per_frame = 0;      ///< analog samples of a channel in a frame
   std::vector<double> analog_scale;        ///< K; stored = value / scale
   std::vector<double> channel_factor;      ///< C; lengths into the unit of the file, 1 for all others
+  std::vector<std::int64_t> unfiltered;    ///< markers whose samples before their filter follow the channels
   C3dHeader header;                        ///< first block of the file
   C3dParameters parameters;                ///< POINT:DATA_START is still 0
 };
 
-/// Decide how a trial is written; Code::bad_input or Code::not_supported where it has no place in a C3D file.
-[[nodiscard]] Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options);
+/// Decide how a trial is written, without the samples from before a filter where `unfiltered` is false;
+/// Code::bad_input or Code::not_supported where it has no place in a C3D file.
+[[nodiscard]] Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& options,
+                                       bool unfiltered = true);
 
 }  // namespace kinemark::io

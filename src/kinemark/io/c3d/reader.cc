@@ -16,6 +16,7 @@
 #include "kinemark/io/c3d/foreign_groups.h"
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
+#include "kinemark/io/c3d/unfiltered.h"
 
 namespace kinemark::io {
 namespace {
@@ -214,7 +215,10 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
     }
   }
   if (seen->with_cameras == 0) trial.camera_mask = {};
-  if (options.points) apply_provenance(reader.parameters(), trial);
+  if (options.points) {
+    apply_provenance(reader.parameters(), trial);
+    take_filters(reader.parameters(), reader.layout(), trial);
+  }
   return trial;
 }
 

@@ -33,7 +33,8 @@ class FrameEncoder {
 
   [[nodiscard]] std::size_t frame_bytes() const {
     const auto analog = channels_ * static_cast<std::size_t>(plan_.samples_per_frame);
-    return (4 * (static_cast<std::size_t>(points_) + plan_.channel_factor.size()) + analog) *
+    return (4 * (static_cast<std::size_t>(points_) + plan_.channel_factor.size() + plan_.unfiltered.size()) +
+            analog) *
            (plan_.integers ? 2 : 4);
   }
 
@@ -41,6 +42,7 @@ class FrameEncoder {
     at_ = out;
     for (std::int64_t m = 0; m < points_; ++m) point(frame, m);
     for (std::size_t c = 0; c < plan_.channel_factor.size(); ++c) channel(static_cast<std::size_t>(frame), c);
+    for (const auto m : plan_.unfiltered) unfiltered(frame, m);
     const auto samples = channels_ * static_cast<std::size_t>(plan_.samples_per_frame);
     const double* analog = trial_.analog.values.data() + static_cast<std::size_t>(frame) * samples;
     for (std::size_t i = 0; i < samples; ++i) put(analog[i] / plan_.analog_scale[i % channels_]);
@@ -77,6 +79,15 @@ class FrameEncoder {
     if (x.cwiseAbs().maxCoeff() < smallest) x.z() = plan_.integers ? 1.0 : 1e-6;
     for (const double v : x) put(v);
     put(trial_.markers.state[i] == SampleState::measured ? measured_word(i) : 0.0);
+  }
+
+  /// A sample from before its filter, or missing.
+  void unfiltered(std::int64_t frame, std::int64_t m) {
+    const std::size_t i = trial_.markers.index(frame, m);
+    const double* x = trial_.markers.unfiltered_in_world.data() + 3 * i;
+    const bool there = std::isfinite(x[0]);
+    for (std::size_t axis = 0; axis < 3; ++axis) put(there ? units_per_metre_ * x[axis] : 0.0);
+    put(there ? measured_word(i) : -1.0);
   }
 
   /// Numbers of the file that they came from; not measured, or missing. A point that is there has three.
@@ -136,11 +147,16 @@ std::int64_t channels_in_part(const data::Channels& channels) {
 
 Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
                  const C3dWriteOptions& options) {
-  auto plan = plan_c3d(trial, options);
-  if (!plan) return fail_at(path.string(), plan.error());
   const auto lose = [&](std::string what) {
     if (options.lost) options.lost->push_back(std::move(what));
   };
+  // Points beside the markers are not worth the markers.
+  auto plan = plan_c3d(trial, options);
+  if (!plan && plan.error().code == Code::not_supported && !trial.markers.unfiltered_in_world.empty()) {
+    plan = plan_c3d(trial, options, false);
+    if (plan) lose("samples from before the filter had no room in the file");
+  }
+  if (!plan) return fail_at(path.string(), plan.error());
   if (const auto part = channels_in_part(trial.channels); part > 0)
     lose(fmt::format("{} fewer than three numbers: those that are not there are kept as 0 in a .c3d file",
                      part == 1 ? "1 channel that is no marker has"
@@ -157,7 +173,13 @@ Status write_c3d(const std::filesystem::path& path, const data::Trial& trial,
   }
   if (!section && std::erase_if(plan->parameters.groups,
                                 [](const C3dGroup& g) { return g.name == kProvenanceGroup; }) > 0) {
-    lose("how samples were filled had no room in the file: filled ones read as interpolated");
+    lose("how samples were filled and smoothed had no room in the file: filled ones read as interpolated");
+    section = encode_parameters(plan->parameters, plan->processor);
+  }
+  if (!section && !plan->unfiltered.empty()) {
+    lose("samples from before the filter had no room in the file");
+    plan = plan_c3d(trial, options, false);
+    std::erase_if(plan->parameters.groups, [](const C3dGroup& g) { return g.name == kProvenanceGroup; });
     section = encode_parameters(plan->parameters, plan->processor);
   }
   if (!section) return fail_at(path.string(), section.error());

@@ -33,8 +33,9 @@ struct C3dWriteOptions {
 /// n is at (n - 1) / rate, rounded to a frame. More than 65535 frames: POINT:FRAMES says 65535, LONG_FRAMES
 /// (float), TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD (32 bits) hold the full number. Lists longer than
 /// 255 go on in LABELS2 and so on. Which samples were filled how, and their standard deviations, go into a
-/// group of our own (add_provenance()). Where the parameter section overflows, what is carried for other
-/// programs gives way first, then that group.
+/// group of our own (add_provenance()), as do filters (add_filters()); samples from before a filter follow as
+/// points of their own, "unfiltered_" and the marker's name, in the list POINT:UNFILTERED. Where the
+/// parameter section overflows, what is carried for other programs gives way first, then that group.
 ///
 /// Code::bad_input: the trial is not valid, has no frames, or analog samples that do not fill its frames
 /// evenly; Code::not_supported: more points, channels or text than the format can count; Code::io: the disk.

@@ -37,7 +37,7 @@ std::vector<std::string> keys_of(EditKind kind) {
     case EditKind::relabel:
       return {"marker", "to", "first", "last"};
     case EditKind::swap:
-      return {"marker", "with", "first", "last"};
+      return {"marker", "with", "first", "last", "frames"};
     case EditKind::fill:
       return {"marker", "method", "first", "last"};
     case EditKind::cut:
@@ -66,6 +66,7 @@ Json value_of(const Edit& edit, std::string_view key) {
   if (key == "to" || key == "with") return text(edit.other);
   if (key == "first") return frame(edit.first_frame);
   if (key == "last") return frame(edit.last_frame);
+  if (key == "frames") return text(edit.frames);
   if (key == "method") return text(edit.method);
   if (key == "label") return text(edit.label);
   if (key == "context") return text(edit.context);
@@ -158,6 +159,7 @@ void take_value(Taker& taker, std::string_view key, Edit& edit) {
   if (key == "with") return taker.text("with", edit.other);
   if (key == "first") return taker.integer("first", edit.first_frame);
   if (key == "last") return taker.integer("last", edit.last_frame);
+  if (key == "frames") return taker.text("frames", edit.frames);
   if (key == "method") return taker.text("method", edit.method);
   if (key == "label") return taker.text("label", edit.label);
   if (key == "context") return taker.text("context", edit.context);

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "kinemark/core/counted.h"
+#include "kinemark/data/filtering.h"
 
 namespace kinemark::io {
 namespace {
@@ -30,6 +31,7 @@ constexpr std::array<PartWords, kParts> kWords = {{
     {Part::events, "events", "shortened"},
     {Part::force_plates, "force plates", "shortened"},
     {Part::groups, "other groups", "shortened"},
+    {Part::filters, "filters, unfiltered samples", "shortened"},
 }};
 
 /// Samples whose state says more than whether they are there.
@@ -65,6 +67,15 @@ std::string channels(const data::Channels& c) {
 
 std::string number_of(std::size_t n, std::string_view one, std::string_view many = "") {
   return n == 0 ? "" : counted(static_cast<std::int64_t>(n), one, many);
+}
+
+/// By what markers were smoothed, and what went in.
+std::string filters(const data::Trajectories& t) {
+  bool any = !t.unfiltered_in_world.empty();
+  for (std::int64_t m = 0; m < t.markers(); ++m) any = any || data::was_filtered(t, m);
+  return !any                            ? ""
+         : t.unfiltered_in_world.empty() ? "the filters of markers"
+                                         : "the filters of markers and their samples from before";
 }
 
 std::string_view cell(Kept kept) {
@@ -110,6 +121,8 @@ std::string held(const data::Trial& trial, Part part) {
       return number_of(trial.force_plates.size(), "force plate");
     case Part::groups:
       return number_of(trial.foreign.size(), "group of parameters", "groups of parameters");
+    case Part::filters:
+      return filters(t);
   }
   return "";
 }

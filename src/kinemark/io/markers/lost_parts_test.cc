@@ -16,9 +16,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::array kAllParts = {Part::provenance, Part::covariance,   Part::sample_times,
-                                  Part::residuals,  Part::channels,     Part::analog,
-                                  Part::events,     Part::force_plates, Part::groups};
+constexpr std::array kAllParts = {Part::provenance, Part::covariance, Part::sample_times, Part::residuals,
+                                  Part::channels,   Part::analog,     Part::events,       Part::force_plates,
+                                  Part::groups,     Part::filters};
 
 /// Two markers, four frames, nothing but positions.
 data::Trial bare() {
@@ -76,6 +76,11 @@ data::Trial with(Part part) {
     case Part::groups:
       t.foreign = {{.name = "SUBJECTS"}};
       break;
+    case Part::filters:
+      t.markers.filters = {{.method = "kalman", .order = 4, .cutoff_hz = 6.5, .noise_sd_m = 2e-4},
+                           {.method = "gcv", .order = 3, .cutoff_hz = 9.0, .noise_sd_m = 1e-4}};
+      t.markers.unfiltered_in_world = t.markers.x_in_world;
+      break;
   }
   return t;
 }
@@ -106,6 +111,12 @@ TEST(LostParts, TheSentencesCountAndName) {
               ElementsAre("1 channel that is no marker (LKneeAngles) cannot be stored in a .trc file"));
   EXPECT_THAT(lost_in(trc, with(Part::groups)),
               ElementsAre("1 group of parameters cannot be stored in a .trc file"));
+  EXPECT_THAT(
+      lost_in(trc, with(Part::filters)),
+      ElementsAre("the filters of markers and their samples from before cannot be stored in a .trc file"));
+  data::Trial stated = with(Part::filters);
+  stated.markers.unfiltered_in_world.clear();
+  EXPECT_THAT(lost_in(trc, stated), ElementsAre("the filters of markers cannot be stored in a .trc file"));
   EXPECT_THAT(lost_in(*written_format(".c3d"), with(Part::covariance)),
               ElementsAre(HasSubstr("covariances of samples are kept as one standard deviation")));
 }

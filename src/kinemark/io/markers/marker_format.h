@@ -28,9 +28,10 @@ enum class Part : std::uint8_t {
   analog,        ///< channels
   events,
   force_plates,
-  groups,  ///< of parameters that nothing here reads
+  groups,   ///< of parameters that nothing here reads
+  filters,  ///< that markers went through, and their samples from before
 };
-inline constexpr std::size_t kParts = 9;  ///< number of them
+inline constexpr std::size_t kParts = 10;  ///< number of them
 
 /// How much of a part a format keeps.
 enum class Kept : std::uint8_t { none, in_part, whole };

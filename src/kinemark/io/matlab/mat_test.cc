@@ -38,6 +38,16 @@ void expect_same(const Trial& a, const Trial& b) {
   expect_same_bits(a.markers.method, b.markers.method, "methods");
   expect_same_bits(a.markers.covariance, b.markers.covariance, "covariances");
   expect_same_bits(a.markers.sample_offset_s, b.markers.sample_offset_s, "offsets");
+  expect_same_bits(a.markers.unfiltered_in_world, b.markers.unfiltered_in_world, "samples before the filter");
+  ASSERT_EQ(a.markers.filters.size(), b.markers.filters.size());
+  for (std::size_t m = 0; m < a.markers.filters.size(); ++m) {
+    EXPECT_EQ(a.markers.filters[m].method, b.markers.filters[m].method);
+    EXPECT_EQ(a.markers.filters[m].order, b.markers.filters[m].order);
+    EXPECT_THAT(b.markers.filters[m].cutoff_hz,
+                ::testing::NanSensitiveDoubleEq(a.markers.filters[m].cutoff_hz));
+    EXPECT_THAT(b.markers.filters[m].noise_sd_m,
+                ::testing::NanSensitiveDoubleEq(a.markers.filters[m].noise_sd_m));
+  }
   expect_same_bits(a.residual_m, b.residual_m, "residuals");
   expect_same_bits(a.camera_mask, b.camera_mask, "cameras");
   EXPECT_EQ(a.channels.names, b.channels.names);

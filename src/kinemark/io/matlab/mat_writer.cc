@@ -45,6 +45,14 @@ std::vector<double> deviations(const data::Trajectories& markers) {
   return out;
 }
 
+std::string filters(const std::vector<data::FilterUsed>& all) {
+  std::vector<std::vector<std::string>> out;
+  for (const data::FilterUsed& filter : all)
+    out.push_back({mat_text(filter.method), mat_number(filter.order), mat_number(filter.cutoff_hz),
+                   mat_number(filter.noise_sd_m)});
+  return mat_structs({"method", "order", "cutoff_hz", "noise_sd"}, out);
+}
+
 void add_samples(const data::Trial& trial, MatFields& out) {
   const auto& m = trial.markers;
   const std::int64_t F = m.frames(), M = m.markers();
@@ -64,6 +72,8 @@ void add_samples(const data::Trial& trial, MatFields& out) {
     put("sd", std::span<const double>(deviations(m)), 3);
     put("covariance", std::span<const double>(m.covariance), 6);
   }
+  if (!m.unfiltered_in_world.empty()) put("unfiltered", std::span<const double>(m.unfiltered_in_world), 3);
+  if (!m.filters.empty()) out.emplace_back("filters", filters(m.filters));
   if (!m.sample_offset_s.empty()) {
     const std::int64_t rows = m.sample_offset_s.size() == m.names.size() ? 1 : F;
     out.emplace_back(
@@ -149,8 +159,8 @@ std::size_t bytes_needed(const data::Trial& trial) {
   const auto& m = trial.markers;
   const std::size_t sd = m.covariance.size() / 2;
   const std::size_t eights = m.x_in_world.size() + m.covariance.size() + sd + m.sample_offset_s.size() +
-                             static_cast<std::size_t>(m.frames()) + trial.channels.values.size() +
-                             trial.analog.values.size();
+                             m.unfiltered_in_world.size() + static_cast<std::size_t>(m.frames()) +
+                             trial.channels.values.size() + trial.analog.values.size();
   return 8 * eights + m.state.size() + m.method.size() + 4 * trial.residual_m.size() +
          trial.camera_mask.size();
 }

@@ -65,10 +65,11 @@ struct NwbOutline {
   TimeBase time;                                       ///< F = time.frames
   bool method = false;                                 ///< which method made a sample
   bool covariance = false;                             ///< of positions
+  bool unfiltered = false;                             ///< positions as they were before the filter
   bool velocity = false, velocity_sd = false;          ///< which of them there are
   bool acceleration = false, acceleration_sd = false;  ///< which of them there are
   bool jerk = false, jerk_sd = false;                  ///< which of them there are
-  bool filters = false;                                ///< the filter of each marker
+  bool filters = false;  ///< the filter of each marker, as trajectories or derivatives name it
   /// Whether samples have times of their own: none, one offset a marker, one a sample.
   enum class Offsets : std::uint8_t {
     none,

@@ -20,6 +20,16 @@ using testing::sample_derivatives;
 using testing::sample_metadata;
 using testing::sample_trajectories;
 
+void expect_same(const std::vector<data::FilterUsed>& got, const std::vector<data::FilterUsed>& wanted) {
+  ASSERT_EQ(got.size(), wanted.size());
+  for (std::size_t m = 0; m < wanted.size(); ++m) {
+    EXPECT_EQ(got[m].method, wanted[m].method);
+    EXPECT_EQ(got[m].order, wanted[m].order);
+    EXPECT_THAT(got[m].cutoff_hz, ::testing::NanSensitiveDoubleEq(wanted[m].cutoff_hz));
+    EXPECT_THAT(got[m].noise_sd_m, ::testing::NanSensitiveDoubleEq(wanted[m].noise_sd_m));
+  }
+}
+
 void expect_same(const data::Trajectories& got, const data::Trajectories& wanted) {
   EXPECT_EQ(got.names, wanted.names);
   EXPECT_EQ(got.time, wanted.time);
@@ -29,18 +39,14 @@ void expect_same(const data::Trajectories& got, const data::Trajectories& wanted
   EXPECT_TRUE(testing::same_bits(got.sample_offset_s, wanted.sample_offset_s));
   EXPECT_EQ(got.methods, wanted.methods);
   EXPECT_EQ(got.method, wanted.method);
+  EXPECT_TRUE(testing::same_bits(got.unfiltered_in_world, wanted.unfiltered_in_world));
+  expect_same(got.filters, wanted.filters);
 }
 
 void expect_same(const data::Derivatives& got, const data::Derivatives& wanted) {
   for (const internal::Rate& rate : internal::kRates)
     EXPECT_TRUE(testing::same_bits(got.*rate.values, wanted.*rate.values)) << rate.container;
-  ASSERT_EQ(got.filters.size(), wanted.filters.size());
-  for (std::size_t m = 0; m < wanted.filters.size(); ++m) {
-    EXPECT_EQ(got.filters[m].method, wanted.filters[m].method);
-    EXPECT_EQ(got.filters[m].order, wanted.filters[m].order);
-    EXPECT_THAT(got.filters[m].cutoff_hz, ::testing::NanSensitiveDoubleEq(wanted.filters[m].cutoff_hz));
-    EXPECT_THAT(got.filters[m].noise_sd_m, ::testing::NanSensitiveDoubleEq(wanted.filters[m].noise_sd_m));
-  }
+  expect_same(got.filters, wanted.filters);
 }
 
 TEST(Nwb, EverythingComesBackBitByBit) {
@@ -248,6 +254,15 @@ TEST(Nwb, RefusesWhatNwbCannotSay) {
 TEST(SeriesNames, AreAllowedInHdf5AndUnique) {
   EXPECT_THAT(internal::series_names({"a/b", "a:b", "a_b", ".", "..", "a_b_2", "x\n"}),
               ElementsAre("a_b", "a_b_2", "a_b_3", "_.", "_..", "a_b_2_2", "x_"));
+}
+
+TEST(Nwb, SamplesFromBeforeAFilterAreNoMarkersOfTheirOwn) {
+  const testing_support::ScratchFolder scratch;
+  const auto t = sample_trajectories();
+  ASSERT_TRUE(write_nwb(scratch / "a.nwb", t));
+  const auto back = read_nwb(scratch / "a.nwb");
+  ASSERT_TRUE(back) << back.error().message;
+  expect_same(back->trajectories, t);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ NwbOutline NwbOutline::of(const data::Trajectories& t, const data::Derivatives* 
                  .time = t.time,
                  .method = !t.method.empty(),
                  .covariance = !t.covariance.empty(),
-                 .filters = d != nullptr && !d->filters.empty()};
+                 .unfiltered = !t.unfiltered_in_world.empty(),
+                 .filters = !t.filters.empty() || (d != nullptr && !d->filters.empty())};
   if (!t.sample_offset_s.empty())
     out.offsets = t.sample_offset_s.size() == t.names.size() ? Offsets::per_marker : Offsets::per_sample;
   if (d == nullptr) return out;
@@ -98,7 +99,7 @@ struct NwbWriter::Open {
   Handle module;
   std::vector<std::string> series_names;
   std::map<std::string, std::size_t, std::less<>> index;  ///< of a marker
-  Series position, state, method, covariance, offset, stamps, confidence;
+  Series position, state, method, covariance, unfiltered, offset, stamps, confidence;
   std::vector<Series> rates;  ///< as kRates; empty where the outline has none
   std::vector<std::string> methods;
   std::vector<double> offset_s;                           ///< M
@@ -176,6 +177,10 @@ void NwbWriter::Open::build() {
     covariance =
         make_series(module.id(), internal::kCovariance, many, "meters^2",
                     "covariance of position (xx, xy, xz, yy, yz, zz)", H5T_IEEE_F64LE, 6, kNaN, false);
+  if (outline.unfiltered)
+    unfiltered =
+        make_series(module.id(), internal::kUnfiltered, many, "meters",
+                    "position (x, y, z) as it was before its filter", H5T_IEEE_F64LE, 3, kNaN, false);
   if (outline.method)
     method = make_series(module.id(), internal::kMethod, many, "n.a.",
                          "method that made a sample (0: as recorded, k: id k - 1 of the table 'methods')",
@@ -325,6 +330,8 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
         "a piece lies outside the outline's frames");
   check(piece.x_in_world.size() == 3 * samples && piece.state.size() == samples, "a piece has a wrong shape");
   check(!outline.covariance || piece.covariance.size() == 6 * samples, "a piece lacks its covariance");
+  check(!outline.unfiltered || piece.unfiltered_in_world.size() == 3 * samples,
+        "a piece lacks its samples from before the filter");
   check(piece.method.empty() || (outline.method && piece.method.size() == samples),
         "a piece has methods that the outline does not declare");
   const std::size_t times = outline.offsets == NwbOutline::Offsets::none         ? 0
@@ -350,6 +357,9 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
   }
   if (outline.covariance)
     open.put(open.covariance, H5T_NATIVE_DOUBLE, piece.covariance.data(), columns, first_frame, frames);
+  if (outline.unfiltered)
+    open.put(open.unfiltered, H5T_NATIVE_DOUBLE, piece.unfiltered_in_world.data(), columns, first_frame,
+             frames);
   if (!piece.method.empty()) {
     const auto file_number = open.merge_methods(piece.methods);
     Array<std::uint8_t> numbers = piece.method;
@@ -368,9 +378,10 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
              first_frame, frames);
   }
   if (outline.filters) {
-    check(derivatives != nullptr && derivatives->filters.size() == columns.size(),
-          "a piece lacks the filters that the outline declares");
-    for (std::size_t k = 0; k < columns.size(); ++k) open.filters[columns[k]] = derivatives->filters[k];
+    const auto& filters =
+        piece.filters.empty() && derivatives != nullptr ? derivatives->filters : piece.filters;
+    check(filters.size() == columns.size(), "a piece lacks the filters that the outline declares");
+    for (std::size_t k = 0; k < columns.size(); ++k) open.filters[columns[k]] = filters[k];
   }
   if (open.out.failed()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open.path));
   return {};
@@ -383,8 +394,8 @@ Status NwbWriter::commit(const std::string& set) {
   open->write_tables();
   open->write_starts();
   open->module.close();
-  for (Open::Series* series : {&open->position, &open->state, &open->method, &open->covariance, &open->offset,
-                               &open->stamps, &open->confidence})
+  for (Open::Series* series : {&open->position, &open->state, &open->method, &open->covariance,
+                               &open->unfiltered, &open->offset, &open->stamps, &open->confidence})
     series->of_marker.clear();
   open->rates.clear();
   internal::seal(open->out, set.empty() ? open->metadata.set : set);

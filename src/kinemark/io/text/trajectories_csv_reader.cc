@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -45,11 +46,20 @@ enum Kind : std::uint8_t {
   xy,
   xz,
   yz,
+  filter,
+  filter_order,
+  filter_cutoff,
+  filter_noise,
+  raw_x,
+  raw_y,
+  raw_z,
   kinds
 };
 constexpr std::array<std::string_view, kinds> kNames = {
-    "frame",    "time_s", "marker", "x_m",    "y_m",       "z_m",       "state",    "method",
-    "offset_s", "sd_x_m", "sd_y_m", "sd_z_m", "cov_xy_m2", "cov_xz_m2", "cov_yz_m2"};
+    "frame",          "time_s",         "marker",         "x_m",           "y_m",          "z_m",
+    "state",          "method",         "offset_s",       "sd_x_m",        "sd_y_m",       "sd_z_m",
+    "cov_xy_m2",      "cov_xz_m2",      "cov_yz_m2",      "filter",        "filter_order", "filter_cutoff_hz",
+    "filter_noise_m", "unfiltered_x_m", "unfiltered_y_m", "unfiltered_z_m"};
 
 constexpr std::array kStates = {SampleState::missing,      SampleState::measured,  SampleState::interpolated,
                                 SampleState::model_filled, SampleState::upsampled, SampleState::rejected};
@@ -111,6 +121,9 @@ class Parser {
     const double sd[] = {number_in(sd_x), number_in(sd_y), number_in(sd_z)};
     const std::array<double, 6> covariance = {sd[0] * sd[0], number_in(xy), number_in(xz),
                                               sd[1] * sd[1], number_in(yz), sd[2] * sd[2]};
+    const std::array<double, 3> raw = {number_in(raw_x), number_in(raw_y), number_in(raw_z)};
+    const double filter_numbers[] = {number_in(filter_order), number_in(filter_cutoff),
+                                     number_in(filter_noise)};
     if (error_) return wrong(*error_);
     if (frame_number != std::floor(frame_number) || std::abs(frame_number) > kMaxFrame)
       return wrong(fmt::format("frame {} is not a whole number", frame_number));
@@ -131,7 +144,8 @@ class Parser {
     }
     samples_.push_back(s);
     if (is_uncertain()) covariances_.push_back(covariance);
-    return {};
+    if (keeps_unfiltered()) unfiltered_.push_back(raw);
+    return take_filter(filter_numbers, at->second, is_new);
   }
 
   Status finish();
@@ -153,6 +167,32 @@ class Parser {
   }
 
   [[nodiscard]] bool is_uncertain() const { return column_[sd_x] && column_[sd_y] && column_[sd_z]; }
+  [[nodiscard]] bool keeps_unfiltered() const { return column_[raw_x] && column_[raw_y] && column_[raw_z]; }
+  /// Every line of a marker names the same filter.
+  Status take_filter(std::span<const double, 3> numbers, std::int32_t of_marker, bool is_new) {
+    if (!column_[filter]) return {};
+    data::FilterUsed here{"none", 0, kNaN, kNaN};
+    if (const std::string& name = cells_[*column_[filter]]; !name.empty()) {
+      if (std::isfinite(numbers[0]) && !(std::abs(numbers[0]) <= 1000.0))
+        return wrong(fmt::format("filter_order {} is no order of a filter", numbers[0]));
+      here = {.method = name_of_bytes(name),
+              .order = std::isfinite(numbers[0]) ? static_cast<int>(numbers[0]) : 0,
+              .cutoff_hz = numbers[1],
+              .noise_sd_m = numbers[2]};
+    }
+    auto& filters = trial_.markers.filters;
+    if (is_new) {
+      filters.push_back(std::move(here));
+      return {};
+    }
+    const data::FilterUsed& first = filters[static_cast<std::size_t>(of_marker)];
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    if (here.method == first.method && here.order == first.order && same(here.cutoff_hz, first.cutoff_hz) &&
+        same(here.noise_sd_m, first.noise_sd_m))
+      return {};
+    return wrong(fmt::format("marker '{}' has another filter than in its first line",
+                             trial_.markers.names[static_cast<std::size_t>(of_marker)]));
+  }
   /// As many frames as the lines may stand for.
   [[nodiscard]] std::int64_t most_frames() const {
     return static_cast<std::int64_t>((4 * samples_.size() + 1'000'000) / markers_.size());
@@ -198,6 +238,7 @@ class Parser {
   // Lists that grow without being copied: most of the memory that reading takes.
   std::deque<Sample> samples_;
   std::deque<std::array<double, 6>> covariances_;  ///< of each sample, where the file has deviations
+  std::deque<std::array<double, 3>> unfiltered_;   ///< of each sample, where the file has them
 };
 
 /// Lines of one frame agree on its time to half a frame.
@@ -266,8 +307,10 @@ Status Parser::finish() {
   if (!t.methods.empty()) t.method.assign(numbers, 0);
   if (column_[offset]) t.sample_offset_s.assign(numbers, 0.0);
   if (is_uncertain()) t.covariance.assign(6 * numbers, kNaN);
+  if (keeps_unfiltered()) t.unfiltered_in_world.assign(3 * numbers, kNaN);
   std::vector<bool> seen(numbers, false);
   auto covariance = covariances_.begin();
+  auto unfiltered = unfiltered_.begin();
   for (const Sample& s : samples_) {
     const std::int64_t frame = clock_frame_.empty() ? s.frame - first : clock_frame_[at(s.frame - first)];
     const std::size_t i = t.index(frame, s.marker);
@@ -279,6 +322,8 @@ Status Parser::finish() {
     t.state[i] = s.state;
     if (!t.method.empty()) t.method[i] = s.method;
     if (!t.sample_offset_s.empty() && std::isfinite(s.offset_s)) t.sample_offset_s[i] = s.offset_s;
+    if (keeps_unfiltered())
+      std::ranges::copy(*unfiltered++, t.unfiltered_in_world.begin() + static_cast<std::ptrdiff_t>(3 * i));
     if (!is_uncertain()) continue;
     std::ranges::copy(*covariance++, t.covariance.begin() + static_cast<std::ptrdiff_t>(6 * i));
     // Standard deviations alone: axes that do not depend on each other.

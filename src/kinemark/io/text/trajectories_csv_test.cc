@@ -190,5 +190,44 @@ TEST(TrajectoriesCsv, LongTrialsComeOutWhole) {
   EXPECT_EQ(parse_trajectories_csv(text, "m.csv").value().markers.time, trial.markers.time);
 }
 
+TEST(TrajectoriesCsv, FiltersAndSamplesFromBeforeComeBack) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = small();
+  auto& t = trial.markers;
+  t.filters = {{.method = "kalman, gcv", .order = 5, .cutoff_hz = 1.0 / 3.0, .noise_sd_m = std::nan("")},
+               {.method = "none", .order = 0, .cutoff_hz = std::nan(""), .noise_sd_m = std::nan("")}};
+  t.unfiltered_in_world.assign(12, std::nan(""));
+  for (std::size_t k = 0; k < 3; ++k) t.unfiltered_in_world[k] = 0.1 * static_cast<double>(k) + 1.0 / 7.0;
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", trial, false));
+  EXPECT_THAT(read_text(scratch / "m.csv").value(),
+              HasSubstr("method,filter,filter_order,filter_cutoff_hz,filter_noise_m,unfiltered_x_m,"));
+  const auto back = read_trajectories_csv(scratch / "m.csv");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_THAT(back->warnings, ::testing::IsEmpty());
+  ASSERT_EQ(back->markers.filters.size(), 2U);
+  EXPECT_EQ(back->markers.filters[0].method, "kalman, gcv");
+  EXPECT_EQ(back->markers.filters[0].order, 5);
+  EXPECT_EQ(back->markers.filters[0].cutoff_hz, 1.0 / 3.0);
+  EXPECT_TRUE(std::isnan(back->markers.filters[0].noise_sd_m));
+  EXPECT_EQ(back->markers.filters[1].method, "none");
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_THAT(back->markers.unfiltered_in_world[i],
+                ::testing::NanSensitiveDoubleEq(t.unfiltered_in_world[i]));
+}
+
+TEST(TrajectoriesCsv, AMarkerHasOneFilter) {
+  const std::string header =
+      "frame,time_s,marker,x_m,y_m,z_m,filter,filter_order,filter_cutoff_hz,filter_noise_m\n";
+  const std::string first = header + "1,0,A,1,2,3,kalman,4,6,0.001\n";
+  EXPECT_TRUE(parse_trajectories_csv(first + "2,0.01,A,1,2,3,kalman,4,6,0.001\n", "a.csv"));
+  for (const char* other : {"gcv,4,6,0.001", "kalman,3,6,0.001", "kalman,4,7,0.001", "kalman,4,6,", ",,,"}) {
+    const auto bad = parse_trajectories_csv(first + "2,0.01,A,1,2,3," + other + "\n", "a.csv");
+    ASSERT_FALSE(bad) << other;
+    EXPECT_THAT(bad.error().message,
+                HasSubstr("line 3: marker 'A' has another filter than in its first line"));
+  }
+  EXPECT_FALSE(parse_trajectories_csv(header + "1,0,A,1,2,3,kalman,1e9,6,0.001\n", "a.csv"));
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/math/symmetric3.h"
@@ -32,6 +33,17 @@ void put_number(fmt::memory_buffer& out, double value) {
   if (std::isfinite(value)) fmt::format_to(std::back_inserter(out), "{}", value);
 }
 
+/// Blank where the marker went through none.
+void put_filter(fmt::memory_buffer& out, const data::FilterUsed& filter) {
+  if (!data::is_filter(filter)) {
+    fmt::format_to(std::back_inserter(out), ",,,,");
+    return;
+  }
+  fmt::format_to(std::back_inserter(out), ",{},{}", in_quotes(filter.method), filter.order);
+  put_number(out, filter.cutoff_hz);
+  put_number(out, filter.noise_sd_m);
+}
+
 }  // namespace
 
 Status write_trajectories_csv(const std::filesystem::path& path, const data::Trial& trial, bool force) {
@@ -41,10 +53,13 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
   const data::Trajectories& t = trial.markers;
   const bool offsets = !t.sample_offset_s.empty();
   const bool uncertain = !t.covariance.empty();
+  const bool filtered = !t.filters.empty(), unfiltered = !t.unfiltered_in_world.empty();
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "frame,time_s,marker,x_m,y_m,z_m,state,method{}{}\n",
+  fmt::format_to(std::back_inserter(out), "frame,time_s,marker,x_m,y_m,z_m,state,method{}{}{}{}\n",
                  offsets ? ",offset_s" : "",
-                 uncertain ? ",sd_x_m,sd_y_m,sd_z_m,cov_xy_m2,cov_xz_m2,cov_yz_m2" : "");
+                 uncertain ? ",sd_x_m,sd_y_m,sd_z_m,cov_xy_m2,cov_xz_m2,cov_yz_m2" : "",
+                 filtered ? ",filter,filter_order,filter_cutoff_hz,filter_noise_m" : "",
+                 unfiltered ? ",unfiltered_x_m,unfiltered_y_m,unfiltered_z_m" : "");
   std::vector<std::string> names;
   for (const std::string& name : t.names) names.push_back(in_quotes(name));
   for (std::int64_t f = 0; f < t.frames(); ++f) {
@@ -64,6 +79,9 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
         for (const std::size_t k : math::kSymmetric3Diagonal) put_number(out, std::sqrt(c[k]));
         for (const auto& pair : math::kSymmetric3Pairs) put_number(out, c[pair.index]);
       }
+      if (filtered) put_filter(out, t.filters[static_cast<std::size_t>(m)]);
+      if (unfiltered)
+        for (std::size_t k = 0; k < 3; ++k) put_number(out, t.unfiltered_in_world[3 * i + k]);
       out.push_back('\n');
     }
     if (out.size() < kFlushBytes) continue;

@@ -35,6 +35,7 @@ report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial) {
                  {"cut-off", or_found(filter.cutoff_hz, "Hz")},
                  {"marker noise", or_found(1e3 * filter.noise_sd_m, "mm")},
                  {"samples that the recorder made", std::string(to_string(job.recorder_made))},
+                 {"exchanged labels", job.exchange_back ? "exchanged back" : "told"},
                  {"defects", job.reject_defects ? "rejected" : "told"},
                  {"derivatives", job.derivatives ? "written" : "not written"}};
   if (filter.method == trajectory::FilterMethod::butterworth) {
@@ -52,11 +53,16 @@ void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling) {
   upsampling.handled = made != RecorderMade::keep;
 }
 
-std::vector<data::Defect> settle_defects(bool rejected, std::vector<data::Finding> found) {
+std::vector<data::Defect> settle_defects(const CleanJob& job, std::vector<data::Finding> found) {
   std::vector<data::Defect> out;
   for (data::Finding& finding : found) {
-    const bool handled =
-        rejected && finding.confidence >= kRejectConfidence && finding.kind != data::FindingKind::clock_jump;
+    if (job.exchange_back && finding.kind == data::FindingKind::label_swap &&
+        finding.confidence >= kRejectConfidence) {
+      out.push_back({std::move(finding), "exchanged back", true});
+      continue;
+    }
+    const bool handled = job.reject_defects && finding.confidence >= kRejectConfidence &&
+                         finding.kind != data::FindingKind::clock_jump;
     out.push_back({std::move(finding), handled ? "rejected" : "left as it is", handled});
   }
   return out;

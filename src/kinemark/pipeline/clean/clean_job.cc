@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/clean/clean_job.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "kinemark/data/filtering.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/edit_input.h"
@@ -39,15 +42,31 @@ struct CleanFiles {
   }
 };
 
+/// A recording that was smoothed before is smoothed anew from what went in then, where it is there. What is
+/// said about it; empty where nothing was smoothed.
+std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
+  const std::string filters = data::describe_filters(markers);
+  if (filters.empty()) return "";
+  if (job.filter.method == trajectory::FilterMethod::none) return filters;
+  const auto covariances = !markers.covariance.empty();
+  if (data::restore_unfiltered(markers))
+    return fmt::format("{}: smoothed anew from those{}", filters,
+                       covariances ? ", whose own covariances are not known" : "");
+  return filters +
+         ", so that it is smoothed twice: noise found here is what the first filter left, and less "
+         "than that of the measurement";
+}
+
 /// Look for what the recorder did, and do about it what the job says.
 Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
   auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
+                                                  .exchange_back = job.exchange_back,
                                                   .reject_defects = job.reject_defects,
                                                   .sure = internal::kRejectConfidence});
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
   account.names = outcome.trial.markers.names;
-  account.defects = internal::settle_defects(job.reject_defects, std::move(screening->defects));
+  account.defects = internal::settle_defects(job, std::move(screening->defects));
   account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(job.recorder_made, account.upsampling);
   outcome.warnings = std::move(screening->warnings);
@@ -95,7 +114,8 @@ std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutpu
   list.push_back({files.recording, [&](const fs::path&, const std::string& set) {
                     return output.finish(
                         outcome.trial,
-                        files.derivatives.empty() ? fs::path() : staging.path_of(files.derivatives), set);
+                        files.derivatives.empty() ? fs::path() : staging.path_of(files.derivatives), set,
+                        outcome.warnings);
                   }});
   list.push_back(json_file(files.summary, [&] { return report::clean_summary_json(outcome.report); }));
   if (!files.page.empty())
@@ -116,6 +136,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   CleanOutcome outcome;
   auto& report = outcome.report;
   auto& trial = outcome.trial = std::move(input->trial);
+  const std::string filtered = begin_unfiltered(job, trial.markers);
   auto edits = take_edits({.edits = job.edits,
                            .recording = job.input,
                            .force = job.force,
@@ -124,6 +145,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
                           trial);
   if (!edits) return std::unexpected(edits.error());
   report.run = internal::describe_run(job, trial);
+  if (!filtered.empty()) report.run.warnings.push_back(filtered);
   report.run.inputs.push_back(std::move(input->file));
   if (edits->file) report.run.inputs.push_back(*edits->file);
   std::ranges::move(edit_options(*edits), std::back_inserter(report.run.options));

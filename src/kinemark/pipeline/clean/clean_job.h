@@ -24,11 +24,14 @@ struct CleanJob : JobSettings {
   std::filesystem::path edits;   ///< journal of edits, applied before all else; "beside": the one beside the
                                  ///< recording, if there is one; empty: none
   RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
+  bool exchange_back = true;  ///< markers that surely carry each other's label get their own; else only told
   bool reject_defects = false;  ///< spikes, swaps, stuck and false samples become `rejected`, then gaps
   trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled
   trajectory::SmoothOptions filter;                                    ///< how positions are smoothed
-  bool derivatives = false;  ///< velocity, acceleration and jerk with their SDs: into an .nwb, else
-                             ///< OUT_derivatives.sto
+  bool keep_unfiltered = true;  ///< samples as they were before the filter are written beside the smoothed
+                                ///< ones, where the format can keep them
+  bool derivatives = false;     ///< velocity, acceleration and jerk with their SDs: into an .nwb, else
+                                ///< OUT_derivatives.sto
 };
 
 /// Warnings: what the output format cannot hold.
@@ -38,8 +41,10 @@ struct CleanOutcome : JobOutcome {
 };
 
 /// Read, screen, mark what the recorder made, fill, smooth, write. Either all files appear or, on a failure,
-/// none. Screening and the search for upsampling only tell unless the job says otherwise; gaps are filled
-/// only with a gap method. Progress counts markers.
+/// none. Screening and the search for upsampling only tell unless the job says otherwise, but for labels that
+/// were exchanged, which go back; gaps are filled only with a gap method. A recording that was smoothed
+/// before and keeps the samples from before is smoothed from those; one that does not is smoothed once more,
+/// and a warning says so. Progress counts markers.
 [[nodiscard]] Result<CleanOutcome> run_clean(const CleanJob& job);
 
 }  // namespace kinemark::pipeline

@@ -206,5 +206,71 @@ TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
   EXPECT_FALSE(fs::exists(at("no.c3d")));
 }
 
+TEST_F(RunClean, HandsOnFilterNoiseAndTheSamplesFromBefore) {
+  const auto raw = io::read_markers(at("in.c3d")).value().markers;
+  for (const char* name : {"out.c3d", "out.csv", "out.nwb", "out.mat"}) {
+    auto j = job(name);
+    j.gaps.method = trajectory::GapMethod::cubic;
+    ASSERT_TRUE(run_clean(j)) << name;
+    const auto t = io::read_markers(at(name)).value().markers;
+    ASSERT_EQ(t.filters.size(), 4U) << name;
+    ASSERT_EQ(t.unfiltered_in_world.size(), raw.x_in_world.size()) << name;
+    for (std::int64_t m = 0; m < 4; ++m) {
+      EXPECT_EQ(t.filters[static_cast<std::size_t>(m)].method, "kalman");
+      EXPECT_NEAR(t.filters[static_cast<std::size_t>(m)].noise_sd_m, 5e-4, 1.5e-4) << name;
+      for (std::int64_t f = 0; f < 200; ++f) {
+        const double before = t.unfiltered_in_world[3 * t.index(f, m) + 1];
+        if (raw.present(f, m)) {
+          EXPECT_EQ(before, raw.x(f, m).y()) << name << " " << f;
+          EXPECT_EQ(t.made_by(f, m), "smoothed by kalman") << name;
+        } else {
+          EXPECT_TRUE(std::isnan(before)) << name << " " << f;
+          EXPECT_EQ(t.made_by(f, m), "cubic") << name;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(RunClean, ACleanedRecordingIsCleanedFromTheSamplesFromBefore) {
+  ASSERT_TRUE(run_clean(job("once.nwb")));
+  auto j = job("twice.nwb");
+  j.input = at("once.nwb");
+  const auto outcome = run_clean(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->report.run.warnings,
+              ::testing::Contains(HasSubstr("kept beside them: smoothed anew from those")));
+  const auto once = io::read_markers(at("once.nwb")).value().markers,
+             twice = io::read_markers(at("twice.nwb")).value().markers;
+  for (std::size_t i = 0; i < once.x_in_world.size(); ++i)
+    EXPECT_THAT(twice.x_in_world[i], ::testing::NanSensitiveDoubleEq(once.x_in_world[i]));
+  EXPECT_EQ(twice.filters[3].cutoff_hz, once.filters[3].cutoff_hz);
+}
+
+TEST_F(RunClean, OneWithoutThemIsSmoothedTwiceAndThatIsSaid) {
+  auto without = job("once.csv");
+  without.keep_unfiltered = false;
+  const auto first = run_clean(without);
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(first->report.run.warnings.empty());
+  EXPECT_TRUE(io::read_markers(at("once.csv")).value().markers.unfiltered_in_world.empty());
+  auto j = job("twice.csv");
+  j.input = at("once.csv");
+  const auto outcome = run_clean(j);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->report.run.warnings, ::testing::Contains(HasSubstr("so that it is smoothed twice")));
+  const auto t = io::read_markers(at("twice.csv")).value().markers;
+  EXPECT_EQ(t.filters[0].method, "kalman, kalman");
+  EXPECT_TRUE(t.unfiltered_in_world.empty()) << "its samples were smoothed";
+}
+
+TEST_F(RunClean, ATrcNotesTheirAbsence) {
+  const auto outcome = run_clean(job("out.trc"));
+  ASSERT_TRUE(outcome);
+  EXPECT_THAT(outcome->warnings,
+              ::testing::Contains(HasSubstr("the filters of markers and their samples from "
+                                            "before cannot be stored in a .trc file")));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

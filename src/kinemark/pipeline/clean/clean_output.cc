@@ -8,6 +8,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/stages/trajectory/smoothing/hand_on.h"
 
 namespace kinemark::pipeline::internal {
 namespace {
@@ -23,11 +24,17 @@ io::NwbMetadata metadata_of(const CleanJob& job, const data::Trial& trial, const
   return metadata;
 }
 
-io::NwbOutline outline_of(const data::Trajectories& markers, bool derivatives) {
+bool keeps_unfiltered(const CleanJob& job, const data::Trajectories& markers) {
+  return job.keep_unfiltered &&
+         (job.filter.method != trajectory::FilterMethod::none || !markers.unfiltered_in_world.empty());
+}
+
+io::NwbOutline outline_of(const data::Trajectories& markers, bool derivatives, bool unfiltered) {
   io::NwbOutline outline;
   outline.names = markers.names;
   outline.time = markers.time;
   outline.method = outline.covariance = outline.filters = true;
+  outline.unfiltered = unfiltered;
   outline.velocity = outline.velocity_sd = outline.acceleration = outline.acceleration_sd = outline.jerk =
       outline.jerk_sd = derivatives;
   if (!markers.sample_offset_s.empty())
@@ -42,9 +49,10 @@ void fill_unknown(Array<double>& values, std::size_t size) {
 }
 
 /// What the outline promises must be there, be it unknown; what it does not must not.
-void fit_outline(MarkerPiece& piece, bool derivatives) {
+void fit_outline(MarkerPiece& piece, bool derivatives, bool unfiltered) {
   const auto frames = static_cast<std::size_t>(piece.markers.frames());
   fill_unknown(piece.markers.covariance, 6 * frames);
+  if (unfiltered) fill_unknown(piece.markers.unfiltered_in_world, 3 * frames);
   auto& d = piece.derivatives;
   for (auto* values : {&d.velocity, &d.velocity_sd, &d.acceleration, &d.acceleration_sd, &d.jerk, &d.jerk_sd})
     if (derivatives)
@@ -56,6 +64,14 @@ void fit_outline(MarkerPiece& piece, bool derivatives) {
 /// Put one marker into the whole recording.
 void merge(const data::Trajectories& one, std::int64_t m, bool with_covariance, data::Trajectories& all) {
   const bool covariance = with_covariance && !one.covariance.empty();
+  const bool unfiltered = !one.unfiltered_in_world.empty();
+  if (!one.filters.empty()) {
+    if (all.filters.empty())
+      all.filters.assign(all.names.size(),
+                         {.method = "none", .order = 0, .cutoff_hz = kNaN, .noise_sd_m = kNaN});
+    all.filters[static_cast<std::size_t>(m)] = one.filters.front();
+  }
+  if (unfiltered) fill_unknown(all.unfiltered_in_world, all.x_in_world.size());
   if (covariance) fill_unknown(all.covariance, 6 * static_cast<std::size_t>(all.frames() * all.markers()));
   for (std::int64_t f = 0; f < all.frames(); ++f) {
     all.x(f, m) = one.x(f, 0);
@@ -63,6 +79,9 @@ void merge(const data::Trajectories& one, std::int64_t m, bool with_covariance, 
     if (const auto by = one.made_by(f, 0); !by.empty()) all.set_method(f, m, by);
     if (covariance)
       std::copy_n(one.covariance.data() + 6 * f, 6, all.covariance.data() + 6 * all.index(f, m));
+    if (unfiltered)
+      std::copy_n(one.unfiltered_in_world.data() + 3 * f, 3,
+                  all.unfiltered_in_world.data() + 3 * all.index(f, m));
   }
 }
 
@@ -102,6 +121,7 @@ MarkerPiece::MarkerPiece(trajectory::MarkerResult result, const data::Trajectori
   derivatives.jerk = std::move(result.jerk);
   derivatives.jerk_sd = std::move(result.jerk_sd);
   derivatives.filters = {result.account.used};
+  trajectory::hand_on(from, m, result.account.used, markers, 0);
 }
 
 DerivativesTable::DerivativesTable(const data::Trajectories& markers) {
@@ -129,6 +149,7 @@ void DerivativesTable::add(const data::Derivatives& derivatives, std::int64_t ma
 
 CleanOutput::CleanOutput(const CleanJob& job, std::filesystem::path file, const data::Trajectories& smoothed)
     : derivatives_(job.derivatives),
+      unfiltered_(keeps_unfiltered(job, smoothed)),
       file_(std::move(file)),
       cleaned_(data::Trajectories::all_missing(smoothed.names, smoothed.time)) {
   cleaned_.sample_offset_s = smoothed.sample_offset_s;
@@ -139,7 +160,7 @@ Result<CleanOutput> CleanOutput::create(const CleanJob& job, const std::filesyst
                                         const data::Trial& smoothed, const report::CleanRun& run) {
   CleanOutput output(job, file, smoothed.markers);
   if (!is_nwb(file)) return output;
-  auto writer = io::NwbWriter::create(file, outline_of(smoothed.markers, job.derivatives),
+  auto writer = io::NwbWriter::create(file, outline_of(smoothed.markers, job.derivatives, output.unfiltered_),
                                       metadata_of(job, smoothed, run), {});
   if (!writer) return std::unexpected(writer.error());
   output.nwb_.emplace(std::move(*writer));
@@ -147,17 +168,18 @@ Result<CleanOutput> CleanOutput::create(const CleanJob& job, const std::filesyst
 }
 
 Status CleanOutput::take(MarkerPiece piece, std::int64_t marker) {
+  if (!unfiltered_) piece.markers.unfiltered_in_world.clear();
   merge(piece.markers, marker, !nwb_, cleaned_);
   if (table_) table_->add(piece.derivatives, marker);
   if (!nwb_) return {};
-  fit_outline(piece, derivatives_);
+  fit_outline(piece, derivatives_, unfiltered_);
   return nwb_->write(piece.markers, &piece.derivatives, 0);
 }
 
 Status CleanOutput::finish(data::Trial& trial, const std::filesystem::path& derivatives,
-                           const std::string& set) {
+                           const std::string& set, std::vector<std::string>& lost) {
   trial.markers = std::move(cleaned_);
-  if (auto s = nwb_ ? nwb_->commit(set) : io::write_markers(file_, trial, false, set); !s) return s;
+  if (auto s = nwb_ ? nwb_->commit(set) : io::write_markers(file_, trial, false, set, &lost); !s) return s;
   return table_ ? table_file(derivatives, [this] { return table_->table(); }).write(derivatives, set)
                 : Status{};
 }

@@ -57,11 +57,23 @@ TEST(MarkerPiece, KeepsWhoMadeASampleAndNamesTheFilterForItsOwn) {
   const MarkerPiece piece(smoothed(1), trial.markers);
   EXPECT_THAT(piece.markers.names, ElementsAre("B"));
   EXPECT_EQ(piece.markers.time, trial.markers.time);
-  EXPECT_EQ(piece.markers.made_by(0, 0), "") << "measured";
+  EXPECT_EQ(piece.markers.made_by(0, 0), "smoothed by kalman") << "measured";
   EXPECT_EQ(piece.markers.made_by(1, 0), "kalman") << "bridged by the filter";
   EXPECT_EQ(piece.markers.made_by(2, 0), "cubic") << "filled before";
   EXPECT_EQ(piece.derivatives.filters.at(0).method, "kalman");
   EXPECT_EQ(piece.derivatives.velocity.size(), 12U);
+}
+
+TEST(MarkerPiece, KeepsMeasuredSamplesFromBeforeTheFilter) {
+  auto trial = recorded();
+  trial.markers.x(0, 1).x() = 0.25;
+  const auto piece = MarkerPiece(smoothed(1), trial.markers).markers;
+  ASSERT_EQ(piece.unfiltered_in_world.size(), 12U);
+  EXPECT_EQ(piece.unfiltered_in_world[0], 0.25) << "smoothing made it 0";
+  EXPECT_TRUE(std::isnan(piece.unfiltered_in_world[3])) << "a gap";
+  EXPECT_TRUE(std::isnan(piece.unfiltered_in_world[6])) << "filled";
+  EXPECT_EQ(piece.unfiltered_in_world[9], 3.0);
+  EXPECT_EQ(piece.filters.at(0).method, "kalman");
 }
 
 TEST(MarkerPiece, SampleTimesComeAlong) {
@@ -103,13 +115,14 @@ class CleanOutputTest : public ::testing::Test {
   testing_support::ScratchFolder scratch_;
   data::Trial trial_ = recorded();
   CleanJob job_;
+  std::vector<std::string> lost_;
 };
 
 TEST_F(CleanOutputTest, MarkersInAnyOrderBecomeOneRecording) {
   auto out = output(scratch_ / "a.csv", true);
   take_both(out);
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", ""));
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", "", lost_));
   EXPECT_EQ(trial.markers.count_missing(), 0);
   EXPECT_EQ(trial.markers.made_by(1, 1), "kalman");
   EXPECT_EQ(trial.markers.covariance.at(6 * trial.markers.index(2, 0)), 1e-6);
@@ -122,8 +135,9 @@ TEST_F(CleanOutputTest, WithoutDerivativesThereIsNoTable) {
   auto out = output(scratch_ / "a.trc", false);
   take_both(out);
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", ""));
+  ASSERT_TRUE(out.finish(trial, scratch_ / "a.sto", "", lost_));
   EXPECT_TRUE(fs::exists(scratch_ / "a.trc"));
+  EXPECT_FALSE(lost_.empty()) << "it cannot tell what was smoothed";
   EXPECT_FALSE(fs::exists(scratch_ / "a.sto"));
 }
 
@@ -134,10 +148,12 @@ TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
   take_both(out);
   EXPECT_FALSE(fs::exists(file));
   data::Trial trial = trial_;
-  ASSERT_TRUE(out.finish(trial, {}, ""));
+  ASSERT_TRUE(out.finish(trial, {}, "", lost_));
   const auto back = io::read_nwb(file);
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->trajectories.made_by(2, 1), "cubic");
+  EXPECT_EQ(back->trajectories.made_by(0, 0), "smoothed by kalman");
+  EXPECT_EQ(back->trajectories.unfiltered_in_world[3 * back->trajectories.index(3, 0)], 3.0);
   ASSERT_TRUE(back->derivatives);
   EXPECT_EQ(back->derivatives->velocity.at(0), 50.0);
   EXPECT_TRUE(std::isnan(back->derivatives->jerk.at(0))) << "promised, but not known";

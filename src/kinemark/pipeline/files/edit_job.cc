@@ -16,6 +16,7 @@
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 
@@ -90,6 +91,21 @@ Status place_edit(const EditJob& job, const data::Trial& trial, data::Edit& edit
   return {};
 }
 
+/// The exchanges that a recording needs, one edit each.
+Result<std::vector<data::Edit>> find_exchange_edits(const EditJob& job, const data::Trial& trial) {
+  const auto swaps = find_label_swaps(trial);
+  if (!swaps) return std::unexpected(swaps.error());
+  std::vector<data::Edit> edits;
+  for (const auto& swap : sure_swaps(*swaps)) {
+    edits.push_back(edit_of(swap, trial));
+    if (job.edit) {
+      edits.back().made = job.edit->made;
+      edits.back().author = job.edit->author;
+    }
+  }
+  return edits;
+}
+
 }  // namespace
 
 Result<EditOutcome> run_edit(const EditJob& job) {
@@ -103,12 +119,24 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   if (!input) return std::unexpected(input.error());
   outcome.list = std::move(read->list);
   outcome.warnings = std::move(read->notes);
-  if (job.edit) {
+  std::vector<data::Edit> more;  // to append
+  if (job.exchanges) {
+    auto state = outcome.list.edits_in_force();
+    if (!state) return fail_at(outcome.journal.string(), state.error());
+    auto now = trajectory::apply_edits(trajectory::EditedTrial{.trial = input->trial}, *state,
+                                       {.seed = job.seed, .threads = job.threads});
+    if (!now) return fail_at(outcome.journal.string(), now.error());
+    auto found = find_exchange_edits(job, now->trial);
+    if (!found) return fail_at(job.input.string(), found.error());
+    more = std::move(*found);
+  } else if (job.edit) {
     auto edit = *job.edit;
     if (auto s = place_edit(job, input->trial, edit); !s) return std::unexpected(s.error());
     if (auto s = edit.check(); !s) return fail(Code::usage, s.error().message);
-    outcome.list.edits.push_back(std::move(edit));
+    more.push_back(std::move(edit));
   }
+  const auto before = outcome.list.edits.size();
+  outcome.list.edits.insert(outcome.list.edits.end(), more.begin(), more.end());
   auto in_force = outcome.list.edits_in_force();
   if (!in_force) return fail_at(outcome.journal.string(), in_force.error());
   auto edited = trajectory::apply_edits(trajectory::EditedTrial{.trial = std::move(input->trial)}, *in_force,
@@ -118,13 +146,15 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   outcome.regions = std::move(edited->regions);
   outcome.digest = io::digest_of(*in_force);
   outcome.in_force = std::move(*in_force);
-  if (!job.edit) return outcome;
+  if (job.exchanges && more.empty())
+    outcome.warnings.push_back("no two markers surely carry each other's label: nothing was appended");
+  if (more.empty()) return outcome;
   // Tried: now it is made.
-  auto edit = std::move(outcome.list.edits.back());
-  const auto before = outcome.list.edits.size() - 1;
-  auto list = append_edit(outcome.journal, *recording, before, std::move(edit), job.force);
-  if (!list) return std::unexpected(list.error());
-  outcome.list = std::move(*list);
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    auto list = append_edit(outcome.journal, *recording, before + i, std::move(more[i]), job.force);
+    if (!list) return std::unexpected(list.error());
+    outcome.list = std::move(*list);
+  }
   in_force = outcome.list.edits_in_force();
   if (in_force) outcome.in_force = std::move(*in_force);
   outcome.written = {outcome.journal};

@@ -21,6 +21,9 @@ struct EditJob : JobSettings {
   std::filesystem::path edits;     ///< its journal; empty: edits_of(input)
   double rate_hz = 0.0;            ///< of a recording that tells none; 0: not given
   std::optional<data::Edit> edit;  ///< to append; none: only look
+  /// To append: an exchange back of each two markers that surely carry each other's label, with the author
+  /// and the time of `edit`, whose kind does not matter then.
+  bool exchanges = false;
   /// The ends of its range, or of an event `at` and `to`: "120", a frame by the file's own number, or "1.5s",
   /// a time on the recording's clock; empty: not given. Of a range the frames within.
   std::string from, to, at;

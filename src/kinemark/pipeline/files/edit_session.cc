@@ -22,7 +22,8 @@ std::size_t bytes_of(const data::Trial& trial) {
   const auto& m = trial.markers;
   const auto of = [](const auto& array) { return array.size() * sizeof(array[0]); };
   return of(m.x_in_world) + of(m.state) + of(m.covariance) + of(m.method) + of(m.sample_offset_s) +
-         of(trial.residual_m) + of(trial.camera_mask) + of(trial.channels.values) + of(trial.analog.values);
+         of(m.unfiltered_in_world) + of(trial.residual_m) + of(trial.camera_mask) +
+         of(trial.channels.values) + of(trial.analog.values);
 }
 
 bool begins_with(std::span<const data::Edit> all, std::span<const data::Edit> begin) {

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/recording/markers_recording.h"
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/pipeline/files/marker_input.h"
 
 namespace kinemark::pipeline {
@@ -55,11 +57,16 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .force_plates = trial.force_plates.size(),
                         .events = trial.events.size(),
                         .labels = markers.names,
-                        .channels = describe_channels(trial.channels)};
+                        .channels = describe_channels(trial.channels),
+                        .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);
   out.warnings = trial.warnings;
+  if (!job.find_exchanges || !input->rate_known) return {};
+  const auto swaps = find_label_swaps(trial);
+  if (!swaps) return std::unexpected(swaps.error());
+  for (const auto& swap : sure_swaps(*swaps)) out.warnings.push_back(sentence_of(swap, markers.time));
   return {};
 }
 

@@ -18,8 +18,9 @@ namespace kinemark::pipeline {
 
 /// What `kinemark info` is asked to do.
 struct InfoJob : JobSettings {
-  std::filesystem::path file;  ///< to look at
-  double rate_hz = 0.0;        ///< of marker files that tell none; 0: not given, theirs stays unknown
+  std::filesystem::path file;   ///< to look at
+  double rate_hz = 0.0;         ///< of marker files that tell none; 0: not given, theirs stays unknown
+  bool find_exchanges = false;  ///< warn of markers that carry each other's label
 };
 
 /// Of points that are no markers.
@@ -42,6 +43,8 @@ struct MarkerFileFacts {
   std::vector<std::string> labels;               ///< of the markers
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
   std::vector<ChannelFacts> channels;            ///< points that are no markers
+  std::string filtered;                          ///< by what markers were smoothed, and whether the samples
+                         ///< from before are there; empty: the file tells of no filter
 };
 
 /// Of a table (.mot, .sto).

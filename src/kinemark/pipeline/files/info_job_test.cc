@@ -139,5 +139,27 @@ TEST(InfoText, ManyNamesTakeSeveralLines) {
   EXPECT_THAT(text, HasSubstr("\n                  subject:marker"));
 }
 
+TEST(RunInfo, TellsThatMarkersWereSmoothedAndNothingOfOthers) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = 3});
+  for (std::int64_t f = 0; f < 3; ++f) {
+    trial.markers.x(f, 0) = Eigen::Vector3d(0.1, 0.2, 0.3);
+    trial.markers.state[static_cast<std::size_t>(f)] = data::SampleState::measured;
+  }
+  ASSERT_TRUE(io::write_markers(scratch / "raw.c3d", trial, false));
+  trial.markers.filters = {{.method = "kalman", .order = 5, .cutoff_hz = 6.4, .noise_sd_m = 2e-4}};
+  ASSERT_TRUE(io::write_markers(scratch / "told.c3d", trial, false));
+  trial.markers.unfiltered_in_world = trial.markers.x_in_world;
+  ASSERT_TRUE(io::write_markers(scratch / "kept.c3d", trial, false));
+  EXPECT_FALSE(facts_of(scratch / "raw.c3d").value().contains("filtered"));
+  EXPECT_EQ(facts_of(scratch / "told.c3d").value()["filtered"],
+            "1 marker was smoothed by kalman (order 5; -3 dB at 6.4 Hz; noise before it 0.2 mm); the samples "
+            "from before are not there");
+  const auto kept = facts_of(scratch / "kept.c3d").value();
+  EXPECT_THAT(kept["filtered"].get<std::string>(), HasSubstr("the samples from before are kept"));
+  EXPECT_EQ(kept["points"], 1) << "they are no markers";
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -4,10 +4,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 
@@ -39,10 +41,17 @@ data::Trajectories select_markers(const data::Trajectories& recorded, std::span<
                                   const TimeBase& time) {
   check(names.size() == from.size(), "select_markers() needs one name for each marker");
   auto selected = data::Trajectories::all_missing(std::move(names), time);
+  if (!recorded.unfiltered_in_world.empty())
+    selected.unfiltered_in_world.assign(selected.x_in_world.size(), kNaN);
+  if (!recorded.filters.empty())
+    for (const std::int64_t m : from) selected.filters.push_back(recorded.filters[at(m)]);
   for (std::int64_t m = 0; m < selected.markers(); ++m)
     for (std::int64_t f = 0; f < selected.frames(); ++f) {
       selected.x(f, m) = recorded.x(first_frame + f, from[at(m)]);
       selected.state[selected.index(f, m)] = recorded.state[recorded.index(first_frame + f, from[at(m)])];
+      if (!recorded.unfiltered_in_world.empty())
+        std::copy_n(recorded.unfiltered_in_world.data() + 3 * recorded.index(first_frame + f, from[at(m)]), 3,
+                    selected.unfiltered_in_world.data() + 3 * selected.index(f, m));
     }
   return selected;
 }

@@ -45,7 +45,8 @@ struct MarkerInput {
 /// Fails as io::read_markers(); Code::bad_input for a file without samples where they are needed.
 [[nodiscard]] Result<MarkerInput> read_marker_input(const MarkerSource& source);
 
-/// Some markers of a recording on some of its frames, with positions and states.
+/// Some markers of a recording on some of its frames, with positions, states and what is known of their
+/// filters.
 ///
 /// @param from         M indices into the recorded markers
 /// @param names        M names that they get

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/enum_names.h"
+#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
 #include "kinemark/stages/trajectory/screening/upsampling.h"
@@ -24,11 +25,16 @@ Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& 
   auto defects = trajectory::screen(markers);
   if (!defects) return std::unexpected(defects.error());
   out.defects = std::move(*defects);
+  if (rules.exchange_back) {
+    out.exchanged = sure_swaps(out.defects, rules.sure);
+    if (auto s = exchange_back(trial, out.exchanged); !s) return s;
+  }
   double samples = 0.0;
   for (const data::Finding& defect : out.defects) {
     if (defect.confidence < rules.sure || defect.kind == data::FindingKind::clock_jump) continue;
+    if (rules.exchange_back && defect.kind == data::FindingKind::label_swap) continue;
     out.sure.push_back(defect);
-    samples += static_cast<double>(defect.last_frame - defect.first_frame + 1);
+    samples += static_cast<double>(defect.frame_count());
   }
   if (!out.sure.empty()) out.sure_share = samples / static_cast<double>(markers.state.size());
   return {};
@@ -105,9 +111,13 @@ Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules
 
 Status leave_out_defects(data::Trial& trial, bool keep_defects, std::vector<std::string>& warnings) {
   constexpr std::size_t kListed = 5;
-  const auto screening = screen_markers(
-      trial, {.recorder_made = RecorderMade::mark, .find_defects = !keep_defects, .reject_defects = true});
+  const auto screening = screen_markers(trial, {.recorder_made = RecorderMade::mark,
+                                                .find_defects = !keep_defects,
+                                                .exchange_back = true,
+                                                .reject_defects = true});
   if (!screening) return std::unexpected(screening.error());
+  for (const auto& swap : screening->exchanged)
+    warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
   const auto& sure = screening->sure;
   for (std::size_t i = 0; i < std::min(sure.size(), kListed); ++i)
     warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));

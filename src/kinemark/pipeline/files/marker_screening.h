@@ -35,8 +35,9 @@ struct ScreeningRules {
   bool find_upsampling = true;                      ///< look for samples that the recorder made
   RecorderMade recorder_made = RecorderMade::keep;  ///< what becomes of them
   bool find_defects = true;                         ///< look for defects
-  bool reject_defects = false;                      ///< those that are sure become `rejected`
-  double sure = 0.8;  ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
+  bool exchange_back = false;   ///< markers that surely carry each other's label get their own
+  bool reject_defects = false;  ///< those that are sure become `rejected`
+  double sure = 0.8;            ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
   /// Share of all samples. Where sure defects take more, nothing is rejected: a recording that breaks its
   /// paths everywhere has no paths, its frames are poses of their own.
   double most_rejected = std::numeric_limits<double>::infinity();
@@ -46,10 +47,11 @@ struct ScreeningRules {
 
 /// What was noticed in a recording and what was done about it.
 struct Screening {
-  std::vector<data::Finding> defects;                 ///< all defects
-  std::vector<data::Finding> sure;                    ///< those that reject_defects is about
-  double sure_share = 0.0;                            ///< of all samples
-  bool rejected = false;                              ///< the sure ones were
+  std::vector<data::Finding> defects;    ///< all defects
+  std::vector<data::Finding> sure;       ///< those that reject_defects is about
+  std::vector<data::Finding> exchanged;  ///< label swaps that were exchanged back; none of `sure`
+  double sure_share = 0.0;               ///< of all samples
+  bool rejected = false;                 ///< the sure ones were
   std::optional<data::UpsamplingAccount> upsampling;  ///< when looked for
   std::int64_t made_left_out = 0;  ///< samples that are not present any more because the recorder made them
   std::vector<std::string> warnings;  ///< what had to go with the old frames
@@ -60,8 +62,9 @@ struct Screening {
 /// trajectory::screen(), detect_upsampling() and keep_real_samples().
 [[nodiscard]] Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules);
 
-/// For what counts measured samples alone: marks what the recorder made, rejects what screening is sure of
-/// unless `keep_defects`, and adds what was left out to the warnings: five sentences, then how many more.
+/// For what counts measured samples alone: marks what the recorder made, exchanges back and rejects what
+/// screening is sure of unless `keep_defects`, and adds what was exchanged and
+/// left out to the warnings: five sentences, then how many more.
 [[nodiscard]] Status leave_out_defects(data::Trial& trial, bool keep_defects,
                                        std::vector<std::string>& warnings);
 

@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
+#include "kinemark/data/filtering.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -25,6 +27,15 @@ template <class T>
 void copy_sample(const Array<T>& from, std::size_t i, Array<T>& to, std::size_t j, std::size_t n = 1) {
   if (from.empty() || to.empty()) return;
   for (std::size_t k = 0; k < n; ++k) to[j * n + k] = from[i * n + k];
+}
+
+/// The same method, order and cut-off; the noise that each file found may differ.
+bool same_filter(const data::FilterUsed& a, const data::FilterUsed& b) {
+  if (!data::is_filter(a) || !data::is_filter(b)) return data::is_filter(a) == data::is_filter(b);
+  const bool same_cutoff = std::isnan(a.cutoff_hz)
+                               ? std::isnan(b.cutoff_hz)
+                               : std::abs(a.cutoff_hz - b.cutoff_hz) <= 1e-6 * a.cutoff_hz;
+  return a.method == b.method && a.order == b.order && same_cutoff;
 }
 
 /// Joins one trial after the other into the result.
@@ -97,6 +108,10 @@ class Merger {
     for (const auto& t : trials_) {
       if (!t.markers.covariance.empty()) out_.markers.covariance.assign(6 * samples, kNone);
       if (!t.markers.sample_offset_s.empty()) out_.markers.sample_offset_s.assign(samples, 0.0);
+      if (!t.markers.unfiltered_in_world.empty()) out_.markers.unfiltered_in_world.assign(3 * samples, kNone);
+      if (!t.markers.filters.empty())
+        out_.markers.filters.assign(columns_.size(),
+                                    {.method = "none", .cutoff_hz = kNone, .noise_sd_m = kNone});
       if (!t.residual_m.empty()) out_.residual_m.assign(samples, std::numeric_limits<float>::quiet_NaN());
       if (!t.camera_mask.empty()) out_.camera_mask.assign(samples, 0);
     }
@@ -104,6 +119,8 @@ class Merger {
   }
 
   Status add_markers(const data::Trial& t) {
+    for (std::int64_t m = 0; m < t.markers.markers(); ++m)
+      if (auto s = add_filter(t, m); !s) return s;
     for (std::int64_t f = 0; f < t.markers.frames(); ++f)
       for (std::int64_t m = 0; m < t.markers.markers(); ++m) {
         const std::int64_t frame = f + t.first_frame - out_.first_frame;
@@ -121,6 +138,20 @@ class Merger {
     return {};
   }
 
+  /// A marker that several files hold went through one filter.
+  Status add_filter(const data::Trial& t, std::int64_t m) {
+    const std::string& name = t.markers.names[at(m)];
+    if (out_.markers.filters.empty()) return {};
+    auto& filter = out_.markers.filters[at(columns_.at(name))];
+    const data::FilterUsed here = t.markers.filters.empty() ? data::FilterUsed{} : t.markers.filters[at(m)];
+    const bool is_first = filtered_.insert(name).second;
+    if (is_first && data::is_filter(here)) filter = here;
+    if (!is_first && !same_filter(here, filter))
+      return differ(trials_.front(), t,
+                    fmt::format("'{}' went through different filters; leave it out of one of them", name));
+    return {};
+  }
+
   /// One sample with all that is known of it.
   void copy_marker(const data::Trial& t, std::int64_t f, std::int64_t m, std::int64_t frame,
                    std::int64_t column) {
@@ -129,6 +160,7 @@ class Merger {
     out_.markers.state[j] = from.state[i];
     out_.markers.x(frame, column) = from.x(f, m);
     copy_sample(from.covariance, i, out_.markers.covariance, j, 6);
+    copy_sample(from.unfiltered_in_world, i, out_.markers.unfiltered_in_world, j, 3);
     if (const auto method = from.made_by(f, m); !method.empty())
       out_.markers.set_method(frame, column, method);
     if (!from.sample_offset_s.empty())
@@ -241,6 +273,7 @@ class Merger {
 
   std::vector<data::Trial>& trials_;
   std::map<std::string, std::int64_t> columns_;  ///< of the markers, by name
+  std::set<std::string> filtered_;               ///< markers whose filter is settled
   data::Trial out_;
 };
 

@@ -176,5 +176,36 @@ TEST(MergeTrials, ChannelsAndEventsAreThoseOfAll) {
   EXPECT_THAT(refusal({a, b}), HasSubstr("channel 'LKnee' is of another kind or unit"));
 }
 
+/// The same, smoothed, with the samples from before.
+data::Trial smoothed(data::Trial t, double cutoff_hz) {
+  for (std::size_t m = 0; m < t.markers.names.size(); ++m)
+    t.markers.filters.push_back({.method = "kalman", .order = 4, .cutoff_hz = cutoff_hz});
+  t.markers.unfiltered_in_world = t.markers.x_in_world;
+  for (double& v : t.markers.unfiltered_in_world) v += 0.001;
+  return t;
+}
+
+TEST(MergeTrials, FiltersAndSamplesFromBeforeComeAlong) {
+  const auto t = merge_trials({smoothed(part("a", 1, 5, {"A"}), 6.0), part("b", 1, 5, {"B"}),
+                               smoothed(part("c", 4, 8, {"A"}), 6.0)})
+                     .value();
+  ASSERT_TRUE(t.validate()) << t.validate().error().message;
+  ASSERT_EQ(t.markers.filters.size(), 2U);
+  EXPECT_EQ(t.markers.filters[0].cutoff_hz, 6.0);
+  EXPECT_EQ(t.markers.filters[1].method, "none");
+  for (std::int64_t f = 0; f < 8; ++f) {
+    EXPECT_EQ(t.markers.unfiltered_in_world[3 * t.markers.index(f, 0)], t.markers.x(f, 0).x() + 0.001);
+    EXPECT_TRUE(std::isnan(t.markers.unfiltered_in_world[3 * t.markers.index(f, 1)]));
+  }
+}
+
+TEST(MergeTrials, OneMarkerThroughTwoFiltersIsRefused) {
+  const auto a = smoothed(part("a", 1, 5, {"A"}), 6.0);
+  EXPECT_THAT(refusal({a, smoothed(part("b", 6, 9, {"A"}), 7.0)}),
+              HasSubstr("'A' went through different filters"));
+  EXPECT_THAT(refusal({a, part("b", 6, 9, {"A"})}), HasSubstr("different filters"));
+  EXPECT_THAT(refusal({part("b", 6, 9, {"A"}), a}), HasSubstr("different filters"));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

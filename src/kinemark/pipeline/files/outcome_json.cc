@@ -28,6 +28,7 @@ Json validate_json(const ValidateOutcome& outcome) {
       entry["error"] = checked.error->message;
     else
       entry["warnings"] = checked.warnings;
+    if (!checked.notes.empty()) entry["notes"] = checked.notes;
   }
   return list;
 }

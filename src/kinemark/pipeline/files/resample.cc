@@ -87,6 +87,10 @@ data::Trajectories resampled(const data::Trajectories& old, const Grid& grid, do
       old.names, {.rate_hz = rate_hz, .t0_s = old.time.t0_s, .frames = grid.frames});
   if (!old.covariance.empty())
     out.covariance.assign(6 * out.state.size(), std::numeric_limits<double>::quiet_NaN());
+  // Samples from before a filter cannot be interpolated: they stay at the instants that stay.
+  out.filters = old.filters;
+  if (!old.unfiltered_in_world.empty())
+    out.unfiltered_in_world.assign(out.x_in_world.size(), std::numeric_limits<double>::quiet_NaN());
   const auto always = [](std::int64_t) { return true; };
   for (std::int64_t m = 0; m < old.markers(); ++m) {
     const auto fill_run = [&](std::int64_t first, std::int64_t last) {
@@ -99,6 +103,9 @@ data::Trajectories resampled(const data::Trajectories& old, const Grid& grid, do
         const std::size_t j = out.index(i, m);
         const auto same = grid.same(i);
         out.state[j] = same >= 0 ? old.state[old.index(same, m)] : data::SampleState::interpolated;
+        if (same >= 0 && !old.unfiltered_in_world.empty())
+          std::copy_n(old.unfiltered_in_world.data() + 3 * old.index(same, m), 3,
+                      out.unfiltered_in_world.data() + 3 * j);
         if (same < 0)
           out.set_method(i, m, kMethod);
         else if (const auto method = old.made_by(same, m); !method.empty())

@@ -159,5 +159,23 @@ TEST(Resample, WhatCannotBeDoneIsRefused) {
   EXPECT_THAT(resample(t, 200.0).error().message, HasSubstr("times of their own"));
 }
 
+TEST(Resample, SamplesFromBeforeAFilterStayWhereTheyWereMeasured) {
+  auto t = circle(100.0, 11);
+  t.markers.filters.assign(2, {.method = "kalman", .order = 4, .cutoff_hz = 6.0, .noise_sd_m = 1e-4});
+  t.markers.unfiltered_in_world = t.markers.x_in_world;
+  for (double& v : t.markers.unfiltered_in_world) v += 1e-3;
+  const auto before = t.markers;
+  ASSERT_TRUE(resample(t, 200.0));
+  ASSERT_TRUE(t.validate()) << t.validate().error().message;
+  EXPECT_EQ(t.markers.filters.size(), 2U);
+  for (std::int64_t i = 0; i < t.markers.frames(); ++i) {
+    const double x = t.markers.unfiltered_in_world[3 * t.markers.index(i, 1)];
+    if (i % 2 == 0)
+      EXPECT_EQ(x, before.unfiltered_in_world[3 * before.index(i / 2, 1)]) << i;
+    else
+      EXPECT_TRUE(std::isnan(x)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -154,6 +154,7 @@ class Reader {
     joint.axis_sd_rad =
         joint.kind == data::JointKind::hinge ? number_of(json, "axis_sd_deg") * kRadPerDeg : 0.0;
     joint.range_of_motion_rad = number_of(json, "range_of_motion_deg") * kRadPerDeg;
+    joint.prior_share = number_of(json, "prior_share");
     out_.skeleton.joints.push_back(std::move(joint));
     return {};
   }

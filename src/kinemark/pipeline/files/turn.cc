@@ -162,6 +162,7 @@ Matrix3d rotation_between(const Vector3d& from, const Vector3d& to) {
 void turn(data::Trial& trial, const Matrix3d& to_from) {
   if (to_from.isIdentity(0.0)) return;
   turn_triples(trial.markers.x_in_world, to_from);
+  turn_triples(trial.markers.unfiltered_in_world, to_from);
   turn_covariances(trial.markers.covariance, to_from);
   turn_modeled_markers(trial.channels, to_from);
   turn_foreign(trial, to_from);

@@ -28,6 +28,7 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
   for (const auto& file : job.files) {
     InfoJob info;
     info.file = file;
+    info.find_exchanges = true;
     info.rate_hz = io::needs_rate(file) ? job.rate_hz : 0.0;
     auto facts = run_info(info);
     CheckedFile& checked = out.files.emplace_back();
@@ -35,6 +36,9 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
     if (facts) {
       checked.warnings = std::move(facts->warnings);
       checked.facts = std::move(facts->facts);
+      if (const auto* markers = std::get_if<MarkerFileFacts>(&*checked.facts);
+          markers != nullptr && !markers->filtered.empty())
+        checked.notes.push_back(markers->filtered);
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
     } else {
       checked.error = std::move(facts.error());

@@ -24,6 +24,7 @@ struct CheckedFile {
   std::filesystem::path file;         ///< as asked
   std::optional<FileFacts> facts;     ///< what it holds, when it can be read
   std::vector<std::string> warnings;  ///< what is odd about it
+  std::vector<std::string> notes;     ///< what is good to know and not odd: that it was filtered
   std::optional<Error> error;         ///< why it cannot be read
 
   /// 0 nothing to say, 1 readable with warnings, 3 or 4 not readable.
@@ -37,8 +38,8 @@ struct ValidateOutcome : JobOutcome {
   [[nodiscard]] int exit_status() const;  ///< the highest of all files
 };
 
-/// Read every file as run_info() does. Succeeds whatever the files are like; progress counts files, and a
-/// caller that stops it ends with Code::cancelled.
+/// Read every file as run_info() does, and look for markers that carry each other's label. Succeeds whatever
+/// the files are like; progress counts files, and a caller that stops it ends with Code::cancelled.
 [[nodiscard]] Result<ValidateOutcome> run_validate(const ValidateJob& job);
 
 }  // namespace kinemark::pipeline

@@ -82,5 +82,22 @@ TEST(OutcomeJson, TellsWhatWasWrittenAndWarned) {
   EXPECT_EQ(outcome_json(outcome).dump(), R"({"written":["a/b.trc"],"warnings":["odd"]})");
 }
 
+TEST_F(RunValidate, ThatARecordingWasSmoothedIsANoteAndNotOdd) {
+  const auto smoothed = scratch_ / "smoothed.csv", raw = scratch_ / "raw.csv";
+  const std::string header = "frame,time_s,marker,x_m,y_m,z_m", rows[] = {"1,0,A,1,1,1", "2,0.01,A,1,1,1"};
+  ASSERT_TRUE(io::write_text(raw, header + "\n" + rows[0] + "\n" + rows[1] + "\n", false));
+  ASSERT_TRUE(io::write_text(
+      smoothed, header + ",filter\n" + rows[0] + ",butterworth\n" + rows[1] + ",butterworth\n", false));
+  const auto outcome = validate({smoothed, raw});
+  EXPECT_EQ(outcome.exit_status(), 0);
+  ASSERT_EQ(outcome.files[0].notes.size(), 1U);
+  EXPECT_THAT(outcome.files[0].notes[0],
+              HasSubstr("smoothed by butterworth; the samples from before are not"));
+  EXPECT_TRUE(outcome.files[1].notes.empty());
+  const auto json = validate_json(outcome);
+  EXPECT_EQ(json[0]["notes"].size(), 1U);
+  EXPECT_FALSE(json[1].contains("notes"));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
@@ -20,6 +21,7 @@
 #include "kinemark/pipeline/joints/joints_layout.h"
 #include "kinemark/pipeline/joints/joints_page.h"
 #include "kinemark/pipeline/joints/joints_parts.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 
@@ -62,6 +64,7 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   const auto screening = screen_markers(trial, {.find_upsampling = !job.keep_upsampled,
                                                 .recorder_made = RecorderMade::missing,
                                                 .find_defects = !job.keep_defects,
+                                                .exchange_back = true,
                                                 .reject_defects = true,
                                                 .most_rejected = kMostDefects,
                                                 .made_first = true});
@@ -70,6 +73,8 @@ Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& out
   if (screening->made_left_out > 0)
     warnings.push_back(
         fmt::format("{} samples that the recorder interpolated were left out.", screening->made_left_out));
+  for (const auto& swap : screening->exchanged)
+    warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
   const auto& sure = screening->sure;
   if (sure.empty()) return {};
   if (!screening->rejected) {
@@ -161,7 +166,7 @@ void judge(const JointsJob& job, JointsOutcome& outcome) {
 /// or are a subject's every tree by itself.
 std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutcome& outcome,
                                           const data::SegmentLayout& layout) {
-  const bool as_asked = !outcome.topology && outcome.left_out.empty() && !is_subject(job);
+  const bool as_asked = !outcome.segmentation && outcome.left_out.empty() && !is_subject(job);
   if (job.method != "articulated" || as_asked) return {layout};
   return trees_of(layout);
 }
@@ -170,7 +175,10 @@ std::vector<data::SegmentLayout> parts_of(const JointsJob& job, const JointsOutc
 /// plausible. A tree of which nothing is left, or that cannot be solved, is reported; it is a failure where
 /// no other is.
 Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
-  auto waiting = parts_of(job, outcome, outcome.layout);
+  std::vector<data::SegmentLayout> waiting;
+  // Named segments without a joint are refused by the estimator, which says why.
+  if (!outcome.segmentation || !outcome.layout.joints.empty())
+    waiting = parts_of(job, outcome, outcome.layout);
   std::vector<data::Skeleton> solved;
   Status first;
   outcome.layout = {};
@@ -196,9 +204,15 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
       append(layout, outcome.layout);
     } else if (auto s = leave_out(job, bad, layout, outcome); !s) {
       if (first) first = s;
-    } else {
+    } else if (!layout.joints.empty()) {
       std::ranges::move(parts_of(job, outcome, layout), std::back_inserter(waiting));
     }
+  }
+  if (solved.empty() && outcome.segmentation) {
+    outcome.skeleton.markers = markers.names;
+    outcome.skeleton.time = markers.time;
+    outcome.skeleton.noise_sd_m = kNaN;
+    return {};
   }
   if (solved.empty()) return first;
   outcome.skeleton = join_skeletons(std::move(solved));
@@ -208,6 +222,8 @@ Status solve_plausibly(const JointsJob& job, const data::Trajectories& markers, 
 /// Centres and axes, and markers that moved on their segment.
 Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome) {
   if (auto s = solve_plausibly(job, markers, outcome); !s) return s;
+  settle_segmentation(outcome);
+  if (outcome.skeleton.joints.empty()) return {};
   auto slips = skeleton::find_slips(markers, outcome.layout);
   if (!slips) return std::unexpected(slips.error());
   outcome.slips = std::move(*slips);
@@ -233,12 +249,14 @@ Result<Staging> stage(const JointsJob& job) {
 std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
                                    const data::Trial& centres, const std::vector<fs::path>& targets) {
   std::vector<ResultFile> files;
-  for (const auto& target : targets)
+  for (const auto& target : targets) {
+    if (outcome.skeleton.joints.empty() && target.extension() != ".json") continue;
     files.push_back(target.extension() == ".json"
                         ? json_file(target, [&] { return joints_json(job, outcome); })
                     : target.extension() == ".toml"
                         ? toml_file(target, [&] { return segments_text(outcome.layout, outcome.markers); })
                         : marker_file(target, centres));
+  }
   return files;
 }
 
@@ -265,6 +283,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   JointsOutcome outcome;
   outcome.input = std::move(input->file);
   outcome.markers = trial.markers.names;
+  if (auto note = data::note_on_noise(trial.markers); !note.empty() && job.noise_sd_m == 0.0)
+    outcome.warnings.push_back(std::move(note));
   const std::string name = job.input.string();
   if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(name, s.error());
   if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());

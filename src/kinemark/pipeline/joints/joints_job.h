@@ -17,6 +17,7 @@
 #include "kinemark/stages/skeleton/functional/functional.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
 #include "kinemark/stages/skeleton/plausibility/plausibility.h"
+#include "kinemark/stages/skeleton/topology/segmentation.h"
 #include "kinemark/stages/skeleton/topology/topology.h"
 
 namespace kinemark::pipeline {
@@ -26,9 +27,10 @@ struct JointsJob : JobSettings {
   std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
   double rate_hz = 0.0;            ///< for a marker file that stores none (.v3d); 0: not given
   std::filesystem::path segments;  ///< TOML, see read_segments(), or the .vsk of a Vicon subject, see
-                                   ///< layout_of(); empty: found in the data
+                                   ///< layout_of(); empty: by the markers' names or from the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
-  /// file: the centres in its format, and NAME_skeleton.json beside it.
+  /// file: the centres in its format, and NAME_skeleton.json beside it. Where no joint is determined, the
+  /// JSON alone.
   std::filesystem::path output;
   std::filesystem::path report;        ///< page to write as well, .html
   std::string method = "articulated";  ///< that, or a name of parse_functional_method()
@@ -43,15 +45,17 @@ struct JointsJob : JobSettings {
 };
 
 /// Warnings: what was done before and after, and what is odd. Gates: nothing had to be left out as no body's,
-/// every joint was placed in some frame.
+/// every joint was placed in some frame; without a file of segments, every joint that was looked for is
+/// determined. The skeleton holds those that are, and no others.
 struct JointsOutcome : JobOutcome {
-  data::InputFile input;                       ///< the recording
-  data::SegmentLayout layout;                  ///< as used; the skeleton's markers are its numbers
-  std::vector<std::string> markers;            ///< names of the recording's markers
-  data::Skeleton skeleton;                     ///< segments, joints, centres
-  std::optional<skeleton::Topology> topology;  ///< when the segments were found in the data
-  std::vector<data::Finding> slips;            ///< markers that moved on their segment
-  std::vector<double> marker_noise_sd_m;       ///< M, with soft_tissue; NaN where unknown; empty otherwise
+  data::InputFile input;                               ///< the recording
+  data::SegmentLayout layout;                          ///< as used; the skeleton's markers are its numbers
+  std::vector<std::string> markers;                    ///< names of the recording's markers
+  data::Skeleton skeleton;                             ///< segments, joints, centres
+  std::optional<skeleton::Segmentation> segmentation;  ///< without a file of segments: what is known, why not
+  std::optional<skeleton::Topology> topology;          ///< when the segments were found in the data
+  std::vector<data::Finding> slips;                    ///< markers that moved on their segment
+  std::vector<double> marker_noise_sd_m;  ///< M, with soft_tissue; NaN where unknown; empty otherwise
   std::vector<skeleton::Implausible>
       left_out;           ///< segments and joints that are no body's: not in the skeleton
   std::string next_step;  ///< what to do about them, one sentence; empty: nothing

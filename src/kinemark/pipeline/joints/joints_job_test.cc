@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/joints/joints_json.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/simulation/limb.h"
 #include "support/scratch.h"
@@ -97,6 +99,97 @@ TEST_F(JointsJobTest, FindsSegmentsItself) {
   EXPECT_LT(rms_mm(outcome->skeleton, 1), 3.0);
   EXPECT_EQ(outcome->written.back().filename(), "centres_skeleton.json");
   EXPECT_EQ(joints_json(job, *outcome)["topology"]["markers"].size(), 12U);
+}
+
+/// Whether an object of JSON or anything in it has a number.
+bool has_number(const nlohmann::json& json) {
+  if (json.is_number()) return true;
+  if (!json.is_structured()) return false;
+  for (const auto& item : json)
+    if (has_number(item)) return true;
+  return false;
+}
+
+TEST_F(JointsJobTest, SegmentsOfTwoMarkersAreNoBodies) {
+  make({.frames = 200, .lengths_m = {0.12, 0.15, 0.16}, .markers_per_segment = 2, .stagger_m = 0.02});
+  for (const std::string method : {"articulated", "score", "gamage"}) {
+    job.method = method;
+    job.output = scratch / method;
+    job.report = scratch / (method + ".html");
+    const auto outcome = run_joints(job);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->exit_status(), 1);
+    EXPECT_TRUE(outcome->skeleton.joints.empty());
+    EXPECT_TRUE(std::filesystem::exists(job.output / "skeleton.json"));
+    for (const char* name : {"centres.csv", "centres.c3d", "segments.toml"})
+      EXPECT_FALSE(std::filesystem::exists(job.output / name)) << name;
+    const auto json = nlohmann::json::parse(io::read_text(job.output / "skeleton.json").value());
+    for (const char* list : {"joints", "lengths", "segments"}) EXPECT_FALSE(has_number(json[list])) << list;
+    EXPECT_TRUE(json["segmentation"]["known"].empty());
+    EXPECT_EQ(json["segmentation"]["from"], "data");
+    EXPECT_TRUE(std::ranges::any_of(outcome->gates, [](const auto& gate) {
+      return gate.name == "determined" && gate.sentence.starts_with("No joint is determined");
+    }));
+    EXPECT_NE(io::read_text(job.report).value().find("No joint is determined"), std::string::npos);
+  }
+}
+
+TEST_F(JointsJobTest, NamesOfAKnownSetAreTheSegments) {
+  make({.frames = 300,
+        .lengths_m = {0.12, 0.15, 0.16},
+        .markers_per_segment = 4,
+        .stagger_m = 0.03,
+        .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         const std::vector<std::string> names{"LASI", "RASI", "LPSI", "RPSI", "LTH1", "LTH2",
+                                              "LTH3", "LTH4", "LSK1", "LHEE", "LTOE", "M7"};
+         markers.names = names;
+       });
+  job.output = scratch / "out";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1) << "the knee is not determined";
+  EXPECT_FALSE(outcome->topology);
+  ASSERT_EQ(outcome->skeleton.joints.size(), 1U);
+  EXPECT_EQ(outcome->skeleton.joints[0].name, "hip_l");
+  EXPECT_LT(rms_mm(outcome->skeleton, 0), 3.0);
+  const auto json = nlohmann::json::parse(io::read_text(job.output / "skeleton.json").value());
+  EXPECT_EQ(json["segmentation"]["from"], "names");
+  EXPECT_EQ(json["segmentation"]["known"][0]["name"], "hip_l");
+  const auto& open = json["segmentation"]["not_determined"];
+  ASSERT_FALSE(open.empty());
+  EXPECT_EQ(open[0]["name"], "knee_l");
+  EXPECT_NE(open[0]["words"].get<std::string>().find("shank_l has 1 marker"), std::string::npos);
+  EXPECT_EQ(json["segmentation"]["on_no_segment"].get<std::vector<std::string>>(),
+            (std::vector<std::string>{"M7"}));
+  const auto layout = read_segments(job.output / "segments.toml", outcome->markers);
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->joints.size(), 1U);
+  // What rivals disagree by is in the covariance, and the words say so.
+  const double spread = outcome->segmentation->joints[0].spread_m;
+  EXPECT_GT(spread, 0.0);
+  EXPECT_GE(outcome->skeleton.joints[0].covariance_in_parent(0, 0), spread * spread / 3.0);
+  EXPECT_NE(outcome->skeleton.joints[0].description.find("rivals of its segmentation"), std::string::npos);
+}
+
+TEST_F(JointsJobTest, AJointThatTheMotionLeavesOpenIsNotKnown) {
+  make({.frames = 300, .markers_per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005});
+  const auto known = run_joints(job);
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->exit_status(), 0);
+  ASSERT_EQ(known->skeleton.joints.size(), 1U);
+  const auto none = keep_joints(known->skeleton, {0});
+  EXPECT_TRUE(none.joints.empty() && none.segments.empty() && none.lengths.empty());
+  EXPECT_TRUE(none.validate());
+  // Its SD beyond the bound: nothing of it is left.
+  auto wide = *known;
+  wide.skeleton.joints[0].covariance_in_child = 0.021 * 0.021 * Eigen::Matrix3d::Identity();
+  settle_segmentation(wide);
+  EXPECT_TRUE(wide.skeleton.joints.empty());
+  EXPECT_TRUE(wide.layout.joints.empty() && wide.layout.segments.empty());
+  EXPECT_EQ(wide.exit_status(), 1);
+  EXPECT_NE(wide.segmentation->joints[0].reason.find("21 mm"), std::string::npos)
+      << wide.segmentation->joints[0].reason;
 }
 
 TEST_F(JointsJobTest, EveryMethodRuns) {

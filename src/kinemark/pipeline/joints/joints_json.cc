@@ -5,12 +5,14 @@
 #include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -58,6 +60,37 @@ Frames count_frames(const data::Skeleton& skeleton, std::int64_t joint) {
   return frames;
 }
 
+/// Root of the trace of a covariance in the parent's axes (in the child's, where that alone is known), across
+/// the axis of a hinge.
+double sd_of(const data::SkeletonJoint& joint, const Eigen::Matrix3d& in_parent,
+             const Eigen::Matrix3d& in_child) {
+  const bool parent = in_parent.allFinite();
+  const Eigen::Vector3d& axis = parent ? joint.axis_in_parent : joint.axis_in_child;
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+  return std::sqrt((across * (parent ? in_parent : in_child) * across).trace());
+}
+
+/// Three numbers, never one: what another part of the trial would repeat, how far the bone's joint may be,
+/// and whether the recording or prior knowledge says so. And what was seen of skin.
+void add_skin(const data::SkeletonJoint& joint, Json& out) {
+  out["accuracy_sd_m"] = number(sd_of(joint, joint.covariance_in_parent, joint.covariance_in_child));
+  out["repeatability_sd_m"] =
+      number(sd_of(joint, joint.repeatability_in_parent, joint.repeatability_in_child));
+  out["prior_share"] = number(joint.prior_share);
+  out["source"] =
+      std::isnan(joint.prior_share) ? Json(nullptr) : Json(joint.prior_dominated() ? "prior" : "recording");
+  const auto& skin = joint.skin;
+  out["skin"] = {{"verdict", data::to_string(skin.verdict)},
+                 {"words", skin.description},
+                 {"movements", skin.movements},
+                 {"alike", skin.alike},
+                 {"p_value", number(skin.p_value)},
+                 {"explained", number(skin.explained)},
+                 {"own_slide_m_per_rad", number(skin.own_slide_m)},
+                 {"own_slide_limit_m_per_rad", number(skin.own_limit_m)},
+                 {"gap_with_posture_m", number(skin.gap_m)}};
+}
+
 Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   const auto& joint = skeleton.joints[j];
   const auto name = [&](int s) { return skeleton.segments[static_cast<std::size_t>(s)].name; };
@@ -87,6 +120,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
     out["axis_sd_deg"] = number(joint.axis_sd_rad * kDegPerRad);
     out["axis_covariance_in_parent"] = matrix(joint.axis_covariance_in_parent);
   }
+  add_skin(joint, out);
   out["centre_sd_m"] = number(frames.sd_m);
   if (hinge) out["centre_sd_across_axis_m"] = number(frames.across_sd_m);
   for (const auto state : {data::CentreState::determined, data::CentreState::bridged,
@@ -99,10 +133,12 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
 Json topology_json(const JointsOutcome& outcome) {
   const auto& topology = *outcome.topology;
   Json out;
+  const auto& outputs = outcome.segmentation->model_outputs;
   for (std::size_t m = 0; m < topology.markers.size(); ++m)
-    out["markers"].push_back({{"name", outcome.skeleton.markers[m]},
-                              {"nats", topology.markers[m].nats},
-                              {"doubtful", topology.markers[m].doubtful}});
+    if (std::ranges::find(outputs, static_cast<int>(m)) == outputs.end())
+      out["markers"].push_back({{"name", outcome.skeleton.markers[m]},
+                                {"nats", topology.markers[m].nats},
+                                {"doubtful", topology.markers[m].doubtful}});
   for (std::size_t j = 0; j < topology.joints.size(); ++j) {
     const auto& joint = topology.joints[j];
     out["joints"].push_back({{"name", topology.layout.joints[j].name},
@@ -148,6 +184,7 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
     if (std::isfinite(outcome.marker_noise_sd_m[m]))
       json["marker_noise"].push_back(
           {{"name", outcome.skeleton.markers[m]}, {"sd_m", outcome.marker_noise_sd_m[m]}});
+  if (outcome.segmentation) json["segmentation"] = segmentation_json(outcome);
   if (outcome.topology) json["topology"] = topology_json(outcome);
   return json;
 }
@@ -201,6 +238,7 @@ std::vector<std::string> skeleton_description(const data::Skeleton& skeleton) {
     const auto ambiguous = frames.count[static_cast<std::size_t>(data::CentreState::ambiguous)];
     if (ambiguous > 0) line += fmt::format(", {} ambiguous", ambiguous);
     lines.push_back(std::move(line));
+    if (!joint.skin.description.empty()) lines.push_back(joint.name + ": " + joint.skin.description);
   }
   for (const auto& length : skeleton.lengths)
     lines.push_back(

@@ -87,6 +87,35 @@ TEST(SkeletonJson, UnknownNumbersAreNullAndAnglesDegrees) {
   EXPECT_EQ(json["warnings"], nlohmann::json({"odd"}));
 }
 
+TEST(SkeletonJson, AccuracyRepeatabilityAndSourceStandBesideEachOther) {
+  auto skeleton = small();
+  auto& knee = skeleton.joints[0];
+  knee.covariance_in_parent = Eigen::Vector3d(3e-6, 1e-6, 0.04).asDiagonal();
+  knee.repeatability_in_parent = Eigen::Vector3d(1e-8, 0.0, 0.04).asDiagonal();
+  knee.prior_share = 0.7;
+  knee.skin = {.verdict = data::SkinVerdict::follows,
+               .movements = 8,
+               .alike = 7,
+               .p_value = 0.001,
+               .explained = 0.8,
+               .own_slide_m = 0.005,
+               .own_limit_m = 0.006,
+               .description = "The markers' shape follows the posture."};
+  auto json = skeleton_json(skeleton)["joints"][0];
+  EXPECT_NEAR(json["accuracy_sd_m"].get<double>(), 2e-3, 1e-12) << "across the axis";
+  EXPECT_NEAR(json["repeatability_sd_m"].get<double>(), 1e-4, 1e-12);
+  EXPECT_EQ(json["source"], "prior");
+  EXPECT_EQ(json["skin"]["verdict"], "follows the posture");
+  EXPECT_EQ(json["skin"]["alike"], 7);
+  EXPECT_TRUE(json["skin"]["gap_with_posture_m"].is_null());
+  EXPECT_THAT(skeleton_description(skeleton)[1], HasSubstr("knee: The markers' shape follows the posture."));
+  knee.prior_share = 0.3;
+  EXPECT_EQ(skeleton_json(skeleton)["joints"][0]["source"], "recording");
+  json = skeleton_json(small())["joints"][1];
+  EXPECT_TRUE(json["source"].is_null() && json["prior_share"].is_null()) << "skin was not looked at";
+  EXPECT_EQ(json["skin"]["verdict"], "untested");
+}
+
 TEST(SkeletonDescription, OneLineAJointAndALength) {
   const auto lines = skeleton_description(small());
   ASSERT_EQ(lines.size(), 3U);

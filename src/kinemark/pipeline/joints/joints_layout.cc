@@ -12,6 +12,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/joints/joints_segmentation.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/pipeline/joints/vsk_layout.h"
 
@@ -34,20 +35,7 @@ Result<data::SegmentLayout> find_layout(const JointsJob& job, const data::Trajec
         Code::bad_input,
         fmt::format("{} markers in all; a joint needs 4 at least, three on one segment and one on another",
                     markers.markers()));
-  skeleton::TopologyOptions options;
-  options.noise_sd_m = job.noise_sd_m;
-  auto topology = skeleton::find_topology(markers, options);
-  if (!topology) return std::unexpected(topology.error());
-  outcome.warnings.push_back(fmt::format("Found in the data: {} segments, {} joints.",
-                                         topology->layout.segments.size(), topology->layout.joints.size()));
-  if (topology->layout.segments.size() < 2)
-    return fail(Code::bad_input,
-                fmt::format("all {} markers keep their distances: they are on one segment, or "
-                            "nothing moved, so no joint can be found",
-                            markers.markers()));
-  outcome.warnings.insert(outcome.warnings.end(), topology->warnings.begin(), topology->warnings.end());
-  outcome.topology = std::move(*topology);
-  return outcome.topology->layout;
+  return find_segmentation(job, markers, outcome);
 }
 
 /// The worst of what was left out in words, how many more there are, and what to do.
@@ -85,7 +73,8 @@ Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOu
   };
   if (!layout) return of_recording(layout.error());
   outcome.layout = std::move(*layout);
-  const bool lines_alone = job.method == "articulated" && (outcome.topology.has_value() || is_subject(job));
+  if (outcome.segmentation && outcome.layout.joints.empty()) return {};
+  const bool lines_alone = job.method == "articulated" && is_subject(job);
   if (lines_alone) {
     // Joints of a single marker cannot be asked for; of a layout that nobody wrote they are no one's wish.
     const auto joints = outcome.layout.joints.size();
@@ -115,7 +104,8 @@ Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> ba
                  data::SegmentLayout& layout, JointsOutcome& outcome) {
   outcome.left_out.insert(outcome.left_out.end(), bad.begin(), bad.end());
   layout = skeleton::leave_out(layout, bad);
-  return layout.joints.empty() ? refuse(job, outcome) : Status();
+  // Of segments that nobody named nothing was asked: that none of their joints is determined is a result.
+  return layout.joints.empty() && !outcome.segmentation ? refuse(job, outcome) : Status();
 }
 
 std::vector<data::SegmentLayout> trees_of(const data::SegmentLayout& layout) {

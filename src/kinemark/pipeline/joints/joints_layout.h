@@ -19,14 +19,14 @@ namespace kinemark::pipeline {
 /// cannot be found are left out, and what is not joined is solved apart.
 [[nodiscard]] bool is_subject(const JointsJob& job);
 
-/// Fills outcome.layout, and outcome.topology where the data give it: the segments of the job's file, or
-/// those that the markers show, in which case all failures are the recording's. What the markers contradict
-/// goes into outcome.left_out; of a layout that was found the articulated method gets segments of two markers
-/// or more.
+/// Fills outcome.layout: the segments of the job's file, or those of find_segmentation() with its known
+/// joints, in which case all failures are the recording's. What the markers contradict goes into
+/// outcome.left_out; of a subject's layout the articulated method gets segments of two markers or more.
 [[nodiscard]] Status lay_out(const JointsJob& job, const data::Trajectories& markers, JointsOutcome& outcome);
 
 /// Takes segments and joints out of a layout and into outcome.left_out. Code::bad_input in one sentence,
-/// which names the worst of all that were left out and what to do next, where no joint of the layout is left.
+/// which names the worst of all that were left out and what to do next, where no joint of a layout that was
+/// given is left.
 [[nodiscard]] Status leave_out(const JointsJob& job, std::span<const skeleton::Implausible> bad,
                                data::SegmentLayout& layout, JointsOutcome& outcome);
 

@@ -35,16 +35,21 @@ std::vector<Notice> partly_placed(const data::Skeleton& skeleton) {
 
 std::vector<report::NoticeGroup> groups_of(const JointsOutcome& outcome) {
   std::vector<report::NoticeGroup> groups;
-  std::vector<Notice> left_out, slips, doubts;
+  std::vector<Notice> left_out, open, slips, doubts;
   for (const auto& bad : outcome.left_out) left_out.push_back({.subject = bad.name, .text = bad.sentence()});
   std::vector<data::Gate> others;
   for (const auto& gate : outcome.gates)
-    if (gate.name != "plausible") others.push_back(gate);
+    if (gate.name == "determined")
+      open.push_back({.text = gate.sentence});
+    else if (gate.name != "plausible")
+      others.push_back(gate);
   for (const auto& slip : outcome.slips)
     slips.push_back({.text = sentence_of(slip, outcome.skeleton.time),
                      .time_s = outcome.skeleton.time.time_s(slip.first_frame)});
   for (const auto& warning : outcome.skeleton.warnings) doubts.push_back({.text = warning});
   report::add_gates(groups, others);
+  report::add_group(groups, Verdict::attention, "joint", "joint not determined", "joints not determined",
+                    std::move(open));
   report::add_group(groups, Verdict::attention, "joint", "segment or joint left out as no body's",
                     "segments and joints left out as no body's", std::move(left_out));
   report::add_group(groups, Verdict::attention, "joint", "doubt about the fit", "doubts about the fit",
@@ -68,7 +73,8 @@ std::string joints_page(const JointsJob& job, const JointsOutcome& outcome, cons
        .groups = groups_of(outcome),
        .inputs = {outcome.input},
        .result = joints_json(job, outcome),
-       .scene = report::Scene{.markers = &trial.markers, .skeleton = &outcome.skeleton},
+       .scene = report::Scene{.markers = &trial.markers,
+                              .skeleton = outcome.skeleton.joints.empty() ? nullptr : &outcome.skeleton},
        .first_frame = trial.first_frame});
 }
 

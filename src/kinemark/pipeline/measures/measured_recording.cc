@@ -141,6 +141,7 @@ Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const dat
     return fail(Code::bad_input, fmt::format("nothing can be measured: {}", why_nothing(*measured)));
   curves = std::move(measured->curves);
   outcome.rhythms = std::move(measured->rhythms);
+  outcome.noises = std::move(measured->noises);
   std::ranges::move(measured->measures, std::back_inserter(outcome.measures));
   std::ranges::move(measured->warnings, std::back_inserter(outcome.warnings));
   return {};

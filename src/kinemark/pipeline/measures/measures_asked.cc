@@ -51,7 +51,8 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
                              .level = job.level,
                              .seed = job.seed,
                              .threads = job.threads,
-                             .curves = drawn},
+                             .curves = drawn,
+                             .keep_outliers = job.keep_defects},
                     .gait = std::move(*gait)};
   if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
   bool all_of_walking = false, all_of_plates = false, all_of_emg = false;

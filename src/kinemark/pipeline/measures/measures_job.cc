@@ -22,6 +22,7 @@
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/pipeline/measures/noise_table.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -222,6 +223,7 @@ nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {
   out["measures"] = measures_json(outcome.measures);
   if (outcome.gait) out["gait"] = gait_json(*outcome.gait);
   if (!outcome.rhythms.empty()) out["rhythms"] = rhythms_json(outcome.rhythms);
+  if (!outcome.noises.empty()) out["noise"] = noises_json(outcome.noises);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());
   out["warnings"] = outcome.warnings;

@@ -19,6 +19,7 @@
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/measures/recording_name.h"
+#include "kinemark/stages/analysis/path/path_noise.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
@@ -49,6 +50,7 @@ struct MeasuresOutcome : JobOutcome {
   std::optional<analysis::EmgMeasures> emg;  ///< electromyograms, likewise
   std::vector<analysis::PathRhythm>
       rhythms;  ///< what repeats in the paths, where events or cycles of them are asked for
+  std::vector<analysis::PathNoise> noises;  ///< of the markers whose paths are measured
 };
 
 /// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
@@ -65,8 +67,8 @@ struct MeasuresOutcome : JobOutcome {
 [[nodiscard]] Status check_measures_output(const std::filesystem::path& output);
 
 /// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "rhythms"
-/// (rhythms_json(), where movements of markers are looked at), "written",
-/// "warnings".
+/// (rhythms_json(), where movements of markers are looked at), "noise" (noises_json(), of markers),
+/// "written", "warnings".
 [[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/version.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
@@ -102,6 +103,8 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   run.inputs = inputs.files;
   run.options = edit_options(inputs.edits);
   run.warnings = inputs.trial.warnings;
+  if (auto note = data::note_on_noise(inputs.trial.markers); !note.empty())
+    run.warnings.push_back(std::move(note));
   run.warnings.insert(run.warnings.end(), inputs.edits.notes.begin(), inputs.edits.notes.end());
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)

@@ -12,6 +12,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/file_hash.h"
@@ -20,6 +21,7 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/skeleton_file.h"
+#include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/pipeline/scale/scale_page.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
@@ -120,6 +122,36 @@ class ScaleRun {
     return {};
   }
 
+  /// Static trials against the model as it is, before anything moves.
+  Status judge_static_trials() {
+    std::vector<fs::path> files;
+    if (!job_.static_trial.empty()) files.push_back(job_.static_trial);
+    if (setup_ && job_.static_trial.empty()) {
+      if (setup_->recipe.measures()) files.push_back(setup_->scale_marker_file);
+      if (setup_->place && (files.empty() || setup_->place_marker_file != files.front()))
+        files.push_back(setup_->place_marker_file);
+    }
+    std::erase_if(files, [](const fs::path& file) { return file.empty(); });
+    if (files.empty()) return {};
+    const auto body = motion::body_of_model(out_.model);
+    if (!body) return fail_at(job_.model.string(), body.error());
+    std::vector<const data::Trajectories*> movements;
+    data::Trajectories motion;
+    if (!job_.markers.empty()) {
+      if (auto s = read_markers(job_.markers, motion); !s) return s;
+      movements.push_back(&motion);
+    }
+    for (const auto& file : files) {
+      data::Trajectories still;
+      if (auto s = read_markers(file, still); !s) return s;
+      const std::string name = file.filename().string();
+      auto judgement = judge_static_trial(name, *body, still, movements, out_);
+      if (!judgement) return std::unexpected(judgement.error());
+      out_.static_trials.push_back({.file = name, .judgement = std::move(*judgement)});
+    }
+    return {};
+  }
+
   Status scale_by_setup() {
     if (!setup_) return {};
     data::ScaleRecipe recipe = setup_->recipe;
@@ -155,6 +187,7 @@ class ScaleRun {
     options.ik.first_time_s = -1e300;
     options.ik.last_time_s = 1e300;
     options.max_frames = std::min<std::int64_t>(options.max_frames, 50);
+    options.soft_tissue = false;  // one posture cannot tell what follows the posture
     auto adapted = adapt(trial, job_.static_trial, options);
     if (!adapted) return fail_at(job_.static_trial.string(), adapted.error());
     out_.from_static = std::move(*adapted);
@@ -291,7 +324,17 @@ class ScaleRun {
     if (!model) return fail_at(job_.model.string(), model.error());
     const auto axes = bring_into_axes(job_.axes, path, input->trial, *model);
     if (!axes) return std::unexpected(axes.error());
+    if (const auto note = data::note_on_noise(input->trial.markers); !note.empty())
+      out_.warnings.push_back(fmt::format("{}: {}", path.string(), note));
     if (!axes->note.empty()) out_.warnings.push_back(fmt::format("{}: {}", path.string(), axes->note));
+    out = std::move(input->trial.markers);
+    return {};
+  }
+
+  /// As the file has them: a judge turns them itself.
+  Status read_markers(const fs::path& path, data::Trajectories& out) const {
+    auto input = read_marker_input({.path = path, .rate_hz = job_.rate_hz, .rate = RateRule::where_needed});
+    if (!input) return std::unexpected(input.error());
     out = std::move(input->trial.markers);
     return {};
   }
@@ -366,9 +409,9 @@ class ScaleRun {
 Result<ScaleOutcome> run_scale(ScaleJob job) {
   ScaleRun run(std::move(job));
   for (const auto step :
-       {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::read_joints, &ScaleRun::scale_by_setup,
-        &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion, &ScaleRun::weigh,
-        &ScaleRun::scale_muscles, &ScaleRun::judge}) {
+       {&ScaleRun::read_setup, &ScaleRun::read_model, &ScaleRun::read_joints, &ScaleRun::judge_static_trials,
+        &ScaleRun::scale_by_setup, &ScaleRun::scale_by_static_trial, &ScaleRun::adapt_to_motion,
+        &ScaleRun::weigh, &ScaleRun::scale_muscles, &ScaleRun::judge}) {
     if (auto s = (run.*step)(); !s) return std::unexpected(s.error());
     if (step != &ScaleRun::read_setup) continue;
     if (auto s = run.check(); !s) return std::unexpected(s.error());

@@ -11,6 +11,7 @@
 #include "kinemark/data/muscle_path.h"
 #include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/stages/motion/foundations/judge.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/place.h"
 #include "kinemark/stages/motion/scaling/scale.h"
@@ -39,9 +40,16 @@ struct ScaleJob : JobSettings {
   double max_rms_m = 0.05;             ///< quality gate: RMS distance of measured and model markers
 };
 
-/// Gate: marker_rms.
+/// A static trial that was judged before the model was moved onto it.
+struct JudgedTrial {
+  std::string file;                       ///< its name
+  motion::FoundationJudgement judgement;  ///< markers elsewhere and exchanged pairs
+};
+
+/// Gates: static_trial (one each), marker_rms.
 struct ScaleOutcome : JobOutcome {
   data::ModelDescription model;                    ///< scaled, markers placed
+  std::vector<JudgedTrial> static_trials;          ///< as they were judged
   std::optional<motion::ScaleResult> scaled;       ///< measured or set by hand, with a setup
   std::optional<motion::PlaceResult> placed;       ///< markers put where the static trial shows them
   std::optional<motion::AdaptResult> from_static;  ///< sizes from a static trial without a setup
@@ -53,11 +61,12 @@ struct ScaleOutcome : JobOutcome {
   std::vector<std::string> lost;                   ///< what the file held and the output does not
 };
 
-/// Scale, place, adapt, weigh and write, in this order; each step only where its input is given. Without a
-/// setup the model first gets the subject's overall size from distances between markers of one segment.
-/// Joints of `joints` may leave their position in the model so far; their centres count as observations, but
-/// not where they were found in the very recording that is adapted to, which tells them once already.
-/// Progress counts steps.
+/// Judge static trials, scale, place, adapt, weigh and write, in this order; each step only where its input
+/// is given. A static trial is judged against the model as it was read, before sizes and markers move, and
+/// against the motion where there is one. Without a setup the model first gets the subject's overall size
+/// from distances between markers of one segment. Joints of `joints` may leave their position in the model so
+/// far; their centres count as observations, but not where they were found in the very recording that is
+/// adapted to, which tells them once already. Progress counts steps.
 [[nodiscard]] Result<ScaleOutcome> run_scale(ScaleJob job);
 
 }  // namespace kinemark::pipeline

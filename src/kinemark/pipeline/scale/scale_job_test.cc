@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
@@ -239,6 +240,47 @@ TEST_F(RunScale, follows_an_opensim_setup_to_its_answer) {
   double mass = 0.0;
   for (const auto& body : outcome->model.bodies) mass += body.mass;
   EXPECT_NEAR(mass, 72.6, 1e-9);
+}
+
+/// The first frame of the simulated recording as a static trial; `first` and `second` exchanged.
+void write_static(const fs::path& from, const fs::path& to, const std::string& first,
+                  const std::string& second) {
+  const auto moving = io::read_markers(from).value().markers;
+  data::Trial out;
+  out.markers = data::Trajectories::all_missing(moving.names, {.rate_hz = 100.0, .frames = 5});
+  for (std::int64_t f = 0; f < 5; ++f)
+    for (std::int64_t m = 0; m < moving.markers(); ++m) {
+      const auto& name = moving.names[static_cast<std::size_t>(m)];
+      const auto source = name == first ? moving.find(second) : name == second ? moving.find(first) : m;
+      if (!moving.present(0, source)) continue;
+      out.markers.x(f, m) = moving.x(0, source);
+      out.markers.state[out.markers.index(f, m)] = data::SampleState::measured;
+    }
+  ASSERT_TRUE(io::write_markers(to, out, false));
+}
+
+TEST_F(RunScale, a_static_trial_with_two_markers_exchanged_is_named_before_it_is_built_on) {
+  write_static(at("in/markers.c3d"), at("standing.trc"), "", "");
+  write_static(at("in/markers.c3d"), at("exchanged.trc"), "LTOE", "LHEE");
+  ScaleJob j = job("standing.osim");
+  j.markers.clear();
+  j.static_trial = at("standing.trc");
+  const auto good = run_scale(j);
+  ASSERT_TRUE(good) << good.error().message;
+  EXPECT_EQ(good->exit_status(), 0) << good->warnings.back();
+  ASSERT_EQ(good->static_trials.size(), 1U);
+  EXPECT_TRUE(good->static_trials[0].judgement.findings.empty());
+  EXPECT_EQ(good->from_static->tissue_sd_m, 0.0);  // one posture: not asked
+  j.output = at("exchanged.osim");
+  j.static_trial = at("exchanged.trc");
+  const auto bad = run_scale(j);
+  ASSERT_TRUE(bad) << bad.error().message;
+  EXPECT_EQ(bad->exit_status(), 1);
+  EXPECT_THAT(bad->warnings, Contains(HasSubstr("LHEE and LTOE are exchanged in exchanged.trc")));
+  const auto report = nlohmann::json::parse(io::read_text(at("exchanged_report.json")).value());
+  EXPECT_EQ(report["exit_status"], 1);
+  EXPECT_EQ(report["static_trials"][0]["findings"][0]["marker"], "LHEE");
+  EXPECT_TRUE(report["static"]["soft_tissue_sd_m"].is_null());
 }
 
 TEST_F(RunScale, a_poor_fit_is_written_and_said) {

@@ -3,6 +3,7 @@
 #include "kinemark/pipeline/scale/scale_json.h"
 
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/foundations/foundation_gate.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -42,7 +43,8 @@ ordered_json muscles(const std::vector<data::PathScale>& scales) {
   return list;
 }
 
-ordered_json adapted(const motion::AdaptResult& result) {
+/// @param moved  whether there was more than one posture: one cannot tell what follows it
+ordered_json adapted(const motion::AdaptResult& result, bool moved) {
   ordered_json parameters = ordered_json::array(), lengths = ordered_json::array();
   for (const auto& p : result.parameters)
     parameters.push_back({{"name", p.name},
@@ -64,7 +66,7 @@ ordered_json adapted(const motion::AdaptResult& result) {
           {"rms_before_m", result.rms_before_m},
           {"rms_after_m", result.rms_after_m},
           {"noise_sd_m", result.noise_sd_m},
-          {"soft_tissue_sd_m", result.tissue_sd_m},
+          {"soft_tissue_sd_m", moved ? ordered_json(result.tissue_sd_m) : ordered_json()},
           {"lengths", std::move(lengths)},
           {"parameters", std::move(parameters)},
           {"not_determined", result.not_determined},
@@ -91,6 +93,11 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
   report["joints"] = outcome.joints;
   report["muscles"] = muscles(outcome.muscles);
   report["lost"] = outcome.lost;
+  if (!outcome.static_trials.empty()) {
+    report["static_trials"] = ordered_json::array();
+    for (const auto& trial : outcome.static_trials)
+      report["static_trials"].push_back(foundation_json(trial.file, trial.judgement));
+  }
   if (outcome.scaled) report["measurements"] = measurements(*outcome.scaled);
   if (outcome.placed) {
     ordered_json placed = ordered_json::array();
@@ -105,8 +112,8 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
                         {"not_in_static_trial", outcome.placed->unseen},
                         {"markers", std::move(placed)}};
   }
-  if (outcome.from_static) report["static"] = adapted(*outcome.from_static);
-  if (outcome.from_motion) report["motion"] = adapted(*outcome.from_motion);
+  if (outcome.from_static) report["static"] = adapted(*outcome.from_static, false);
+  if (outcome.from_motion) report["motion"] = adapted(*outcome.from_motion, true);
   return report;
 }
 

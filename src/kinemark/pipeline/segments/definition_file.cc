@@ -128,11 +128,27 @@ Result<Definition::Parameter> read_parameter(io::TomlFields& fields) {
   std::string where_measured = "static";
   fields.text("name", out.name, Need::required)
       .texts("also", out.also)
-      .flag("zero_is_unknown", out.zero_is_unknown);
+      .flag("zero_is_unknown", out.zero_is_unknown)
+      .flag("entered_first", out.entered_first)
+      .numbers("choices", out.choices)
+      .texts("chosen_by", out.chosen_by);
   take_quantity(fields, out.quantity);
-  for (const auto& [key, formula] :
-       {std::pair{"measured", &out.measured}, {"formula", &out.formula}, {"sd", &out.formula_sd}})
+  for (const auto& [key, formula] : {std::pair{"measured", &out.measured},
+                                     {"formula", &out.formula},
+                                     {"sd", &out.formula_sd},
+                                     {"assumed_sd", &out.assumed_sd},
+                                     {"zero_sd", &out.zero_sd}})
     if (auto s = take_formula(fields, key, *formula); !s) return std::unexpected(s.error());
+  std::vector<std::string> shown;
+  std::string where_shown = "moving";
+  fields.texts("shown", shown).text("shown_in", where_shown);
+  if (where_shown != "moving" && where_shown != "any") fields.refuse("shown_in", "\"moving\" or \"any\"");
+  out.shown_anywhere = where_shown == "any";
+  for (const auto& text : shown) {
+    auto made = formula_of(text, fields.where(), "shown");
+    if (!made) return std::unexpected(made.error());
+    out.shown.push_back(std::move(*made));
+  }
   fields.text("measured_in", where_measured);
   if (where_measured != "static" && where_measured != "any" && where_measured != "recording")
     fields.refuse("measured_in", "\"static\", \"any\" or \"recording\"");
@@ -143,7 +159,8 @@ Result<Definition::Parameter> read_parameter(io::TomlFields& fields) {
 
 Result<Definition::Point> read_point(io::TomlFields& fields) {
   Definition::Point out;
-  fields.text("name", out.name, Need::required).flag("written", out.written);
+  fields.text("name", out.name, Need::required).flag("written", out.written).texts("also", out.also);
+  fields.flag("regression", out.regression);
   if (auto s = take_trial(fields, out.trial); !s) return std::unexpected(s.error());
   if (auto s = take_formula(fields, "formula", out.formula); !s) return std::unexpected(s.error());
   return out;
@@ -355,6 +372,13 @@ Result<Definition> parse_definition(std::string_view text, const std::string& na
       out.title = node.value_or(std::string());
       continue;
     }
+    if (kind == "angular_span") {
+      const auto span = node.value<std::int64_t>();
+      if (!span || *span < 0 || *span > 2)
+        return fail(Code::bad_input, name + ": angular_span: expected 0, 1 or 2 frames");
+      out.angular_span = *span;
+      continue;
+    }
     if (kind == "progression" && node.is_table()) {
       if (auto s = read_progression(*node.as_table(), name, out); !s) return std::unexpected(s.error());
       continue;
@@ -362,12 +386,11 @@ Result<Definition> parse_definition(std::string_view text, const std::string& na
     const bool known = kind == "parameter" || kind == "point" || kind == "landmark" || kind == "segment" ||
                        kind == "angle" || kind == "value" || kind == "body" || kind == "joint";
     if (!known || !node.is_array())
-      return fail(
-          Code::bad_input,
-          fmt::format(
-              "{}: '{}' is not read; there are title, sides, [progression], [[parameter]], [[point]], "
-              "[[landmark]], [[segment]], [[angle]], [[value]], [[body]] and [[joint]]",
-              name, kind));
+      return fail(Code::bad_input,
+                  fmt::format("{}: '{}' is not read; there are title, sides, angular_span, [progression], "
+                              "[[parameter]], [[point]], "
+                              "[[landmark]], [[segment]], [[angle]], [[value]], [[body]] and [[joint]]",
+                              name, kind));
     if (auto s = take_entries(kind, *node.as_array(), name, *sides, out); !s)
       return std::unexpected(s.error());
   }

@@ -118,6 +118,46 @@ TEST(DefinitionFile, NamesThePlaceOfWhatIsWrong) {
   EXPECT_THAT(trouble("title = \"nothing\""), HasSubstr("nothing to compute"));
 }
 
+TEST(DefinitionFile, ReadsWhatIsAssumedAndHowOutputsShowIt) {
+  const std::string parameter = R"toml(
+angular_span = 2
+[[parameter]]
+name = "Turn"
+quantity = "angle"
+formula = "0"
+entered_first = true
+assumed_sd = "0.2"
+zero_sd = "0.1"
+shown = ["x(A)", "y(A)"]
+shown_in = "any"
+choices = [1.0, 0.0]
+chosen_by = ["Other"]
+[[point]]
+name = "Place"
+formula = "A"
+also = ["APO"]
+regression = true
+written = true
+)toml";
+  const auto read = parse_definition(parameter, "d.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto& p = read->parameters.front();
+  EXPECT_TRUE(p.entered_first && p.assumed_sd && p.zero_sd && p.shown_anywhere);
+  EXPECT_EQ(p.shown.size(), 2U);
+  EXPECT_EQ(p.choices.size(), 2U);
+  EXPECT_EQ(p.chosen_by.front(), "Other");
+  EXPECT_EQ(read->angular_span, 2);
+  EXPECT_EQ(read->points.front().also.front(), "APO");
+  EXPECT_TRUE(read->points.front().regression);
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = parameter;
+    return text.replace(text.find(what), what.size(), by);
+  };
+  EXPECT_THAT(trouble(with("angular_span = 2", "angular_span = 3")), HasSubstr("expected 0, 1 or 2 frames"));
+  EXPECT_THAT(trouble(with("\"any\"", "\"static\"")), HasSubstr("\"moving\" or \"any\""));
+  EXPECT_THAT(trouble(with("\"y(A)\"", "\"y(A\"")), HasSubstr("parameter 'Turn': shown: column"));
+}
+
 TEST(DefinitionFile, AxesThatASequenceHasTwiceAreNamedByTheirOrder) {
   EXPECT_THAT(trouble(changed("sequence = \"yxz\"", "sequence = \"yxy\"")), HasSubstr("1, 2, 3"));
   const auto euler =

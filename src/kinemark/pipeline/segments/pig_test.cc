@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/pipeline/segments/testing/offset_leg.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
 namespace kinemark::pipeline {
@@ -101,7 +103,7 @@ TEST(ConventionalGaitModel, HasItsHipByTheRegression) {
 TEST(ConventionalGaitModel, FindsTheKneesAxisWithAnAlignmentDevice) {
   const auto still = leg({0.0, 0.0}, true), walk = leg(kFlexion, false);
   const auto motion = computed(walk, &still);
-  EXPECT_NEAR(parameter(motion, "LThighRotation"), -kWand, 1e-9);
+  EXPECT_NEAR(parameter(motion, "LThighRotation"), kWand, 1e-9) << "the wand is behind the axis";
   const auto& knee = angle(motion, "LKneeAngles");
   for (std::size_t f = 0; f < kFlexion.size(); ++f) {
     EXPECT_NEAR(knee.value[3 * f], kFlexion[f], 1e-9);
@@ -126,6 +128,108 @@ TEST(ConventionalGaitModel, HasAFlatFootInTheStaticTrial) {
   EXPECT_NEAR(angle(standing, "LAnkleAngles").value[0], 0.0, 1e-9) << "foot and shank are perpendicular";
   EXPECT_TRUE(std::isnan(parameter(computed(walk, nullptr), "LStaticPlantFlex")));
   EXPECT_TRUE(std::isfinite(parameter(moving, "LStaticPlantFlex")));
+}
+
+// What was used for a parameter.
+const analysis::UsedParameter& used(const analysis::SegmentMotion& motion, const std::string& name) {
+  for (const auto& one : motion.parameters)
+    if (one.name == name) return one;
+  ADD_FAILURE() << name;
+  return motion.parameters.front();
+}
+
+analysis::SegmentMotion computed_of(const OffsetLeg& leg, const data::Trajectories& markers,
+                                    const std::vector<std::string>& withheld) {
+  analysis::SegmentInput input{.markers = &markers};
+  for (const auto& value : leg.values())
+    if (std::ranges::find(withheld, value.name) == withheld.end()) input.known.push_back(value);
+  auto motion = analysis::compute_segments(*find_definition("pig"), input, {.noise_sd_m = 1e-6});
+  EXPECT_TRUE(motion) << motion.error().message;
+  return std::move(*motion);
+}
+
+class OffsetLegs : public ::testing::TestWithParam<double> {};
+
+TEST_P(OffsetLegs, HaveTheAnglesAndCentresThatTheyWereBuiltWith) {
+  const OffsetLeg leg{.side = GetParam()};
+  const auto trial = leg.trial(20, false);
+  const auto motion = computed_of(leg, trial.markers, {});
+  const auto& knee = angle(motion, leg.letter() + "KneeAngles");
+  for (std::int64_t f = 0; f < 20; ++f) {
+    const auto i = static_cast<std::size_t>(3 * f);
+    EXPECT_NEAR(knee.value[i], OffsetLeg::flexion(f), 1e-9);
+    EXPECT_NEAR(knee.value[i + 1], 0.0, 1e-9);
+    EXPECT_NEAR(knee.value[i + 2], 0.0, 1e-9);
+    const auto points = leg.points(f);
+    for (const auto& [ours, theirs] : {std::pair{"KJC", "FEO"}, {"AJC", "TIO"}, {"HJC", "FEP"}})
+      EXPECT_LT(
+          (motion.points.x(f, motion.points.find(leg.letter() + ours)) - points.at(leg.letter() + theirs))
+              .norm(),
+          1e-9)
+          << ours;
+  }
+  EXPECT_TRUE(used(motion, "MarkerDiameter").assumed);
+  EXPECT_NEAR(used(motion, "MarkerDiameter").sd, 0.002, 1e-12);
+}
+
+TEST_P(OffsetLegs, HoldTheTruthInTheirDeviationsWhereMeasuresAreWithheld) {
+  for (const double diameter : {0.0105, 0.0175}) {
+    const OffsetLeg leg{.side = GetParam(), .diameter = diameter};
+    const auto trial = leg.trial(20, false);
+    const std::string s = leg.letter();
+    const auto motion =
+        computed_of(leg, trial.markers,
+                    {s + "ThighRotation", s + "ShankRotation", s + "TibialTorsion", s + "AnkleAbAdd"});
+    const auto& knee = angle(motion, s + "KneeAngles");
+    for (std::size_t i = 0; i < knee.value.size(); ++i) {
+      const double truth = i % 3 == 0 ? OffsetLeg::flexion(static_cast<std::int64_t>(i / 3)) : 0.0;
+      EXPECT_LT(std::abs(knee.value[i] - truth), 1.96 * knee.sd[i]) << i;
+      EXPECT_NEAR(knee.constant_sd[i], knee.sd[i], 1e-3 * knee.sd[i]) << "it is the same in all frames";
+    }
+    EXPECT_TRUE(used(motion, s + "ThighRotation").assumed);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothSides, OffsetLegs, ::testing::Values(1.0, -1.0));
+
+TEST(ConventionalGaitModel, TakesWhatTheFilesOwnOutputsWereMadeWith) {
+  const OffsetLeg leg{.diameter = 0.0182};
+  const auto trial = leg.trial(20, true);
+  const auto motion = computed_of(leg, trial.markers, {"LThighRotation", "LAnkleAbAdd"});
+  EXPECT_NEAR(used(motion, "MarkerDiameter").value, 0.0182, 1e-9);
+  EXPECT_EQ(used(motion, "MarkerDiameter").from, "the file's own model outputs");
+  EXPECT_NEAR(used(motion, "MarkerDiameter").sd, 0.002, 1e-12) << "nobody measured it";
+  EXPECT_NEAR(used(motion, "LThighRotation").value, leg.thigh, 1e-9);
+  EXPECT_NEAR(used(motion, "LAnkleAbAdd").value, leg.abduction, 1e-9);
+  EXPECT_FALSE(used(motion, "LShankRotation").assumed) << "a file has it";
+}
+
+TEST(ConventionalGaitModel, DoubtsAnOffsetOfZero) {
+  OffsetLeg leg{.thigh = 0.0};
+  const auto trial = leg.trial(20, false);
+  const auto doubted = used(computed_of(leg, trial.markers, {}), "LThighRotation");
+  EXPECT_TRUE(doubted.assumed);
+  EXPECT_NEAR(doubted.sd, 5.0 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_NE(doubted.from.find("may stand for 'not measured'"), std::string::npos);
+  leg.thigh = 0.01;
+  EXPECT_FALSE(used(computed_of(leg, trial.markers, {}), "LThighRotation").assumed);
+}
+
+TEST(ConventionalGaitModel, TakesEnteredAnthropometryBeforeTheStaticTrials) {
+  const OffsetLeg leg;
+  const auto trial = leg.trial(20, false);
+  analysis::SegmentInput input{
+      .markers = &trial.markers, .static_trial = &trial.markers, .known = leg.values()};
+  for (auto& value : input.known)
+    if (value.name == "InterAsisDistance") value.value = 0.25;
+  const auto entered = analysis::compute_segments(*find_definition("pig"), input);
+  ASSERT_TRUE(entered);
+  EXPECT_EQ(used(*entered, "InterAsisDistance").value, 0.25);
+  for (auto& value : input.known)
+    if (value.name == "InterAsisDistance") value.value = 0.0;
+  const auto measured = analysis::compute_segments(*find_definition("pig"), input);
+  ASSERT_TRUE(measured);
+  EXPECT_NEAR(used(*measured, "InterAsisDistance").value, leg.asis, 1e-9) << "0 is not measured";
 }
 
 }  // namespace

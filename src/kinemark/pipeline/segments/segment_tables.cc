@@ -65,6 +65,24 @@ data::ChannelKind kind_of(const SegmentSeries& series) {
   return data::ChannelKind::scalar;
 }
 
+// Of each component over the frames that have one; null without any.
+nlohmann::ordered_json root_mean_squares(const SegmentSeries& series, const Array<double>& values) {
+  auto out = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    double squares = 0.0;
+    std::int64_t seen = 0;
+    for (std::size_t i = k; i < values.size(); i += series.size())
+      if (std::isfinite(values[i])) {
+        squares += values[i] * values[i];
+        ++seen;
+      }
+    out.push_back(
+        seen > 0 ? nlohmann::ordered_json(std::sqrt(squares / static_cast<double>(seen)) * per_si(series))
+                 : nlohmann::ordered_json(nullptr));
+  }
+  return out;
+}
+
 }  // namespace
 
 SeriesList series_of(const SegmentMotion& motion) {
@@ -208,7 +226,8 @@ nlohmann::ordered_json parameters_json(const SegmentMotion& motion) {
                    {"unit", shown_unit(p.quantity)},
                    {"sd", p.sd > 0.0 ? nlohmann::ordered_json(p.sd / per_shown(p.quantity))
                                      : nlohmann::ordered_json(nullptr)},
-                   {"from", p.from}});
+                   {"from", p.from},
+                   {"assumed", p.assumed}});
   return out;
 }
 
@@ -221,19 +240,9 @@ nlohmann::ordered_json series_json(const SeriesList& list) {
     for (const auto state :
          {data::SampleState::measured, data::SampleState::interpolated, data::SampleState::missing})
       one[std::string(data::to_string(state))] = std::ranges::count(series.state, state);
-    one["sd"] = nlohmann::ordered_json::array();
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      double squares = 0.0;
-      std::int64_t seen = 0;
-      for (std::size_t i = k; i < series.sd.size(); i += series.size())
-        if (std::isfinite(series.sd[i])) {
-          squares += series.sd[i] * series.sd[i];
-          ++seen;
-        }
-      one["sd"].push_back(
-          seen > 0 ? nlohmann::ordered_json(std::sqrt(squares / static_cast<double>(seen)) * per_si(series))
-                   : nlohmann::ordered_json(nullptr));
-    }
+    one["sd"] = root_mean_squares(series, series.sd);
+    // Loads have none.
+    if (!series.constant_sd.empty()) one["constant_sd"] = root_mean_squares(series, series.constant_sd);
     out.push_back(std::move(one));
   }
   return out;

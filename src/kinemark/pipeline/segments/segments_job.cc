@@ -3,25 +3,31 @@
 #include "kinemark/pipeline/segments/segments_job.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
-#include "kinemark/io/vsk/vsk.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/pipeline/segments/modelled_points.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/subject_values.h"
 
@@ -30,12 +36,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All that is read.
+/// All that is read. Formulas see the markers with modelled points where some stand in for markers.
 struct Files {
   data::Trial recording;
   std::unique_ptr<data::Trial> static_trial;  // null: none, or the recording
   bool static_is_recording = false;
   std::map<std::string, std::unique_ptr<data::Trial>> trials;
+  std::map<const data::Trial*, std::unique_ptr<MarkersAndModelled>> modelled;
+
+  [[nodiscard]] const data::Trajectories* markers_of(const data::Trial& trial) const {
+    const auto at = modelled.find(&trial);
+    return at == modelled.end() ? &trial.markers : &at->second->markers;
+  }
 };
 
 Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, SegmentsOutcome& outcome) {
@@ -86,6 +98,52 @@ Result<Files> read_files(const SegmentsJob& job, SegmentsOutcome& outcome) {
   return out;
 }
 
+// Modelled points under names that the definition has for markers of which there are no samples.
+void take_modelled_points(const data::Trial& trial, const std::string& file,
+                          const std::set<std::string>& wanted, Files& files,
+                          std::vector<std::string>& warnings) {
+  auto found = with_modelled_points(trial, wanted);
+  if (!found) return;
+  warnings.push_back(fmt::format("{}: not measured, taken as a model of the file has them: {}", file,
+                                 fmt::join(found->points, ", ")));
+  files.modelled[&trial] = std::make_unique<MarkersAndModelled>(std::move(*found));
+}
+
+// Modelled points of all trials, and names of outputs in them.
+void join_points(const SegmentsJob& job, const analysis::SegmentDefinition& definition, Files& files,
+                 analysis::SegmentInput& input, std::vector<std::string>& warnings) {
+  const auto wanted = names_of_points(definition);
+  const auto take = [&](const data::Trial& trial, const fs::path& path) {
+    take_modelled_points(trial, path.filename().string(), wanted, files, warnings);
+    for (auto& [name, theirs] : suffixed_names(trial.markers.names, wanted))
+      input.aliases.try_emplace(name, theirs);
+    return files.markers_of(trial);
+  };
+  input.markers = take(files.recording, job.input);
+  if (files.static_is_recording) input.static_trial = input.markers;
+  if (files.static_trial) input.static_trial = take(*files.static_trial, job.static_trial);
+  for (const auto& [name, trial] : files.trials) input.trials[name] = take(*trial, name);
+}
+
+// Laboratories whose marker set has a knee alignment device or medial markers measure the wands' offsets.
+bool measures_offsets(const data::Trial& trial) {
+  for (const auto& group : trial.foreign) {
+    if (group.name != "SUBJECTS") continue;
+    for (const auto& parameter : group.parameters) {
+      if (!parameter.name.starts_with("MARKER_SET")) continue;
+      std::string text;
+      for (const auto byte : parameter.values)
+        text += static_cast<char>(std::toupper(static_cast<unsigned char>(byte)));
+      if (text.find("KAD") != std::string::npos || text.find("MED") != std::string::npos) return true;
+    }
+  }
+  return std::ranges::any_of(trial.markers.names, [](const std::string& name) {
+    const auto plain = data::without_prefix(name);
+    return plain.size() >= 4 && (plain.substr(1) == "KAX" || plain.substr(1) == "MED" ||
+                                 plain.substr(1) == "KNEMED" || plain.substr(1) == "KD1");
+  });
+}
+
 Result<Eigen::Vector3d> up_of(const SegmentsJob& job, const data::Trial& trial) {
   if (job.up.empty()) {
     if (const auto plates = vertical_of_plates(trial)) return plates->up;
@@ -105,16 +163,51 @@ Status find_values(const SegmentsJob& job, const analysis::SegmentDefinition& de
     if (!value) return std::unexpected(value.error());
     input.given.push_back(std::move(*value));
   }
+  const auto take = [&](std::vector<analysis::SubjectValue> values) {
+    mend_units(values, definition, outcome.warnings);
+    std::ranges::move(values, std::back_inserter(input.known));
+  };
   if (!job.vsk.empty()) {
-    const auto vsk = io::read_vsk(job.vsk);
-    if (!vsk) return std::unexpected(vsk.error());
+    auto values = read_subject_file(job.vsk, definition);
+    if (!values) return std::unexpected(values.error());
     outcome.inputs.push_back({.role = "subject", .path = job.vsk.string()});
-    input.known = subject_values(*vsk, job.vsk.filename().string());
+    take(std::move(*values));
   }
-  std::ranges::move(subject_values(files.recording, definition), std::back_inserter(input.known));
-  if (files.static_trial)
-    std::ranges::move(subject_values(*files.static_trial, definition), std::back_inserter(input.known));
+  take(subject_values(files.recording, definition));
+  input.zeros_doubtful = measures_offsets(files.recording);
+  if (files.static_trial) {
+    take(subject_values(*files.static_trial, definition));
+    input.zeros_doubtful = input.zeros_doubtful || measures_offsets(*files.static_trial);
+  }
   return {};
+}
+
+// What a reader of a static trial's angles must know: they jump against those of walks.
+void note_static_angles(const Files& files, SegmentsOutcome& outcome) {
+  if (!files.static_is_recording) return;
+  constexpr double kSeen_rad = 0.1 * std::numbers::pi / 180.0;
+  std::vector<std::string> turns;
+  for (const auto& p : outcome.motion.parameters)
+    if (p.name.ends_with("TibialTorsion") && std::abs(p.value) > kSeen_rad)
+      turns.push_back(fmt::format("{} {:.1f} deg", p.name, p.value * 180.0 / std::numbers::pi));
+  if (!turns.empty())
+    outcome.warnings.push_back(
+        fmt::format("Knee rotation of a static trial contains the tibia's torsion, that of a walk does not: "
+                    "beside a walk "
+                    "it jumps by {}.",
+                    fmt::join(turns, ", ")));
+}
+
+// What nobody stated of the static trial.
+void note_choices(const analysis::SegmentDefinition& definition, SegmentsOutcome& outcome) {
+  for (const auto& used : outcome.motion.parameters) {
+    const auto p =
+        std::ranges::find(definition.parameters, used.name, &analysis::SegmentDefinition::Parameter::name);
+    if (!used.assumed || p == definition.parameters.end() || p->choices.empty()) continue;
+    outcome.warnings.push_back(fmt::format(
+        "{} is assumed to be {:g}: no file tells; --subject {}={:g} is the other.", used.name, used.value,
+        used.name, p->choices.front() == used.value ? p->choices.back() : p->choices.front()));
+  }
 }
 
 void find_cross_talk(const analysis::SegmentDefinition& definition, SegmentsOutcome& outcome) {
@@ -177,6 +270,19 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
   return {};
 }
 
+/// The static trial by the names of its markers, and against the recording, before anything is built on it.
+Status judge_static(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
+  if (job.static_trial.empty()) return {};
+  const auto& still = files.static_trial ? files.static_trial->markers : files.recording.markers;
+  std::vector<const data::Trajectories*> movements;
+  if (files.static_trial) movements.push_back(&files.recording.markers);
+  auto judgement = judge_static_trial(job.static_trial.filename().string(),
+                                      motion::body_of_names(still.names), still, movements, outcome);
+  if (!judgement) return std::unexpected(judgement.error());
+  outcome.static_trial = std::move(*judgement);
+  return {};
+}
+
 GaitDrawingJob drawing_of(const SegmentsJob& job) {
   GaitDrawingJob out;
   static_cast<JobSettings&>(out) = job;
@@ -229,22 +335,27 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   }
   SegmentsOutcome outcome;
   outcome.title = definition->title.empty() ? job.definition : definition->title;
-  const auto files = read_files(job, outcome);
+  auto files = read_files(job, outcome);
   if (!files) return std::unexpected(files.error());
+  if (auto s = judge_static(job, *files, outcome); !s) return std::unexpected(s.error());
   const auto up = up_of(job, files->recording);
   if (!up) return std::unexpected(up.error());
-  analysis::SegmentInput input{.markers = &files->recording.markers};
-  if (files->static_is_recording) input.static_trial = input.markers;
-  if (files->static_trial) input.static_trial = &files->static_trial->markers;
-  for (const auto& [name, trial] : files->trials) input.trials[name] = &trial->markers;
+  analysis::SegmentInput input;
+  join_points(job, *definition, *files, input, outcome.warnings);
   if (auto s = find_values(job, *definition, *files, input, outcome); !s) return std::unexpected(s.error());
   const analysis::SegmentOptions options{.noise_sd_m = job.noise_sd_m, .up = *up, .threads = job.threads};
   auto motion = analysis::compute_segments(*definition, input, options);
   if (!motion) return fail_at(job.input.string(), motion.error());
   outcome.motion = std::move(*motion);
+  auto comparison = compare_outputs(*definition, input, options, outcome.motion, files->recording);
+  if (!comparison) return fail_at(job.input.string(), comparison.error());
+  outcome.comparison = std::move(*comparison);
   if (auto s = find_loads(job, *definition, files->recording, input, options, outcome); !s)
     return std::unexpected(s.error());
   std::ranges::copy(outcome.motion.warnings, std::back_inserter(outcome.warnings));
+  std::ranges::move(outcome.comparison.findings(), std::back_inserter(outcome.warnings));
+  note_static_angles(*files, outcome);
+  if (input.static_trial != nullptr) note_choices(*definition, outcome);
   find_cross_talk(*definition, outcome);
   if (!job.output.empty())
     if (auto s = write_all(job, *files, outcome); !s) return std::unexpected(s.error());
@@ -252,6 +363,16 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
     if (auto s = draw_walking(job, files->recording, *drawing, outcome); !s)
       return fail_at(job.input.string(), s.error());
   return outcome;
+}
+
+std::string assumed_measures(const analysis::SegmentMotion& motion) {
+  std::vector<std::string> list;
+  for (const auto& p : motion.parameters)
+    if (p.assumed && p.sd > 0.0)
+      list.push_back(fmt::format("{} {:.4g} {} (SD {:.2g}{})", p.name, p.value / per_shown(p.quantity),
+                                 shown_unit(p.quantity), p.sd / per_shown(p.quantity),
+                                 p.from.ends_with("outputs") ? "; by " + p.from : ""));
+  return fmt::format("{}", fmt::join(list, ", "));
 }
 
 nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
@@ -267,6 +388,7 @@ nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
     out["inputs"].push_back(std::move(one));
   }
   out["parameters"] = parameters_json(outcome.motion);
+  if (!outcome.comparison.empty()) out["comparison"] = comparison_json(outcome.comparison);
   out["angles"] = series_json(series_of(outcome.motion));
   out["loads"] = series_json(series_of(outcome.loads));
   out["steps"] = nlohmann::ordered_json::array();
@@ -282,6 +404,7 @@ nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
                                  {"flexion_deg", found.flexion_rad / kDegree},
                                  {"suspicious", found.suspicious()},
                                  {"sentence", found.sentence(name)}});
+  if (outcome.static_trial) out["static_trial"] = foundation_json("the static trial", *outcome.static_trial);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());
   out["warnings"] = outcome.warnings;

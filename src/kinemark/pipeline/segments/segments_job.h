@@ -16,9 +16,11 @@
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/selection.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
+#include "kinemark/pipeline/segments/output_comparison.h"
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
 #include "kinemark/stages/analysis/segments/cross_talk.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
+#include "kinemark/stages/motion/foundations/judge.h"
 
 namespace kinemark::pipeline {
 
@@ -30,8 +32,8 @@ struct SegmentsJob : JobSettings, GaitOutputs {
   std::string definition;              ///< name of a shipped one, or a .toml
   std::filesystem::path static_trial;  ///< marker file; the recording itself: it is its own static trial
   std::vector<std::string> trials;     ///< NAME=FILE, trials in which landmarks were shown
-  std::filesystem::path vsk;           ///< measures of the subject, .vsk
-  std::vector<std::string> subject;    ///< NAME=VALUE, mm, deg, kg
+  std::filesystem::path vsk;           ///< measures of the subject, .vsk or .mp
+  std::vector<std::string> subject;    ///< NAME=VALUE or NAME=VALUE+-SD, mm, deg, kg
   std::string up;                      ///< "x", "y" or "z", also "-y"; empty: found, else z
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
   bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
@@ -40,13 +42,15 @@ struct SegmentsJob : JobSettings, GaitOutputs {
   double level = 0.95;                 ///< of these intervals
 };
 
-/// Warnings: what was left out or could not be computed.
+/// Warnings: what was left out or could not be computed. Gate: static_trial.
 struct SegmentsOutcome : JobOutcome {
-  std::vector<data::InputFile> inputs;  ///< all that were read
-  std::string title;                    ///< of the definition
-  analysis::SegmentMotion motion;       ///< what it gives
-  analysis::JointLoads loads;           ///< where the definition has joints and the recording plates
+  std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
+  std::vector<data::InputFile> inputs;                      ///< all that were read
+  std::string title;                                        ///< of the definition
+  analysis::SegmentMotion motion;                           ///< what it gives
+  analysis::JointLoads loads;  ///< where the definition has joints and the recording plates
   std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
+  OutputComparison comparison;  ///< beside angles and centres that the file holds; empty: it holds none
   std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
 };
 
@@ -60,8 +64,12 @@ struct SegmentsOutcome : JobOutcome {
 /// analysis::compute_segments(); Code::io as Staging.
 [[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
 
-/// "definition", "inputs", "parameters", "angles", "loads", "steps" (on plates), "cross_talk" (a list of
-/// "name", "correlation", "varus_deg", "flexion_deg", "suspicious", "sentence"), "written", "warnings".
+/// Measures that are assumed and have a deviation, with it: "MarkerDiameter 14 mm (SD 2)". Empty: none.
+[[nodiscard]] std::string assumed_measures(const analysis::SegmentMotion& motion);
+
+/// "definition", "inputs", "parameters", "comparison" (where the file holds outputs), "angles", "loads",
+/// "steps" (on plates), "cross_talk" (a list of "name", "correlation", "varus_deg", "flexion_deg",
+/// "suspicious", "sentence"), "static_trial", "written", "warnings".
 [[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
 
 }  // namespace kinemark::pipeline

@@ -3,6 +3,7 @@
 // Measures of a subject from what people type and from files.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,9 @@ namespace kinemark::pipeline {
 /// "mm", "deg", "kg" or "".
 [[nodiscard]] std::string_view shown_unit(analysis::SubjectQuantity quantity);
 
-/// "LLegLength=920": lengths in mm, angles in deg, masses in kg. Code::usage for another form, and for a name
-/// that the definition does not have, with the nearest that it has.
+/// "LLegLength=920" or "LThighRotation=4+-2.5", with its standard deviation: lengths in mm, angles in deg,
+/// masses in kg. Code::usage for another form, and for a name that the definition does not have, with the
+/// nearest that it has.
 [[nodiscard]] Result<analysis::SubjectValue> parse_subject_value(
     const std::string& text, const analysis::SegmentDefinition& definition);
 
@@ -31,5 +33,19 @@ namespace kinemark::pipeline {
 
 /// Parameters with a value of a Vicon subject.
 [[nodiscard]] std::vector<analysis::SubjectValue> subject_values(const io::Vsk& vsk, const std::string& name);
+
+/// Lines "$NAME = VALUE" of a Vicon parameter file (.mp) that are parameters of the definition: mm, rad, kg.
+/// Code::bad_input for a text without any.
+[[nodiscard]] Result<std::vector<analysis::SubjectValue>> parse_mp(
+    std::string_view text, const std::string& name, const analysis::SegmentDefinition& definition);
+
+/// Measures of the subject in a .vsk or an .mp, by its ending.
+[[nodiscard]] Result<std::vector<analysis::SubjectValue>> read_subject_file(
+    const std::filesystem::path& path, const analysis::SegmentDefinition& definition);
+
+/// Values of one source in units that a body can have. Angles of which one is beyond 1.2 rad are degrees;
+/// lengths are scaled where a leg is not 0.2 to 1.5 m long but would be in mm, cm or m. A sentence for each.
+void mend_units(std::vector<analysis::SubjectValue>& values, const analysis::SegmentDefinition& definition,
+                std::vector<std::string>& warnings);
 
 }  // namespace kinemark::pipeline

@@ -39,8 +39,19 @@ TEST(SubjectValues, AreTypedInTheUnitsOfTheField) {
   EXPECT_DOUBLE_EQ(parse_subject_value("Bodymass=74.5", measures())->value, 74.5);
 }
 
+TEST(SubjectValues, CarryTheirDeviation) {
+  const auto turn = parse_subject_value("LThighRotation=-4+-2.5", measures());
+  ASSERT_TRUE(turn);
+  EXPECT_NEAR(turn->value, -4.0 * std::numbers::pi / 180.0, 1e-12);
+  ASSERT_TRUE(turn->sd);
+  EXPECT_NEAR(*turn->sd, 2.5 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_FALSE(parse_subject_value("LThighRotation=-4", measures())->sd);
+  EXPECT_EQ(*parse_subject_value("LLegLength=920+-0", measures())->sd, 0.0);
+}
+
 TEST(SubjectValues, OfAnotherFormAreRefused) {
-  for (const char* text : {"LLegLength", "=3", "LLegLength=", "LLegLength=long", "LLegLength=nan"})
+  for (const char* text : {"LLegLength", "=3", "LLegLength=", "LLegLength=long", "LLegLength=nan",
+                           "LLegLength=920+-", "LLegLength=920+--3", "LLegLength=920+-x", "LLegLength=+-3"})
     EXPECT_THAT(parse_subject_value(text, measures()).error().message, HasSubstr("is not NAME=VALUE"))
         << text;
   const auto unknown = parse_subject_value("LLegLenght=920", measures());
@@ -75,6 +86,45 @@ TEST(SubjectValues, AreReadFromAVsk) {
   ASSERT_EQ(values.size(), 1U);
   EXPECT_EQ(values[0].name, "LeftLegLength");
   EXPECT_EQ(values[0].from, "Ann.vsk");
+}
+
+TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
+  data::Trial trial;
+  trial.units_in_file = "mm";
+  data::ForeignParameter leg{.name = "LLegLength", .type = 2, .dims = {1}};
+  leg.values = {std::byte{0x98}, std::byte{0x03}};  // 920
+  trial.foreign = {{.name = "PROCESSING", .parameters = {leg}}};
+  const auto values = subject_values(trial, measures());
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_NEAR(values[0].value, 0.92, 1e-12);
+}
+
+TEST(SubjectValues, AreReadFromAParameterFile) {
+  const auto values =
+      parse_mp("!MKR\n$LLegLength = 920\r\n$LThighRotation=0.1\n$Other = 3\n", "Ann.mp", measures());
+  ASSERT_TRUE(values);
+  ASSERT_EQ(values->size(), 2U);
+  EXPECT_NEAR((*values)[0].value, 0.92, 1e-12);
+  EXPECT_EQ((*values)[1].value, 0.1);
+  EXPECT_EQ((*values)[1].from, "Ann.mp");
+  EXPECT_THAT(parse_mp("no parameters", "Ann.mp", measures()).error().message,
+              HasSubstr("Ann.mp: no line '$NAME = VALUE'"));
+}
+
+TEST(SubjectValues, AreMendedWhereNoBodyHasThem) {
+  const auto mended = [](double leg, double turn, std::size_t notes) {
+    std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"},
+                                               {"LThighRotation", turn, "a.c3d"}};
+    std::vector<std::string> warnings;
+    mend_units(values, measures(), warnings);
+    EXPECT_EQ(warnings.size(), notes);
+    return std::pair(values[0].value, values[1].value);
+  };
+  EXPECT_EQ(mended(0.92, 0.48, 0), std::pair(0.92, 0.48)) << "nothing is wrong";
+  EXPECT_NEAR(mended(920.0, 0.1, 1).first, 0.92, 1e-12) << "mm in a file in m";
+  EXPECT_NEAR(mended(0.00092, 0.1, 1).first, 0.92, 1e-12) << "m in a file in mm";
+  EXPECT_NEAR(mended(0.92, 12.0, 1).second, 12.0 * std::numbers::pi / 180.0, 1e-12) << "degrees";
+  EXPECT_EQ(mended(0.0, 0.0, 0).first, 0.0);
 }
 
 }  // namespace

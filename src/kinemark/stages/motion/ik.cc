@@ -17,6 +17,7 @@
 #include "kinemark/stages/motion/internal/judged_frames.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
 #include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/internal/rival_poses.h"
 #include "kinemark/stages/motion/internal/sample_findings.h"
 #include "kinemark/stages/motion/internal/start.h"
 
@@ -77,6 +78,18 @@ void note_limits(const Problem& problem, IkResult& result) {
   }
 }
 
+/// As given, or estimated from the residuals.
+MarkerVariances find_variances(const Problem& problem, const IkOptions& options,
+                               const data::Trajectories& markers, const Eigen::MatrixXd& states) {
+  if (!(options.marker_noise_sd_m > 0.0))
+    return estimate_variances(problem, markers, states, options.threads);
+  MarkerVariances variances;
+  variances.own.setConstant(problem.model.marker_count(),
+                            options.marker_noise_sd_m * options.marker_noise_sd_m);
+  variances.common.setZero(static_cast<Eigen::Index>(problem.model.bodies().size()));
+  return variances;
+}
+
 void flag_underdetermined(data::JointMotion& motion) {
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     const auto* row = motion.determined.data() + motion.index(f, 0);
@@ -109,6 +122,17 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   auto& solved = judged->solved;
   const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
+  const bool lacking = internal::lacks_markers(*problem, kept);
+  MarkerVariances variances;
+  if (lacking || options.error_bars) variances = find_variances(*problem, options, kept, solved.states);
+  std::vector<internal::RivalPose> rivals;
+  if (lacking) {
+    internal::FrameWalk walk(*problem, options, progress);
+    std::vector<std::uint8_t> changed;
+    rivals = internal::choose_among_rivals(*problem, options, kept, variances, walk, solved, changed);
+    if (std::ranges::count(changed, std::uint8_t{1}) > 0)
+      variances = find_variances(*problem, options, kept, solved.states);
+  }
   take_frames(solved, result);
   fill_coordinates(*problem, solved.states, motion);
   add_task_costs(*problem, result);
@@ -116,15 +140,8 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   internal::add_sample_findings(*problem, *judged, markers, motion, result.fit);
 
   if (options.error_bars) {
-    MarkerVariances variances;
-    if (options.marker_noise_sd_m > 0.0) {
-      variances.own.setConstant(problem->model.marker_count(),
-                                options.marker_noise_sd_m * options.marker_noise_sd_m);
-      variances.common.setZero(static_cast<Eigen::Index>(problem->model.bodies().size()));
-    } else {
-      variances = estimate_variances(*problem, kept, solved.states, options.threads);
-    }
     compute_error_bars(*problem, kept, solved.states, variances, options.threads, motion);
+    internal::doubt_rivals(*problem, rivals, motion);
     flag_underdetermined(motion);
     internal::add_marker_noise(problem->model, variances, result.fit);
   }

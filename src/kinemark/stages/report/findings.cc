@@ -36,6 +36,47 @@ double first_undetermined_s(const data::JointMotion& motion, std::int64_t coordi
   return kNaN;
 }
 
+/// Where the pose of frames without markers comes from, as it is in the motion: the frame before them, the
+/// one behind.
+std::string held_from(const data::JointMotion& motion) {
+  const std::int64_t F = motion.frames(), n = motion.size();
+  const auto same = [&](std::int64_t f, std::int64_t g) {
+    return f >= 0 && g < F &&
+           std::equal(motion.q.begin() + f * n, motion.q.begin() + (f + 1) * n, motion.q.begin() + g * n);
+  };
+  bool before = false, behind = false;
+  for (std::int64_t f = 0; f < F;) {
+    if (motion.status[static_cast<std::size_t>(f)] != FrameStatus::no_markers) {
+      ++f;
+      continue;
+    }
+    std::int64_t end = f + 1;
+    while (end < F && motion.status[static_cast<std::size_t>(end)] == FrameStatus::no_markers) ++end;
+    if (f > 0 && same(f - 1, f))
+      before = true;
+    else if (end < F && same(end - 1, end))
+      behind = true;
+    f = end;
+  }
+  if (before && behind) return ": the pose is held from the frame before, or behind where none is before.";
+  if (before) return ": the pose is held from the frame before.";
+  return behind ? ": the pose is that of the first frame behind that has one." : ".";
+}
+
+/// Why a coordinate is not determined in so many frames, where that is known.
+std::string why_not_determined(const data::JointMotion& motion, std::size_t c, std::int64_t frames,
+                               bool always) {
+  if (motion.open_frames.empty()) return ".";
+  const std::int64_t open = motion.open_frames[c];
+  const char* limit = motion.is_rotation[c] ? "0.5 rad" : "0.5 m";
+  if (open >= frames)
+    return always ? ": no visible marker fixes it." : ": the visible markers do not fix it there.";
+  const auto loosely =
+      fmt::format("the visible markers fix it no better than to {}, or two poses fit them", limit);
+  if (open == 0) return fmt::format(": {}{}.", loosely, always ? "" : " there");
+  return fmt::format(": in {} of them no visible marker fixes it, in the others {}.", open, loosely);
+}
+
 /// One line for each reason, with all markers that have it, in the order in which they come.
 void add_left_out(const IkSummary& s, std::vector<Notice>& out) {
   std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
@@ -75,8 +116,7 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
                    first_time_s(motion, FrameStatus::not_converged)});
   if (const auto n = frames_with(FrameStatus::no_markers); n > 0)
     out.push_back({Verdict::attention, "frames", "",
-                   fmt::format("{} had no marker: the pose is held from the frame before.",
-                               describe_frames(n, motion.frames())),
+                   fmt::format("{} had no marker{}", describe_frames(n, motion.frames()), held_from(motion)),
                    first_time_s(motion, FrameStatus::no_markers)});
 
   for (std::size_t j = 0; j < s.coordinates.size(); ++j) {
@@ -85,13 +125,15 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
     const double from_s = first_undetermined_s(motion, static_cast<std::int64_t>(j));
     if (c.determined_frames == 0)
       out.push_back({Verdict::attention, "coordinate", c.name,
-                     fmt::format("{} is never determined: no visible marker fixes it.", c.name), from_s});
+                     fmt::format("{} is never determined{}", c.name,
+                                 why_not_determined(motion, j, motion.frames(), true)),
+                     from_s});
     else
-      out.push_back(
-          {Verdict::good, "coordinate", c.name,
-           fmt::format("{} is not determined in {}: the visible markers do not fix it there.", c.name,
-                       describe_frames(motion.frames() - c.determined_frames, motion.frames())),
-           from_s});
+      out.push_back({Verdict::good, "coordinate", c.name,
+                     fmt::format("{} is not determined in {}{}", c.name,
+                                 describe_frames(motion.frames() - c.determined_frames, motion.frames()),
+                                 why_not_determined(motion, j, motion.frames() - c.determined_frames, false)),
+                     from_s});
   }
   for (const CoordinateSummary& c : s.coordinates)
     if (c.at_limit_frames > 0)

@@ -122,6 +122,36 @@ TEST(Findings, CoordinatesSometimesAndNeverDeterminedDiffer) {
   EXPECT_EQ(found[0].subject, "hip");
 }
 
+TEST(Findings, WhereAPoseIsHeldFromIsComputed) {
+  const auto said = [](std::initializer_list<int> frames, std::initializer_list<std::pair<int, int>> same) {
+    data::JointMotion m = good_motion();
+    for (int f = 0; f < 10; ++f)
+      for (int c = 0; c < 2; ++c) m.q[m.index(f, c)] = f + 0.1 * c;
+    for (const auto& [f, g] : same)
+      for (int c = 0; c < 2; ++c) m.q[m.index(f, c)] = m.q[m.index(g, c)];
+    for (const int f : frames) m.status[static_cast<std::size_t>(f)] = FrameStatus::no_markers;
+    return findings_of(m).at(0).text;
+  };
+  EXPECT_THAT(said({4, 5}, {{4, 3}, {5, 3}}), HasSubstr("held from the frame before."));
+  EXPECT_THAT(said({0, 1}, {{0, 2}, {1, 2}}), HasSubstr("that of the first frame behind"));
+  EXPECT_THAT(said({0, 1}, {{0, 2}, {1, 2}}), ::testing::Not(HasSubstr("frame before")));
+  EXPECT_THAT(said({0, 9}, {{0, 1}, {9, 8}}), HasSubstr("before, or behind"));
+  EXPECT_THAT(said({4}, {}), ::testing::EndsWith("had no marker."));
+}
+
+TEST(Findings, WhatMarkersFixIsSaidOnlyWhereItIsKnown) {
+  data::JointMotion m = good_motion();
+  for (int f = 0; f < 10; ++f) m.determined[m.index(f, 1)] = 0;
+  EXPECT_EQ(findings_of(m).at(0).text, "knee is never determined.");
+  m.open_frames = {0, 10};
+  EXPECT_THAT(findings_of(m).at(0).text, HasSubstr("no visible marker fixes it"));
+  m.open_frames = {0, 0};
+  EXPECT_THAT(findings_of(m).at(0).text, ::testing::Not(HasSubstr("no visible marker fixes it")));
+  EXPECT_THAT(findings_of(m).at(0).text, HasSubstr("fix it no better than to 0.5"));
+  m.open_frames = {0, 4};
+  EXPECT_THAT(findings_of(m).at(0).text, HasSubstr("in 4 of them no visible marker fixes it"));
+}
+
 TEST(Findings, MarkersAndWarningsAreNotes) {
   data::JointMotion m = good_motion();
   m.marker_error.assign(30, kNaN);

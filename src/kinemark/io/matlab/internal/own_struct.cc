@@ -85,6 +85,32 @@ Status read_methods(const MatPlace& in, data::Trajectories& m) {
   return {};
 }
 
+/// The filter of each marker, and the samples from before it.
+Status read_filters(const MatPlace& in, data::Trajectories& m) {
+  if (in("unfiltered")) {
+    auto unfiltered = in("unfiltered").frame_first(m.frames(), m.markers(), 3);
+    if (!unfiltered) return std::unexpected(unfiltered.error());
+    m.unfiltered_in_world = std::move(*unfiltered);
+  }
+  const MatPlace filters = in("filters");
+  if (!filters || filters.array->kind != MatClass::structure) return {};
+  if (filters.array->count() != m.markers())
+    return filters.bad(fmt::format("holds {} filters; expected one for each of {} markers",
+                                   filters.array->count(), m.markers()));
+  for (std::int64_t i = 0; i < m.markers(); ++i) {
+    const auto order = filters("order", i).whole(0, 1000);
+    if (!order) return std::unexpected(order.error());
+    const auto cutoff = filters("cutoff_hz", i).number(), noise = filters("noise_sd", i).number();
+    if (!cutoff) return std::unexpected(cutoff.error());
+    if (!noise) return std::unexpected(noise.error());
+    m.filters.push_back({.method = filters("method", i).text(),
+                         .order = static_cast<int>(*order),
+                         .cutoff_hz = *cutoff,
+                         .noise_sd_m = *noise});
+  }
+  return {};
+}
+
 Status read_samples(const MatPlace& in, data::Trial& trial) {
   auto& m = trial.markers;
   const std::int64_t F = m.frames(), M = m.markers();
@@ -93,6 +119,7 @@ Status read_samples(const MatPlace& in, data::Trial& trial) {
   m.x_in_world = std::move(*x);
   if (auto s = read_states(in, m); !s) return s;
   if (auto s = read_methods(in, m); !s) return s;
+  if (auto s = read_filters(in, m); !s) return s;
   if (in("covariance")) {
     auto covariance = in("covariance").frame_first(F, M, 6);
     if (!covariance) return std::unexpected(covariance.error());

@@ -49,6 +49,9 @@ inline data::Trial full_trial() {
   t.markers.set_method(1, 0, "cubic");
   t.markers.set_method(1, 1, "rigid body");
   t.markers.sample_offset_s = {0.0, 0.002};
+  t.markers.filters = {{.method = "kalman", .order = 5, .cutoff_hz = 6.4, .noise_sd_m = 2e-4},
+                       {.method = "none", .order = 0, .cutoff_hz = kNaN, .noise_sd_m = kNaN}};
+  for (int i = 0; i < 18; ++i) t.markers.unfiltered_in_world.push_back(i % 6 < 3 ? 0.1 * i : kNaN);
   t.channels = {.names = {"LKneeAngles"},
                 .kinds = {data::ChannelKind::angle},
                 .units = {"deg"},

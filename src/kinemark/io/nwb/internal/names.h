@@ -23,6 +23,7 @@ inline constexpr const char* kPose = "PoseEstimation";
 inline constexpr const char* kMethod = "Method";
 inline constexpr const char* kCovariance = "Covariance";
 inline constexpr const char* kOffset = "SampleOffset";
+inline constexpr const char* kUnfiltered = "Unfiltered";
 inline constexpr const char* kMarkersTable = "markers";
 inline constexpr const char* kMethodsTable = "methods";
 inline constexpr const char* kProvenanceTable = "provenance";

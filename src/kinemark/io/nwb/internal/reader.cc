@@ -140,6 +140,8 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
   t.sample_offset_s = group.offset_s;
   if (auto status = read_container(in, group, kOffset, 1, frames, t.sample_offset_s); !status) return status;
   if (auto status = read_container(in, group, kCovariance, 6, frames, t.covariance); !status) return status;
+  if (auto status = read_container(in, group, kUnfiltered, 3, frames, t.unfiltered_in_world); !status)
+    return status;
   if (auto status = read_container(in, group, kMethod, 1, frames, t.method); !status) return status;
   const Handle methods = in.object(in.file(), fmt::format("{}/{}/method", kModule, kMethodsTable));
   if (auto names = in.texts(methods.id()); names && names->size() <= 255) t.methods = std::move(*names);
@@ -153,6 +155,7 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
   }
   auto filters = read_filters(in, group.series.size());
   if (!filters) return std::unexpected(filters.error());
+  t.filters = *filters;
   if (!any && filters->empty()) return {};
   rates.filters = std::move(*filters);
   if (rates.filters.empty())

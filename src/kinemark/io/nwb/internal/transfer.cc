@@ -159,6 +159,16 @@ void pass_texts(Pipe& pipe, Texts& texts) {
   pass_each(pipe, texts, [&](auto& text) { pass(pipe, text); });
 }
 
+template <class Pipe, class Filters>
+void pass_filters(Pipe& pipe, Filters& filters) {
+  pass_each(pipe, filters, [&](auto& filter) {
+    pass(pipe, filter.method);
+    pass(pipe, filter.order);
+    pass(pipe, filter.cutoff_hz);
+    pass(pipe, filter.noise_sd_m);
+  });
+}
+
 template <class Pipe, class Trajectories>
 void pass_trajectories(Pipe& pipe, Trajectories& t) {
   pass_texts(pipe, t.names);
@@ -171,17 +181,14 @@ void pass_trajectories(Pipe& pipe, Trajectories& t) {
   pass(pipe, t.sample_offset_s);
   pass_texts(pipe, t.methods);
   pass(pipe, t.method);
+  pass(pipe, t.unfiltered_in_world);
+  pass_filters(pipe, t.filters);
 }
 
 template <class Pipe, class Derivatives>
 void pass_derivatives(Pipe& pipe, Derivatives& d) {
   for (const Rate& rate : kRates) pass(pipe, d.*rate.values);
-  pass_each(pipe, d.filters, [&](auto& filter) {
-    pass(pipe, filter.method);
-    pass(pipe, filter.order);
-    pass(pipe, filter.cutoff_hz);
-    pass(pipe, filter.noise_sd_m);
-  });
+  pass_filters(pipe, d.filters);
 }
 
 template <class Pipe, class Metadata>

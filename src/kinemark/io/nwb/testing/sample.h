@@ -36,6 +36,13 @@ inline data::Trajectories sample_trajectories(std::int64_t frames = 50) {
   t.x(1, 0) = Eigen::Vector3d(-0.0, 5e-324, 1e300);
   fill(t.covariance, 6 * t.state.size(), 1e-9, 1e-6, random);
   fill(t.sample_offset_s, t.state.size(), 0.0, 0.01, random);
+  fill(t.unfiltered_in_world, t.x_in_world.size(), -2.0, 2.0, random);
+  t.unfiltered_in_world[2] = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t m = 0; m < t.names.size(); ++m)
+    t.filters.push_back({.method = m == 0 ? "none" : "kalman",
+                         .order = static_cast<int>(m),
+                         .cutoff_hz = m == 0 ? std::numeric_limits<double>::quiet_NaN() : 6.1,
+                         .noise_sd_m = 1e-4});
   return t;
 }
 
@@ -47,11 +54,7 @@ inline data::Derivatives sample_derivatives(const data::Trajectories& of) {
   for (auto* values : {&d.velocity_sd, &d.acceleration_sd, &d.jerk_sd})
     fill(*values, of.x_in_world.size(), 0.0, 1.0, random);
   d.velocity[4] = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t m = 0; m < of.names.size(); ++m)
-    d.filters.push_back({.method = m == 0 ? "none" : "kalman",
-                         .order = static_cast<int>(m),
-                         .cutoff_hz = m == 0 ? std::numeric_limits<double>::quiet_NaN() : 6.1,
-                         .noise_sd_m = 1e-4});
+  d.filters = of.filters;
   return d;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinemark/data/table.h"
 #include "kinemark/data/trial.h"
@@ -17,7 +18,7 @@
 namespace kinemark::pipeline::internal {
 
 /// One marker's result as trajectories and derivatives of one marker. Bridged samples get the filter's name,
-/// others keep the method of `from`, what was smoothed.
+/// filled ones keep the method of `from`, measured ones tell that they were smoothed (hand_on()).
 struct MarkerPiece {
   data::Trajectories markers;
   data::Derivatives derivatives;
@@ -44,15 +45,15 @@ class CleanOutput {
   /// Each marker once, in any order.
   [[nodiscard]] Status take(MarkerPiece piece, std::int64_t marker);
   /// Write the recording, with all else that `trial` holds, and the table if there is one. `trial` gets the
-  /// cleaned markers. @param set  that both name
+  /// cleaned markers. @param set  that both name  @param lost  gets what the format cannot hold
   [[nodiscard]] Status finish(data::Trial& trial, const std::filesystem::path& derivatives,
-                              const std::string& set);
+                              const std::string& set, std::vector<std::string>& lost);
   /// The cleaned markers, before finish().
   [[nodiscard]] const data::Trajectories& cleaned() const { return cleaned_; }
 
  private:
   CleanOutput(const CleanJob& job, std::filesystem::path file, const data::Trajectories& smoothed);
-  bool derivatives_;
+  bool derivatives_, unfiltered_;
   std::filesystem::path file_;
   data::Trajectories cleaned_;
   std::optional<io::NwbWriter> nwb_;

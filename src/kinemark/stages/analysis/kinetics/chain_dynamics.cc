@@ -34,6 +34,16 @@ Vector3d turning(const PathMatrix& rates, std::int64_t i, const Matrix3d& axes) 
   return axial(Eigen::Map<const Matrix3d>(numbers.data()) * axes.transpose());
 }
 
+// Angular velocity by differences over `span` frames to either side, in the laboratory; NaN at the ends.
+MatrixX3d velocity_over(const std::vector<Matrix3d>& axes, double rate_hz, std::int64_t span) {
+  const auto frames = std::ssize(axes);
+  MatrixX3d out = MatrixX3d::Constant(frames, 3, kNaN);
+  const double per_s = rate_hz / static_cast<double>(2 * span);
+  for (std::int64_t f = span; f + span < frames; ++f)
+    out.row(f) = axial(per_s * (axes[at(f + span)] - axes[at(f - span)]) * axes[at(f)].transpose());
+  return out;
+}
+
 bool too_short(std::int64_t frames) { return frames <= 2 * kDerivativeMargin; }
 
 }  // namespace
@@ -53,7 +63,8 @@ Vector3d WrenchTrack::moment_about(const Vector3d& point, std::int64_t f) const 
   return about_origin - point.cross(push);
 }
 
-WrenchTrack inertial_wrench(const BodyTrack& body, const Vector3d& gravity, double rate_hz) {
+WrenchTrack inertial_wrench(const BodyTrack& body, const Vector3d& gravity, double rate_hz,
+                            std::int64_t angular_span) {
   const std::int64_t frames = body.centre.rows();
   WrenchTrack out{.force = MatrixX3d::Constant(frames, 3, kNaN),
                   .moment = MatrixX3d::Constant(frames, 3, kNaN)};
@@ -62,12 +73,19 @@ WrenchTrack inertial_wrench(const BodyTrack& body, const Vector3d& gravity, doub
   const auto centre =
       differentiate(SeriesMatrix(body.centre), kDerivativeMargin, frames - 2 * kDerivativeMargin, rate_hz);
   const auto axes = differentiated(body.axes, rate_hz);
+  const MatrixX3d velocity = angular_span > 0 ? velocity_over(body.axes, rate_hz, angular_span) : MatrixX3d();
   for (std::int64_t i = 0; i < centre.count(); ++i) {
     const std::int64_t f = i + kDerivativeMargin;
     const Vector3d force = body.mass * (gravity - Vector3d(centre.a.row(i)));
     const Matrix3d& r = body.axes[at(f)];
-    const Vector3d w = r.transpose() * turning(axes.v, i, r);
-    const Vector3d alpha = r.transpose() * turning(axes.a, i, r);
+    Vector3d w = turning(axes.v, i, r), alpha = turning(axes.a, i, r);
+    if (angular_span > 0) {
+      w = velocity.row(f);
+      alpha = (velocity.row(f + angular_span) - velocity.row(f - angular_span)) * rate_hz /
+              static_cast<double>(2 * angular_span);
+    }
+    w = r.transpose() * w;
+    alpha = r.transpose() * alpha;
     const Vector3d momentum = inertia.cwiseProduct(w);
     const Vector3d rate = inertia.cwiseProduct(alpha) + w.cross(momentum);
     out.force.row(f) = force;

@@ -34,9 +34,11 @@ struct WrenchTrack {
 ///
 /// Derivatives are central differences of eighth order over nine frames; NaN in the first and last four
 /// frames and where one of the nine is. Axes are differentiated, not angles, so that no lock matters.
-/// @param gravity  m/s^2, downwards
+/// @param gravity       m/s^2, downwards
+/// @param angular_span  1 or 2: angular velocity by central differences over so many frames to either side,
+///                      and its rate by the same again, which smooths as some vendors do; 0: eighth order
 [[nodiscard]] WrenchTrack inertial_wrench(const BodyTrack& body, const Eigen::Vector3d& gravity,
-                                          double rate_hz);
+                                          double rate_hz, std::int64_t angular_span = 0);
 
 /// Angular velocity of axes in F frames, rad/s in the laboratory, by the same differences. F x 3.
 [[nodiscard]] Eigen::MatrixX3d angular_velocity(const std::vector<Eigen::Matrix3d>& axes, double rate_hz);

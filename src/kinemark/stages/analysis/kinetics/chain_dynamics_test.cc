@@ -99,6 +99,23 @@ TEST(ChainDynamics, AngularVelocityIsThatOfTheAxes) {
   EXPECT_TRUE(std::isnan(w(2, 0)));
 }
 
+// Twice the difference over two frames to either side multiplies what swings at w by (sin(2 w dt) / (2 dt
+// w))^2.
+TEST(ChainDynamics, AngularSpanSmoothsAsItsDifferencesDo) {
+  constexpr double kSwing = 20.0;
+  auto rod = body_at(1.0, Vector3d(0.2, 0.2, 0.0));
+  for (std::int64_t f = 0; f < kFrames; ++f)
+    rod.axes[at(f)] = about(Vector3d::UnitY(), 1e-3 * std::sin(kSwing * time_of(f)));
+  const auto wrench = inertial_wrench(rod, Vector3d::Zero(), kRate_hz, 2);
+  const double lost = std::sin(2.0 * kSwing / kRate_hz) / (2.0 * kSwing / kRate_hz);
+  for (std::int64_t f = 4; f < kFrames - 4; ++f) {
+    const double second = -kSwing * kSwing * 1e-3 * std::sin(kSwing * time_of(f));
+    EXPECT_NEAR(wrench.moment(f, 1), -0.04 * second * lost * lost, 1e-7) << f;
+  }
+  EXPECT_TRUE(std::isnan(wrench.moment(3, 1)));
+  EXPECT_LT(lost * lost, 0.96) << "or the test would not tell both apart";
+}
+
 TEST(ChainDynamics, MissingFrameIsMissingInItsNeighbourhoodOnly) {
   auto body = body_at(2.0, Vector3d(0.1, 0.1, 0.1));
   body.centre.row(30).setConstant(kNaN);

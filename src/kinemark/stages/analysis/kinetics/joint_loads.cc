@@ -121,17 +121,39 @@ std::vector<std::string> labels_of(const std::array<SegmentDefinition::AxisCompo
   return {components[0].label, components[1].label, components[2].label};
 }
 
+/// Formulas with one of the subject's measures larger, and smaller, by its deviation.
+using MovedTracks = std::vector<std::pair<FormulaTracks, FormulaTracks>>;
+
+Result<MovedTracks> moved_tracks(const SegmentDefinition& d, const SegmentInput& input,
+                                 const SegmentOptions& options, const LoadOutputs& outputs,
+                                 const FormulaTracks& tracks) {
+  MovedTracks out;
+  for (const auto& used : tracks.constant_parameters()) {
+    SegmentInput plus = input, minus = input;
+    plus.given.insert(plus.given.begin(), {used.name, used.value + used.sd, used.from});
+    minus.given.insert(minus.given.begin(), {used.name, used.value - used.sd, used.from});
+    auto larger = FormulaTracks::create(d, plus, options, outputs.list);
+    if (!larger) return std::unexpected(larger.error());
+    auto smaller = FormulaTracks::create(d, minus, options, outputs.list);
+    if (!smaller) return std::unexpected(smaller.error());
+    out.emplace_back(std::move(*larger), std::move(*smaller));
+  }
+  return out;
+}
+
 /// The work of find_joint_loads().
 class LoadFinder {
  public:
   LoadFinder(const SegmentDefinition& d, const SegmentInput& input, const PlateEvidence& evidence,
-             const JointLoadOptions& options, const LoadOutputs& outputs, const FormulaTracks& tracks)
+             const JointLoadOptions& options, const LoadOutputs& outputs, const FormulaTracks& tracks,
+             const MovedTracks& moved)
       : d_(d),
         markers_(*input.markers),
         evidence_(evidence),
         options_(options),
         outputs_(outputs),
         tracks_(tracks),
+        moved_(moved),
         mechanics_(d, tracks, outputs, options),
         smooth_(markers_, used_markers(), options.segments.noise_sd_m, options.segments.threads) {}
 
@@ -153,15 +175,16 @@ class LoadFinder {
     }
     std::vector<WrenchTrack> loads;
     for (const auto& foot : floor.feet) loads.push_back(foot.wrench);
-    const auto estimates = all_loads(values, loads);
+    const auto estimates = all_loads(mechanics_, values, loads);
+    const auto constant = constant_variance(estimates, loads);
     std::vector<Spread> spread(estimates.size());
     for (std::int64_t k = 0; k < options_.refits; ++k) {
       const auto again = mechanics_.values_of(smooth_.refit(options_.seed, k));
       for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = noise[i].refit(options_.seed, i, k);
-      const auto refit = all_loads(again, loads);
+      const auto refit = all_loads(mechanics_, again, loads);
       for (std::size_t i = 0; i < estimates.size(); ++i) spread[i].add(refit[i] - estimates[i]);
     }
-    store(floor, estimates, spread, values, out);
+    store(floor, estimates, spread, constant, values, out);
     return out;
   }
 
@@ -207,28 +230,55 @@ class LoadFinder {
     return find_floor_loads(*evidence_.plates, evidence_.corners, feet, options_.segments.up);
   }
 
-  [[nodiscard]] std::vector<Eigen::MatrixXd> all_loads(const FrameValues& values,
+  // What constant errors of the subject's measures add to the variance of each load.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> constant_variance(const std::vector<Eigen::MatrixXd>& estimates,
+                                                               const std::vector<WrenchTrack>& feet) const {
+    std::vector<Eigen::MatrixXd> out;
+    for (const auto& e : estimates) out.emplace_back(Eigen::MatrixXd::Zero(e.rows(), e.cols()));
+    if (options_.refits == 0) return out;
+    const auto loads_by = [&](const FormulaTracks& tracks) {
+      const JointMechanics mechanics(d_, tracks, outputs_, options_);
+      return all_loads(mechanics, mechanics.values_of(smooth_.paths()), feet);
+    };
+    for (const auto& [larger, smaller] : moved_) {
+      const auto plus = loads_by(larger), minus = loads_by(smaller);
+      for (std::size_t i = 0; i < out.size(); ++i)
+        for (Eigen::Index k = 0; k < out[i].size(); ++k) {
+          const double there = *(estimates[i].data() + k);
+          const double up = *(plus[i].data() + k) - there, down = *(minus[i].data() + k) - there;
+          // One side may be beyond what geometry allows.
+          const double step = !std::isfinite(up) ? down : !std::isfinite(down) ? up : 0.5 * (up - down);
+          if (std::isfinite(step)) *(out[i].data() + k) += step * step;
+        }
+    }
+    return out;
+  }
+
+  [[nodiscard]] std::vector<Eigen::MatrixXd> all_loads(const JointMechanics& mechanics,
+                                                       const FrameValues& values,
                                                        const std::vector<WrenchTrack>& feet) const {
     std::vector<const WrenchTrack*> floor(d_.bodies.size(), nullptr);
     for (std::size_t i = 0; i < feet_.size(); ++i) floor[feet_[i]] = &feet[i];
     std::vector<Eigen::MatrixXd> out;
     for (const auto& foot : feet) out.emplace_back(foot.force);
     for (std::size_t j = 0; j < d_.joints.size(); ++j)
-      if (mechanics_.has_joint(j))
-        out.push_back(mechanics_.loads_of(j, values, floor, markers_.time.rate_hz));
+      if (mechanics.has_joint(j)) out.push_back(mechanics.loads_of(j, values, floor, markers_.time.rate_hz));
     return out;
   }
 
   // Columns [first, first + labels) of a matrix and of its spread.
-  void fill(SegmentSeries& series, const Eigen::MatrixXd& values, const Spread& spread, std::int64_t first,
-            const std::vector<State>& state, double per) const {
+  void fill(SegmentSeries& series, const Eigen::MatrixXd& values, const Spread& spread,
+            const Eigen::MatrixXd& constant, std::int64_t first, const std::vector<State>& state,
+            double per) const {
     for (std::int64_t f = 0; f < values.rows(); ++f) {
       if (state[at(f)] == State::missing) continue;
       for (std::size_t k = 0; k < series.size(); ++k) {
         const auto column = first + static_cast<std::int64_t>(k);
         const auto i = at(f) * series.size() + k;
         series.value[i] = values(f, column) / per;
-        if (options_.refits > 0) series.sd[i] = spread.sd(f, column, options_.refits) / per;
+        if (options_.refits > 0)
+          series.sd[i] =
+              std::hypot(spread.sd(f, column, options_.refits), std::sqrt(constant(f, column))) / per;
       }
       series.state[at(f)] =
           std::isfinite(series.value[at(f) * series.size()]) ? state[at(f)] : State::missing;
@@ -236,7 +286,8 @@ class LoadFinder {
   }
 
   void store(const FloorLoads& floor, const std::vector<Eigen::MatrixXd>& estimates,
-             const std::vector<Spread>& spread, const FrameValues& values, JointLoads& out) const {
+             const std::vector<Spread>& spread, const std::vector<Eigen::MatrixXd>& constant,
+             const FrameValues& values, JointLoads& out) const {
     const auto frames = markers_.frames();
     const Presence presence(markers_);
     for (std::size_t i = 0; i < feet_.size(); ++i) {
@@ -246,7 +297,7 @@ class LoadFinder {
       for (std::int64_t f = 0; f < frames; ++f)
         if (!floor.feet[i].known[at(f)]) state[at(f)] = State::missing;
       auto series = series_of(name, {"x", "y", "z"}, "N/kg", frames);
-      fill(series, estimates[i], spread[i], 0, state, per_of_body(feet_[i], values));
+      fill(series, estimates[i], spread[i], constant[i], 0, state, per_of_body(feet_[i], values));
       out.series.push_back(std::move(series));
     }
     std::size_t at_estimate = feet_.size();
@@ -255,13 +306,14 @@ class LoadFinder {
       const auto state = states_of(j, floor, presence);
       const auto& joint = d_.joints[j];
       const auto& estimate = estimates[at_estimate];
+      const auto& always = constant[at_estimate];
       const auto& deviation = spread[at_estimate++];
       auto force = series_of(joint.name + "Force", labels_of(joint.force), "N/kg", frames);
       auto moment = series_of(joint.name + "Moment", labels_of(joint.moment), "N m/kg", frames);
       auto power = series_of(joint.name + "Power", {}, "W/kg", frames);
-      fill(force, estimate, deviation, 0, state, 1.0);
-      fill(moment, estimate, deviation, 3, state, 1.0);
-      fill(power, estimate, deviation, 6, state, 1.0);
+      fill(force, estimate, deviation, always, 0, state, 1.0);
+      fill(moment, estimate, deviation, always, 3, state, 1.0);
+      fill(power, estimate, deviation, always, 6, state, 1.0);
       for (auto* series : {&force, &moment, &power}) out.series.push_back(std::move(*series));
     }
   }
@@ -305,6 +357,7 @@ class LoadFinder {
   const JointLoadOptions& options_;
   const LoadOutputs& outputs_;
   const FormulaTracks& tracks_;
+  const MovedTracks& moved_;
   JointMechanics mechanics_;
   SmoothMarkers smooth_;
   std::vector<std::size_t> feet_;  // bodies that plates can bear
@@ -330,7 +383,13 @@ Result<JointLoads> find_joint_loads(const SegmentDefinition& definition, const S
   const LoadOutputs outputs(definition);
   const auto tracks = FormulaTracks::create(definition, input, options.segments, outputs.list);
   if (!tracks) return std::unexpected(tracks.error());
-  return LoadFinder(definition, input, evidence, options, outputs, *tracks).find();
+  MovedTracks moved;
+  if (options.refits > 0) {
+    auto made = moved_tracks(definition, input, options.segments, outputs, *tracks);
+    if (!made) return std::unexpected(made.error());
+    moved = std::move(*made);
+  }
+  return LoadFinder(definition, input, evidence, options, outputs, *tracks, moved).find();
 }
 
 }  // namespace kinemark::analysis

@@ -143,7 +143,8 @@ Eigen::MatrixXd JointMechanics::loads_of(std::size_t joint, const FrameValues& v
   WrenchTrack beyond = WrenchTrack::zero(frames);
   for (const auto& name : j.bodies) {
     const auto b = index_of_body(name);
-    beyond += inertial_wrench(track_of(b, values), -options_.gravity * options_.segments.up, rate_hz);
+    beyond += inertial_wrench(track_of(b, values), -options_.gravity * options_.segments.up, rate_hz,
+                              d_.angular_span);
     if (floor[b] != nullptr) beyond += *floor[b];
   }
   const double per = mean_of(values, at_joint.per);

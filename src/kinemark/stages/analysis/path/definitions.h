@@ -9,6 +9,7 @@
 
 #include "kinemark/data/measure.h"
 #include "kinemark/stages/analysis/path/path_facts.h"
+#include "kinemark/stages/analysis/path/thinned.h"
 
 namespace kinemark::analysis {
 
@@ -31,6 +32,7 @@ enum class Weakness : std::uint8_t {
   extreme_of_constant,      ///< the largest of a speed that hardly changes: at most then
   needs_change,             ///< says nothing of a speed that hardly changes
   upper_alone,              ///< the lower end fails: the least side of a box, which may have none
+  upper_if_discrete,        ///< at most for discrete movements: noise at both rests can only lengthen them
   upper_alone_if_discrete,  ///< likewise for discrete movements: a start has jerk that no filter passes
   approximate,              ///< covers less than its level in simulated movements
   approximate_if_discrete   ///< likewise for discrete movements alone
@@ -43,6 +45,9 @@ struct PathDefinition {
   Pivot pivot = Pivot::plain;                         ///< how bias and interval are found
   Weakness weakness = Weakness::none;                 ///< what the interval may not claim
   double (*value)(const PathFacts& facts) = nullptr;  ///< SI; NaN where not determined
+  bool needs_slow_noise = false;  ///< it has an interval only where slow noise is told from movement
+  /// Of an extreme: the same without the bias of choosing it; null: it is none.
+  double (*thinned)(const ThinnedExtremes& extremes) = nullptr;
 };
 
 /// All of them, in the order in which they are shown.

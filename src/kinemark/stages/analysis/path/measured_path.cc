@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -21,7 +23,9 @@ constexpr std::int64_t kLeastStretch = 5;   // samples of a stretch
 constexpr double kLowestCutOff_hz = 0.4;    // of those tried
 constexpr double kMemoryCycles = 6.0;       // of the cut-off, beyond which a smoothed sample feels nothing
 constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
-constexpr double kNoiseDisagrees = 0.15;    // of the stated noise
+constexpr std::int64_t kLeastDraws = 99;    // of the noise's models
+constexpr double kSlow_s = 1.0, kQuick_s = 0.25;  // whose means are trends, slow and quick
+constexpr std::int64_t kManySamples = 1 << 15;    // of a stretch, from which one copy thins an extreme
 
 std::int64_t edge_samples(double rate_hz) {
   return std::max<std::int64_t>(kDerivativeMargin + 1, static_cast<std::int64_t>(kEdge_s * rate_hz));
@@ -43,6 +47,14 @@ bool is_asked(const PathDefinition& definition, const PathMeasureOptions& option
   return false;
 }
 
+// What the cameras saw is kept beside what a filter made of it.
+bool has_raw_samples(const data::Trajectories& markers, std::int64_t marker) {
+  if (markers.unfiltered_in_world.empty()) return false;
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    if (std::isfinite(markers.unfiltered_in_world[3 * markers.index(f, marker)])) return true;
+  return false;
+}
+
 // Measured samples with their own positions, whatever was made between them by smoothed ones.
 SeriesMatrix raw_path(const Recording& recording, const SeriesMatrix& smooth) {
   SeriesMatrix out = recording.x;
@@ -60,9 +72,20 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
   out.name_ = markers.names[at(marker)];
   out.marker_ = marker;
   out.options_ = options;
+  const bool raw = has_raw_samples(markers, marker);
+  const auto sample = [&](std::int64_t f) -> Eigen::Vector3d {
+    if (!raw) return markers.x(f, marker);
+    return Eigen::Map<const Eigen::Vector3d>(markers.unfiltered_in_world.data() +
+                                             3 * markers.index(f, marker));
+  };
+  const auto measured = [&](std::int64_t f) {
+    if (raw)
+      return sample(f).allFinite() && markers.state[markers.index(f, marker)] != data::SampleState::rejected;
+    return markers.state[markers.index(f, marker)] == data::SampleState::measured;
+  };
   std::int64_t first = markers.frames(), last = -1, count = 0;
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
-    if (markers.state[markers.index(f, marker)] != data::SampleState::measured) continue;
+    if (!measured(f)) continue;
     first = std::min(first, f);
     last = f;
     ++count;
@@ -75,30 +98,46 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
   recording.x = SeriesMatrix::Zero(last - first + 1, 3);
   recording.seen.assign(at(last - first + 1), false);
   for (std::int64_t f = first; f <= last; ++f)
-    if (markers.state[markers.index(f, marker)] == data::SampleState::measured) {
-      recording.x.row(f - first) = markers.x(f, marker).transpose();
+    if (measured(f)) {
+      recording.x.row(f - first) = sample(f).transpose();
       recording.seen[at(f - first)] = true;
     }
   out.first_s_ = markers.time.time_s(first);
   out.first_number_ = markers.time.number(first);
+  const auto outliers = single_frame_outliers(recording.x, recording.seen);
+  auto regular = recording.seen;
+  for (std::size_t i = 0; i < outliers.size(); ++i)
+    if (outliers[i]) regular[i] = false;
+  if (!options.keep_outliers) recording.seen = regular;
 
-  const double found = math::noise_from_differences(recording.x, recording.seen), stated = options.noise_sd_m;
-  if (stated > 0.0 && std::abs(found / stated - 1.0) > kNoiseDisagrees)
-    out.warning_ =
-        fmt::format("the noise of {} is {:.3g} mm by its differences, not the {:.3g} mm that were stated",
-                    out.name_, 1e3 * found, 1e3 * stated);
-  recording.noise_sd_m = std::isnan(found) ? stated : std::max(found, stated);
-  if (!(recording.noise_sd_m > 0.0))
+  const bool says_filter = !raw && !markers.filters.empty();
+  auto noise = find_path_noise(recording.x, regular, recording.rate_hz,
+                               {.stated_sd_m = options.noise_sd_m,
+                                .filter = says_filter ? &markers.filters[at(marker)] : nullptr,
+                                .draws = std::max<std::int64_t>(kLeastDraws, options.refits),
+                                .seed = options.seed,
+                                .stream = mix64(static_cast<std::uint64_t>(marker) + 1)});
+  if (!noise)
     return std::unexpected(
         fmt::format("the noise of {} is not known: no seven frames in a row differ; state it", out.name_));
+  out.noise_ = std::move(*noise);
+  out.noise_.subject = out.name_;
+  out.noise_.outliers = std::ranges::count(outliers, true);
+  recording.noise_sd_m = out.noise_.sd_m();
+  recording.noise = std::make_shared<const ColouredNoise>(
+      ColouredNoise{.model = out.noise_.model, .draws = out.noise_.draws});
   const double lowest = kLowestCutOff_hz / recording.rate_hz;
   constexpr double kHighest = 0.45;
   if (!(lowest < kHighest))
     return std::unexpected(
         fmt::format("{:g} frames a second are too few to measure movement", recording.rate_hz));
   const SeriesMatrix in_noise = (recording.x.rowwise() - recording.x.row(0)) / recording.noise_sd_m;
-  const auto choice =
-      math::choose_smoothing(in_noise, recording.seen, {.lowest = lowest, .highest = kHighest});
+  auto unit = out.noise_.model;
+  unit.variance /= recording.noise_sd_m * recording.noise_sd_m;
+  unit.floor /= recording.noise_sd_m * recording.noise_sd_m;
+  const bool white = unit.kind == math::NoiseKind::white;
+  const auto choice = math::choose_smoothing(
+      in_noise, recording.seen, {.lowest = lowest, .highest = kHighest, .noise = white ? nullptr : &unit});
   if (!choice) return std::unexpected(fmt::format("no smoother fits the samples of {}", out.name_));
   recording.choice = *choice;
   out.less_ = smoothed(recording, kLessSmooth);
@@ -123,9 +162,8 @@ MeasuredPath::Stretch MeasuredPath::stretch_of(const data::Region& region) const
   return out;
 }
 
-bool MeasuredPath::below_noise(const Stretch& stretch) const {
-  // About the mean of a second around each sample.
-  const std::int64_t half = std::llround(0.5 * recording_.rate_hz), n = recording_.x.rows();
+double MeasuredPath::excess_about_mean(const Stretch& stretch, double seconds) const {
+  const std::int64_t half = std::llround(0.5 * seconds * recording_.rate_hz), n = recording_.x.rows();
   std::int64_t begin = std::max<std::int64_t>(0, stretch.first - half), end = begin;
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   double squares = 0.0;
@@ -138,8 +176,17 @@ bool MeasuredPath::below_noise(const Stretch& stretch) const {
     squares += (recording_.x.row(i) - mean).squaredNorm();
     count += 3;
   }
-  const double noise = recording_.noise_sd_m * recording_.noise_sd_m;
-  return count > 0 && squares / static_cast<double>(count) - noise <= 0.25 * noise;
+  if (count == 0) return INFINITY;
+  return squares / static_cast<double>(count) - noise_.variance_about_mean(seconds, false);
+}
+
+double MeasuredPath::below_noise(const Stretch& stretch) const {
+  const double noise = noise_.variance_about_mean(kSlow_s, true);
+  const double moves = excess_about_mean(stretch, kSlow_s);
+  if (moves <= 0.25 * noise) return 0.5;
+  // Quick movement, such as tremor, is in the noise's own band.
+  const bool quick = excess_about_mean(stretch, kQuick_s) > 0.5 * moves;
+  return quick && moves <= 2.25 * noise ? 1.5 : 0.0;
 }
 
 // Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits; NaN where
@@ -148,6 +195,9 @@ struct MeasuredPath::Refits {
   std::vector<const PathDefinition*> definitions;
   std::vector<double> less, least, raw, pilot;                 // one for each definition
   std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
+  std::vector<double> let_through;                             // noise of each refit behind the smoother
+  std::vector<double> thinned;                  // of extremes: of what was recorded, mean over refits
+  std::vector<std::vector<double>> by_thinned;  // of extremes: deviations
 
   // Which paths a measure is taken of.
   static bool of_less(Pivot pivot) { return pivot != Pivot::raw_squared; }
@@ -161,6 +211,37 @@ struct MeasuredPath::Refits {
     for (const auto* definition : definitions)
       out.push_back(taken(definition->pivot) ? definition->value(facts) : kNaN);
     return out;
+  }
+  bool any_extreme() const {
+    return std::ranges::any_of(definitions, [](const auto* d) { return d->thinned != nullptr; });
+  }
+  // Thinned extremes of a recording or refit by several copies of its noise.
+  std::vector<double> thinned_values(const PathMatrix& x, std::span<const PathMatrix> copies) const {
+    std::vector<double> out(definitions.size(), 0.0);
+    const auto axes = principal_axes(x);
+    for (const auto& copy : copies) {
+      const auto extremes = thinned_extremes(x, axes, copy);
+      for (std::size_t i = 0; i < out.size(); ++i)
+        if (definitions[i]->thinned != nullptr)
+          out[i] += definitions[i]->thinned(extremes) / static_cast<double>(copies.size());
+    }
+    return out;
+  }
+  // Spread of deviations among the third of refits with most noise over that with least.
+  double doubt(const std::vector<double>& deviations) const {
+    if (deviations.size() != let_through.size() || deviations.size() < 30) return 1.0;
+    std::vector<std::size_t> order(deviations.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [this](std::size_t k) { return let_through[k]; });
+    const std::size_t third = order.size() / 3;
+    const auto spread = [&](std::size_t from) {
+      double sum = 0.0, squares = 0.0, size = 0.0;
+      for (std::size_t k = from; k < from + third; ++k)
+        if (const double d = deviations[order[k]]; std::isfinite(d)) sum += d, squares += d * d, size += 1.0;
+      return size < 2.0 ? kNaN : std::sqrt(std::max(0.0, squares / size - sum * sum / size / size));
+    };
+    const double least = spread(0), most = spread(order.size() - third);
+    return least > 0.0 ? most / least : 1.0;
   }
   bool any(bool (*taken)(Pivot)) const {
     return std::ranges::any_of(definitions, [taken](const auto* d) { return taken(d->pivot); });
@@ -181,7 +262,8 @@ MeasuredPath::Neighbourhood MeasuredPath::around(const Stretch& stretch) const {
                           .seen = {begin + first, begin + end},
                           .rate_hz = recording_.rate_hz,
                           .noise_sd_m = recording_.noise_sd_m,
-                          .choice = recording_.choice}};
+                          .choice = recording_.choice,
+                          .noise = recording_.noise}};
   }
 }
 
@@ -246,11 +328,69 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
       if (Refits::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
     }
   };
+  const bool extremes = refits.any_extreme();
+  refits.thinned.assign(refits.definitions.size(), 0.0);
+  const PathMatrix recorded = less_.middleRows(stretch.first, stretch.count);
+  std::vector<PathMatrix> copies;  // the noise of a batch, and of the one before where it is alone
+  const auto thin = [&](const RefitBatch& batch) {
+    const PathMatrix last = copies.empty() ? PathMatrix() : copies.back();
+    copies.clear();
+    for (std::int64_t k = 0; k < batch.count; ++k)
+      copies.emplace_back(batch.noise.block(first, 3 * k, stretch.count, 3));
+    if (batch.count == 1 && last.size() > 0) copies.push_back(last);
+    const auto most = stretch.count > kManySamples ? std::size_t{1} : copies.size() - 1;
+    for (std::int64_t k = 0; k < batch.count; ++k) {
+      const auto of_recorded = refits.thinned_values(recorded, {&copies[at(k)], 1});
+      std::vector<PathMatrix> others;
+      for (std::size_t j = 1; j < copies.size() && others.size() < most; ++j)
+        others.push_back(copies[(at(k) + j) % copies.size()]);
+      const auto of_refit = refits.thinned_values(batch.less.block(first, 3 * k, stretch.count, 3), others);
+      for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
+        if (refits.definitions[i]->thinned == nullptr) continue;
+        refits.thinned[i] += of_recorded[i] / static_cast<double>(options_.refits);
+        refits.by_thinned[i].push_back(of_refit[i] - refits.pilot[i]);
+      }
+    }
+  };
   for_each_batch(near.recording, pilot,
-                 {.count = options_.refits, .seed = options_.seed, .stream = stream, .least_too = least_too},
+                 {.count = options_.refits,
+                  .seed = options_.seed,
+                  .stream = stream,
+                  .least_too = least_too,
+                  .noise_too = extremes},
                  [&](const RefitBatch& batch) {
-                   for (std::int64_t k = 0; k < batch.count; ++k) visit(batch, k);
+                   for (std::int64_t k = 0; k < batch.count; ++k) {
+                     visit(batch, k);
+                     refits.let_through.push_back(noise_let_through(near.recording, batch.first + k));
+                   }
+                   if (extremes) thin(batch);
                  });
+}
+
+StretchSummary MeasuredPath::summary_of(const Stretch& stretch, const PathFrame& frame,
+                                        bool intervals) const {
+  StretchSummary out{.subject = name_,
+                     .region = {},
+                     .start_s = frame.start_s,
+                     .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / recording_.rate_hz,
+                     .share_not_measured = stretch.share_not_measured,
+                     .longest_gap_s = stretch.longest_gap_s,
+                     .below_noise = intervals ? below_noise(stretch) : 0.0,
+                     .noise_sd_m = recording_.noise_sd_m};
+  out.cut_off_hz = recording_.choice.half_power * recording_.rate_hz;
+  out.order = recording_.choice.order;
+  out.level = options_.level;
+  out.refits = options_.refits;
+  if (noise_.source == NoiseSource::no_model) out.no_noise = "the noise above the movement fits no model";
+  if (noise_.source == NoiseSource::rounding)
+    out.no_noise =
+        fmt::format("the noise is below the rounding of the file ({:.2g} mm)", 1e3 * noise_.rounding_step_m);
+  out.slow_noise_unknown = noise_.slow_is_unknown();
+  out.slow_low_m = noise_.slow_sd_m.low;
+  out.slow_high_m = noise_.slow_sd_m.high;
+  out.filtered_within = noise_.filtered_within_movement();
+  if (noise_.filtered()) out.filtered_hz = noise_.cutoff_hz.middle;
+  return out;
 }
 
 std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region,
@@ -279,6 +419,7 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
   for (const auto& definition : path_definitions())
     if (is_asked(definition, options_, frame)) refits.definitions.push_back(&definition);
   const std::size_t count = refits.definitions.size();
+  refits.by_thinned.resize(count);
   refits.by_less.resize(count), refits.by_least.resize(count), refits.by_raw.resize(count);
   refits.less = refits.values(less, frame, Refits::of_less);
   refits.least.assign(count, kNaN), refits.raw.assign(count, kNaN);
@@ -295,28 +436,26 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
     curves->region = region.name;
   }
 
-  const StretchSummary summary{.subject = name_,
-                               .region = region.name,
-                               .start_s = frame.start_s,
-                               .end_s = frame.start_s + static_cast<double>(stretch.count - 1) / rate,
-                               .share_not_measured = stretch.share_not_measured,
-                               .longest_gap_s = stretch.longest_gap_s,
-                               .below_noise = intervals && below_noise(stretch),
-                               .noise_sd_m = recording_.noise_sd_m,
-                               .cut_off_hz = recording_.choice.half_power * rate,
-                               .order = recording_.choice.order,
-                               .level = options_.level,
-                               .refits = options_.refits};
+  auto summary = summary_of(stretch, frame, intervals);
+  summary.region = region.name;
   std::vector<data::Measure> out;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& definition = *refits.definitions[i];
-    const bool raw_one = definition.pivot == Pivot::raw_squared;
-    out.push_back(state_measure(
-        definition, summary, frame,
-        {.estimate = raw_one ? refits.raw[i] : refits.less[i],
-         .estimate_of_interval = definition.pivot == Pivot::of_derivative ? refits.least[i] : kNaN,
-         .deviations = raw_one ? refits.by_raw[i] : refits.by_less[i],
-         .deviations_of_interval = refits.by_least[i]}));
+    const bool raw_one = definition.pivot == Pivot::raw_squared,
+               thinned = intervals && definition.thinned != nullptr;
+    const auto& deviations = raw_one ? refits.by_raw[i] : thinned ? refits.by_thinned[i] : refits.by_less[i];
+    const bool least = definition.pivot == Pivot::of_derivative;
+    auto measure = state_measure(definition, summary, frame,
+                                 {.estimate = raw_one   ? refits.raw[i]
+                                              : thinned ? refits.thinned[i]
+                                                        : refits.less[i],
+                                  .estimate_of_interval = least ? refits.least[i] : kNaN,
+                                  .deviations = deviations,
+                                  .deviations_of_interval = refits.by_least[i],
+                                  .thinned = thinned,
+                                  .doubt = refits.doubt(least ? refits.by_least[i] : deviations)});
+    if (thinned && std::isfinite(measure.uncorrected)) measure.uncorrected = refits.less[i];
+    out.push_back(std::move(measure));
   }
   return out;
 }

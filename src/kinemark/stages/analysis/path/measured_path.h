@@ -12,8 +12,10 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/analysis/path/path_facts.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/stages/analysis/path/path_noise.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
 #include "kinemark/stages/analysis/path/refits.h"
+#include "kinemark/stages/analysis/path/stated_measure.h"
 
 namespace kinemark::analysis {
 
@@ -34,8 +36,8 @@ class MeasuredPath {
   /// What repeats in a stretch, and when. Fails where the stretch is too short.
   [[nodiscard]] std::expected<PathRhythm, std::string> rhythm(const data::Region& region) const;
 
-  [[nodiscard]] const std::string& name() const { return name_; }        ///< of the marker
-  [[nodiscard]] const std::string& warning() const { return warning_; }  ///< on the noise; may be empty
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< of the marker
+  [[nodiscard]] const PathNoise& noise() const { return noise_; }  ///< of its samples
 
  private:
   struct Stretch {
@@ -57,9 +59,14 @@ class MeasuredPath {
   [[nodiscard]] Neighbourhood around(const Stretch& stretch) const;
   void refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
              const PathFrame& frame, Refits& refits, CurveSpread* spread) const;
-  [[nodiscard]] bool below_noise(const Stretch& stretch) const;
+  // Times the noise by which the stretch moves about its slow trend at most; 0: by more.
+  [[nodiscard]] double below_noise(const Stretch& stretch) const;
+  [[nodiscard]] double excess_about_mean(const Stretch& stretch, double seconds) const;
+  [[nodiscard]] StretchSummary summary_of(const Stretch& stretch, const PathFrame& frame,
+                                          bool intervals) const;
 
-  std::string name_, warning_;
+  std::string name_;
+  PathNoise noise_;
   std::int64_t marker_ = 0;
   double first_s_ = 0.0;           // time of the first measured sample
   std::int64_t first_number_ = 0;  // of its frame, in the file

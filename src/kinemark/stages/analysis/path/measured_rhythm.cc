@@ -223,7 +223,7 @@ class Statement {
       if (intervals()) {
         std::vector<double> off;
         for (std::size_t k = 0; k < at(options_.refits); ++k) off.push_back(numbers_.length_off(span, k));
-        give_interval(pivot(measure.value, off, options_.level), measure);
+        give_interval(wide_pivot(measure.value, off, options_.level), measure);
       }
       out_.measures.push_back(std::move(measure));
     }
@@ -248,7 +248,7 @@ class Statement {
         const double value = variation_of(again);
         off.push_back(value * value - base * base);
       }
-      const auto pivoted = pivot_of_square(measure.value, off, options_.level);
+      const auto pivoted = wide_pivot_of_square(measure.value, off, options_.level);
       give_interval(pivoted, measure);
       if (pivoted.low <= 0.0) {
         measure.interval.kind = data::IntervalKind::at_most;
@@ -320,8 +320,9 @@ std::expected<PathRhythm, std::string> MeasuredPath::rhythm(const data::Region& 
                  .region = region.name,
                  .start_s = start_s,
                  .end_s = start_s + static_cast<double>(stretch.count - 1) / rate};
-  if (below_noise(stretch)) {
-    out.verdict = "moves by less than half the noise: no events";
+  if (const double times = below_noise(stretch); times > 0.0) {
+    out.verdict = fmt::format("moves by less than {} the noise: no events",
+                              times < 1.0 ? "half" : fmt::format("{:g} times", times));
     return out;
   }
   // The same noise as behind the measures of the stretch.

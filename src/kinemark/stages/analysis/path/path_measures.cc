@@ -50,7 +50,7 @@ PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t mark
     out.warnings.push_back(path.error());
     return out;
   }
-  if (!path->warning().empty()) out.warnings.push_back(path->warning());
+  out.noises.push_back(path->noise());
   const std::vector<data::Region> whole{
       {.first_frame = markers.time.number(0), .last_frame = markers.time.number(markers.frames() - 1)}};
   const bool paths =
@@ -119,6 +119,8 @@ Result<PathMeasures> measure_paths(const data::Trajectories& markers, const Path
     for (std::int64_t m = begin; m < end; ++m) each[at(m)] = measure_marker(markers, m, options);
   });
   PathMeasures out;
+  for (auto& one : each) std::ranges::move(one.noises, std::back_inserter(out.noises));
+  out.warnings = noise_sentences(out.noises);
   for (auto& one : each) {
     std::ranges::move(one.measures, std::back_inserter(out.measures));
     std::ranges::move(one.curves, std::back_inserter(out.curves));

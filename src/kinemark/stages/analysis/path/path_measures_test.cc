@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/low_pass.h"
 #include "kinemark/stages/analysis/path/testing/known_path.h"
 
 namespace kinemark::analysis {
@@ -133,6 +134,82 @@ TEST(MeasurePaths, NoiseThatDisagreesIsReported) {
   ASSERT_EQ(not_so->warnings.size(), 1u);
   EXPECT_NE(not_so->warnings[0].find("not the 0.5 mm that were stated"), std::string::npos)
       << not_so->warnings[0];
+}
+
+// Four seconds of cycles with noise of a model, through its filter where it has one.
+data::Trajectories ellipses_with(const math::NoiseModel& model, std::uint64_t seed, bool through = true) {
+  SeriesMatrix x =
+      testing::sampled(400, 100.0, testing::ellipse) + noise_before_filter(model, 400, 3, seed, 4);
+  if (model.order > 0 && through) LowPassFilter(model, 400).apply(x);
+  for (auto& value : x.reshaped()) value = 1e-3 * static_cast<double>(static_cast<float>(1e3 * value));
+  return testing::recording_of(x, 100.0, 0.0, 1);
+}
+const math::NoiseModel kQuintic{.kind = math::NoiseKind::filtered,
+                                .form = math::LowPass::spline,
+                                .order = 3,
+                                .variance = 2.5e-7,
+                                .half = 0.08};
+
+TEST(MeasurePaths, OfAFilteredRecordingKnowThatItWasFiltered) {
+  const auto found =
+      measure_paths(ellipses_with(kQuintic, 2), {.measures = {"path_length", "peak_acceleration", "tremor"}});
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->noises.size(), 1u);
+  EXPECT_TRUE(found->noises[0].filtered());
+  ASSERT_FALSE(found->warnings.empty());
+  EXPECT_NE(found->warnings[0].find("P was low-passed at about"), std::string::npos) << found->warnings[0];
+  // The perimeter by a fine sum; what the eye takes for noise, the rounding, would give a thousandth of this
+  // width.
+  double perimeter = 0.0;
+  for (int i = 0; i < 100000; ++i)
+    perimeter += (testing::ellipse((i + 1) * 1e-5) - testing::ellipse(i * 1e-5)).norm();
+  const auto& path = find(*found, "path_length");
+  const double truth = perimeter * (path.end_s - path.start_s);
+  EXPECT_LT(path.interval.low, truth);
+  EXPECT_GT(path.interval.high, truth);
+  EXPECT_GT(path.interval.high - path.interval.low, 2e-4);
+  const auto& tremor = find(*found, "tremor");
+  EXPECT_EQ(tremor.interval.kind, IntervalKind::at_least);
+  EXPECT_NE(tremor.remark.find("low-passed at"), std::string::npos);
+}
+
+TEST(MeasurePaths, SamplesFromBeforeAFilterAreWhatIsMeasured) {
+  const auto raw = ellipses_with(kQuintic, 3, false);
+  auto both = ellipses_with(kQuintic, 3);
+  both.filters.assign(1, {.method = "kalman", .order = 3, .cutoff_hz = 7.0, .noise_sd_m = 5e-4});
+  both.unfiltered_in_world = raw.x_in_world;
+  const PathMeasureOptions options{.refits = 39};
+  const auto before = measure_paths(raw, options), after = measure_paths(both, options);
+  ASSERT_TRUE(before && after);
+  ASSERT_EQ(before->measures.size(), after->measures.size());
+  for (std::size_t i = 0; i < before->measures.size(); ++i)
+    if (std::isfinite(before->measures[i].value)) {
+      EXPECT_EQ(before->measures[i].value, after->measures[i].value) << before->measures[i].id;
+    }
+  // The filter alone is taken at its word.
+  both.unfiltered_in_world = {};
+  const auto stated = measure_paths(both, options);
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(stated->noises[0].source, NoiseSource::filter);
+  EXPECT_NEAR(stated->noises[0].cutoff_hz.middle, 7.0, 0.4);
+}
+
+TEST(MeasurePaths, SlowNoiseTakesTheIntervalsOfWhatRestsOnItAndNoOthers) {
+  const math::NoiseModel slow{.kind = math::NoiseKind::correlated, .variance = 1e-6, .correlation = 0.99};
+  const PathMeasureOptions options{
+      .measures = {"extent_long", "largest_distance", "plane_sd", "path_length", "peak_speed"}};
+  const auto found = measure_paths(ellipses_with(slow, 3), options);
+  ASSERT_TRUE(found);
+  for (const char* id : {"extent_long", "largest_distance", "plane_sd"}) {
+    EXPECT_EQ(find(*found, id).interval.kind, IntervalKind::none) << id;
+    EXPECT_NE(find(*found, id).remark.find("cannot be told from movement"), std::string::npos) << id;
+  }
+  EXPECT_EQ(find(*found, "path_length").interval.kind, IntervalKind::two_sided);
+  EXPECT_EQ(find(*found, "peak_speed").interval.kind, IntervalKind::two_sided);
+  const auto white = measure_paths(ellipses_with({.variance = 1e-6}, 3), options);
+  ASSERT_TRUE(white);
+  EXPECT_EQ(find(*white, "extent_long").interval.kind, IntervalKind::two_sided);
+  EXPECT_TRUE(white->warnings.empty());
 }
 
 TEST(MeasurePaths, WhatCannotBeMeasuredIsReportedAndTheOthersAre) {

@@ -39,8 +39,9 @@ Pivoted pivot(double estimate, std::span<const double> deviations, double level)
   return out;
 }
 
-Pivoted pivot_of_square(double estimate, std::span<const double> deviations, double level) {
-  Pivoted out = pivot(estimate * estimate, deviations, level);
+namespace {
+
+Pivoted as_root(Pivoted out) {
   const auto root = [](double square) {
     return std::isnan(square) ? kNaN : std::sqrt(std::max(0.0, square));
   };
@@ -49,6 +50,24 @@ Pivoted pivot_of_square(double estimate, std::span<const double> deviations, dou
   out.high = root(out.high);
   out.sd = out.value > 0.0 ? 0.5 * out.sd / out.value : kNaN;
   return out;
+}
+
+}  // namespace
+
+Pivoted pivot_of_square(double estimate, std::span<const double> deviations, double level) {
+  return as_root(pivot(estimate * estimate, deviations, level));
+}
+
+Pivoted wide_pivot(double estimate, std::span<const double> deviations, double level) {
+  Pivoted out = pivot(estimate, deviations, level);
+  const double below = out.high - estimate, above = out.low - estimate;  // the quantiles with the other sign
+  out.low = std::min(out.low, estimate - below);
+  out.high = std::max(out.high, estimate - above);
+  return out;
+}
+
+Pivoted wide_pivot_of_square(double estimate, std::span<const double> deviations, double level) {
+  return as_root(wide_pivot(estimate * estimate, deviations, level));
 }
 
 }  // namespace kinemark::analysis

@@ -24,6 +24,13 @@ struct Pivoted {
 ///                    is left out, and nothing is said where more than a tenth are
 [[nodiscard]] Pivoted pivot(double estimate, std::span<const double> deviations, double level);
 
+/// The pivot with the wider of its ends and those of the percentile interval [estimate + lower quantile,
+/// estimate + upper quantile]: where deviations are lopsided, as those of an instant that jumps, the pivot
+/// alone fails.
+[[nodiscard]] Pivoted wide_pivot(double estimate, std::span<const double> deviations, double level);
+/// pivot_of_square() likewise.
+[[nodiscard]] Pivoted wide_pivot_of_square(double estimate, std::span<const double> deviations, double level);
+
 /// The same for a measure that is a root of a mean of squares, on the squares, where noise adds a constant.
 /// @param deviations  differences of squares
 /// @return            value and ends as roots, those of negative squares as 0; sd to first order, NaN at 0

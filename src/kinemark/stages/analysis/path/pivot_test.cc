@@ -56,5 +56,33 @@ TEST(PivotOfSquare, TakesAConstantOffTheSquares) {
   EXPECT_TRUE(std::isnan(pivot_of_square(5.0, more, 0.95).sd));
 }
 
+TEST(WidePivot, HoldsThePivotAndThePercentileInterval) {
+  // Lopsided: from -1 to 9.
+  std::vector<double> off;
+  for (int i = 0; i <= 100; ++i) off.push_back(-1.0 + 0.1 * i);
+  const auto basic = pivot(20.0, off, 0.9), wide = wide_pivot(20.0, off, 0.9);
+  EXPECT_LT(basic.high, 21.0);
+  EXPECT_EQ(wide.low, basic.low);
+  EXPECT_NEAR(wide.high, 20.0 + (20.0 - basic.low), 1e-9);  // the percentile's upper end
+  EXPECT_EQ(wide.value, basic.value);
+  EXPECT_EQ(wide.sd, basic.sd);
+}
+
+TEST(WidePivot, OfLevelDeviationsIsThePivot) {
+  std::vector<double> off;
+  for (int i = -50; i <= 50; ++i) off.push_back(0.1 * i);
+  const auto basic = pivot(3.0, off, 0.95), wide = wide_pivot(3.0, off, 0.95);
+  EXPECT_NEAR(basic.low, wide.low, 1e-12);
+  EXPECT_NEAR(basic.high, wide.high, 1e-12);
+  EXPECT_TRUE(std::isnan(wide_pivot(kNaN, {}, 0.95).low));
+}
+
+TEST(WidePivotOfSquare, HasRootsForEnds) {
+  const std::vector<double> off{1.0, 2.0, 3.0, 4.0, 5.0};
+  const auto wide = wide_pivot_of_square(2.0, off, 0.6);
+  EXPECT_EQ(wide.low, 0.0);
+  EXPECT_GT(wide.high, 2.0);
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

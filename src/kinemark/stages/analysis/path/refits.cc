@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/math/normals.h"
+#include "kinemark/stages/analysis/path/low_pass.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -25,12 +26,34 @@ constexpr std::int64_t kNoiseRows = 256;         // whose noise is made at once
 constexpr double kLocal_s = 0.15;                // farthest neighbour that tells local energy
 constexpr std::uint64_t kPilotStream = 1ULL << 62;
 
-// White noise of a deviation, on the samples that are seen.
+constexpr double kFlatBelow = 6.0;  // energy over that of noise, below which a pilot is flatter
+
+// Noise on the samples that are seen: white of a deviation, or of a model where there are some.
 struct Noise {
   const std::vector<bool>* seen;
   double sd;
   std::uint64_t seed, stream;
+  const ColouredNoise* coloured = nullptr;
+
+  [[nodiscard]] const math::NoiseModel* model(std::int64_t number) const {
+    return coloured == nullptr ? nullptr : &coloured->draws[at(number % std::ssize(coloured->draws))];
+  }
+  [[nodiscard]] std::uint64_t stream_of(std::int64_t number) const {
+    return mix64(stream) ^ static_cast<std::uint64_t>(number);
+  }
 };
+
+Noise noise_of(const Recording& recording, std::uint64_t seed, std::uint64_t stream) {
+  return {.seen = &recording.seen,
+          .sd = recording.noise_sd_m,
+          .seed = seed,
+          .stream = stream,
+          .coloured = recording.noise.get()};
+}
+
+bool was_filtered(const Recording& recording) {
+  return recording.noise != nullptr && recording.noise->model.kind == math::NoiseKind::filtered;
+}
 
 math::DifferenceSmoother smoother_of(const Recording& recording, double factor) {
   math::DifferenceSmoother smoother(recording.seen, recording.choice.order);
@@ -45,10 +68,31 @@ std::int64_t batch_of(const SeriesMatrix& path) {
   return std::clamp<std::int64_t>(kBatchSamples / std::max<std::int64_t>(1, path.rows()), 1, most);
 }
 
+// Noise of a model added, and the filter applied to what stands there where the model has one; `noise`, where
+// not null, gets what was added after the filter, with as many columns.
+void add_coloured(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const Noise& noise,
+                  std::int64_t number, SeriesMatrix* noise_alone) {
+  const auto& model = *noise.model(number);
+  const auto stream = noise.stream_of(number);
+  SeriesMatrix add = noise_before_filter(model, to.rows(), axes, noise.seed, stream);
+  if (model.order > 0) {
+    const LowPassFilter filter(model, to.rows());
+    SeriesMatrix path = to.middleCols(column, axes);
+    filter.apply(path);
+    filter.apply(add);
+    to.middleCols(column, axes) = path;
+  }
+  add_floor(model, add, 0, axes, noise.seed, stream);
+  for (std::int64_t i = 0; i < to.rows(); ++i)
+    if (!(*noise.seen)[at(i)]) add.row(i).setZero();
+  to.middleCols(column, axes) += add;
+  if (noise_alone != nullptr) noise_alone->middleCols(column, axes) = add;
+}
+
 // Noise of one recording added to as many columns from `column` on as `axes` says.
 void add_noise(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const Noise& noise,
                std::int64_t number) {
-  const std::uint64_t stream = mix64(noise.stream) ^ static_cast<std::uint64_t>(number);
+  const std::uint64_t stream = noise.stream_of(number);
   std::vector<double> normals;
   for (std::int64_t first = 0; first < to.rows(); first += kNoiseRows) {
     const std::int64_t rows = std::min(kNoiseRows, to.rows() - first);
@@ -64,11 +108,28 @@ void add_noise(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const N
 }
 
 // Recordings first .. first + count side by side, as many columns each as the path has.
-SeriesMatrix simulated(const SeriesMatrix& path, const Noise& noise, std::int64_t first, std::int64_t count) {
+// Noise that is white at the file goes the shorter way, with the same numbers.
+SeriesMatrix simulated(const SeriesMatrix& path, const Noise& noise, std::int64_t first, std::int64_t count,
+                       SeriesMatrix* noise_alone = nullptr) {
   const auto axes = path.cols();
   SeriesMatrix out = path.replicate(1, count);
-  for (std::int64_t k = 0; k < count; ++k) add_noise(out, axes * k, axes, noise, first + k);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const auto* model = noise.model(first + k);
+    Noise white = noise;
+    if (model != nullptr) white.sd = std::sqrt(model->variance);
+    if (noise_alone == nullptr && (model == nullptr || model->kind == math::NoiseKind::white))
+      add_noise(out, axes * k, axes, white, first + k);
+    else
+      add_coloured(out, axes * k, axes, noise, first + k, noise_alone);
+  }
   return out;
+}
+
+// What is left of increments' amplitude where `energy` is seen and `noise` is expected in it.
+double kept_of(double energy, double noise, bool flatter) {
+  if (!(energy > 0.0)) return 0.0;
+  const double times = flatter && energy < kFlatBelow * noise ? 2.0 : 1.0;
+  return std::sqrt(std::clamp(1.0 - times * noise / energy, 0.0, 1.0));
 }
 
 // Weighted sums of neighbours, beyond the ends nothing.
@@ -99,6 +160,25 @@ SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen,
   return out;
 }
 
+SeriesMatrix simulated_recording(const Recording& recording, const SeriesMatrix& path, std::uint64_t seed,
+                                 std::uint64_t stream, std::int64_t number) {
+  return simulated(path, noise_of(recording, seed, stream), number, 1);
+}
+
+double noise_let_through(const Recording& recording, std::int64_t number) {
+  const auto& draws = recording.noise->draws;
+  const auto& model = draws[at(number % std::ssize(draws))];
+  const double half = std::min(kHighestCutOff, kLessSmooth * recording.choice.half_power);
+  constexpr int kSteps = 128;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {  // as many below the cut-off as above
+    const double u = (i + 0.5) / kSteps, f = 0.5 * u * u;
+    const double gain = math::gain_of(math::LowPass::spline, recording.choice.order, half, f);
+    sum += model.power(f) * gain * gain * 2.0 * u / kSteps;
+  }
+  return sum;
+}
+
 SeriesMatrix smoothed(const Recording& recording, double factor) {
   SeriesMatrix out = recording.x;
   smoother_of(recording, factor).smooth(out);
@@ -124,15 +204,17 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   // the principal components of the stretch.
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(n - 1);
   Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(axes);
-  const Noise white{
-      .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = seed, .stream = stream ^ kPilotStream};
+  const Noise added = noise_of(recording, seed, stream ^ kPilotStream);
   const std::int64_t batch = batch_of(fit);
   for (std::int64_t begin = 0; begin < kPilotRefits; begin += batch) {
     const std::int64_t in_batch = std::min(batch, kPilotRefits - begin);
-    SeriesMatrix deviations = simulated(fit, white, begin, in_batch);
+    // Of a path that is filtered or coloured the noise alone; else what the smoother does to the path, too.
+    SeriesMatrix deviations =
+        simulated(recording.noise ? SeriesMatrix(SeriesMatrix::Zero(n, axes)) : fit, added, begin, in_batch);
     smoother.smooth(deviations);
-    for (std::int64_t i = 0; i < n; ++i)
-      for (std::int64_t k = 0; k < in_batch; ++k) deviations.row(i).segment(axes * k, axes) -= fit.row(i);
+    if (!recording.noise)
+      for (std::int64_t i = 0; i < n; ++i)
+        for (std::int64_t k = 0; k < in_batch; ++k) deviations.row(i).segment(axes * k, axes) -= fit.row(i);
     for (std::int64_t k = 0; k < in_batch; ++k) {
       const SeriesMatrix part = deviations.block(first, axes * k, count, axes) * solver.eigenvectors();
       const SeriesMatrix level = part.rowwise() - part.colwise().mean().eval();
@@ -147,8 +229,8 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   const Eigen::VectorXd local = local_sum(energy, window), local_noise = local_sum(noise, window);
   SeriesMatrix pilot = fit;
   for (std::int64_t i = 0; i + 1 < n; ++i) {
-    const double kept = local[i] > 0.0 ? std::clamp(1.0 - local_noise[i] / local[i], 0.0, 1.0) : 0.0;
-    pilot.row(i + 1) = pilot.row(i) + std::sqrt(kept) * increments.row(i);
+    const double kept = kept_of(local[i], local_noise[i], recording.noise != nullptr);
+    pilot.row(i + 1) = pilot.row(i) + kept * increments.row(i);
   }
   pilot.rowwise() += mean - pilot.middleRows(first, count).colwise().mean();
 
@@ -161,7 +243,11 @@ SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int
   }
   const Eigen::MatrixXd shrink =
       solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
-  return ((pilot.rowwise() - mean) * shrink).rowwise() + mean;
+  pilot = ((pilot.rowwise() - mean) * shrink).rowwise() + mean;
+  if (!was_filtered(recording)) return pilot;
+  SeriesMatrix again = pilot;
+  LowPassFilter(recording.noise->model, n).apply(again);
+  return 2.0 * pilot - again;
 }
 
 void for_each_batch(const Recording& recording, const SeriesMatrix& path, const RefitNumbers& numbers,
@@ -169,15 +255,28 @@ void for_each_batch(const Recording& recording, const SeriesMatrix& path, const 
   const auto less = smoother_of(recording, kLessSmooth);
   std::optional<math::DifferenceSmoother> least;
   if (numbers.least_too) least.emplace(smoother_of(recording, kLeastSmooth));
-  const Noise noise{
-      .seen = &recording.seen, .sd = recording.noise_sd_m, .seed = numbers.seed, .stream = numbers.stream};
+  const Noise noise = noise_of(recording, numbers.seed, numbers.stream);
   const std::int64_t batch = batch_of(path);
+  // Without a filter the noise is what differs from the smoothed path.
+  const bool filtered =
+      std::ranges::any_of(recording.noise ? recording.noise->draws : std::vector<math::NoiseModel>{},
+                          [](const auto& draw) { return draw.order > 0; });
+  SeriesMatrix smooth_path = numbers.noise_too && !filtered ? path : SeriesMatrix{};
+  if (smooth_path.size() > 0) less.smooth(smooth_path);
   RefitBatch out;
   for (out.first = 0; out.first < numbers.count; out.first += batch) {
     out.count = std::min(batch, numbers.count - out.first);
-    out.simulated = simulated(path, noise, out.first, out.count);
+    const bool alone = numbers.noise_too && filtered;
+    if (alone) out.noise.resize(path.rows(), path.cols() * out.count);
+    out.simulated = simulated(path, noise, out.first, out.count, alone ? &out.noise : nullptr);
     out.less = out.simulated;
     less.smooth(out.less);
+    if (alone) less.smooth(out.noise);
+    if (smooth_path.size() > 0) {
+      out.noise = out.less;
+      for (std::int64_t k = 0; k < out.count; ++k)
+        out.noise.middleCols(path.cols() * k, path.cols()) -= smooth_path;
+    }
     if (least) {
       out.least = out.simulated;
       least->smooth(out.least);

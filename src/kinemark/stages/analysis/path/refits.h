@@ -6,9 +6,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/math/noise_model.h"
 #include "kinemark/math/smoothing_choice.h"
 #include "kinemark/stages/analysis/path/path_samples.h"
 
@@ -20,13 +22,21 @@ inline constexpr double kLessSmooth = 1.5;
 /// For intervals of third derivatives.
 inline constexpr double kLeastSmooth = 2.5;
 
+/// Noise that is not simply white: the most probable model, and models as they may be, one for each refit in
+/// turn, at least one.
+struct ColouredNoise {
+  math::NoiseModel model;               ///< most probable
+  std::vector<math::NoiseModel> draws;  ///< in any order
+};
+
 /// One recording of a point or of another series and how it is smoothed.
 struct Recording {
   SeriesMatrix x;  ///< n x 3, m (a coordinate: n x 1, its unit); missing samples hold any finite number
-  std::vector<bool> seen;        ///< n
-  double rate_hz = 0.0;          ///< above 0
-  double noise_sd_m = 0.0;       ///< per axis, in the unit of x, above 0
-  math::SmoothingChoice choice;  ///< of least expected error
+  std::vector<bool> seen;                      ///< n
+  double rate_hz = 0.0;                        ///< above 0
+  double noise_sd_m = 0.0;                     ///< per axis, in the unit of x, above 0
+  math::SmoothingChoice choice;                ///< of least expected error
+  std::shared_ptr<const ColouredNoise> noise;  ///< null: white, of noise_sd_m
 };
 
 /// The recording smoothed with the cut-off of least error times `factor`, at most 0.45 cycles per sample.
@@ -34,7 +44,9 @@ struct Recording {
 
 /// The smoothed path without the energy that noise is expected to have left in it: increments shrunk locally,
 /// then principal components, so that it rests where the point rests and lies in a plane where the path does.
-/// In movement it is the smoothed path.
+/// In movement it is the smoothed path. With coloured noise it is flat where less than six times the energy
+/// of noise is seen, and of a recording that was filtered it has back what one more pass of the filter takes
+/// away.
 /// @param first, count  the stretch that is measured; its mean and components are kept and shrunk
 [[nodiscard]] SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count,
                                       std::uint64_t seed, std::uint64_t stream);
@@ -45,6 +57,7 @@ struct RefitNumbers {
   std::uint64_t seed = 0;    ///< of their noise
   std::uint64_t stream = 0;  ///< of it
   bool least_too = true;     ///< smooth them with kLeastSmooth as well
+  bool noise_too = false;    ///< tell what of the smoothed is noise
 };
 
 /// Some of them, side by side: columns axes * k and on are those of number first + k.
@@ -54,10 +67,12 @@ struct RefitBatch {
   SeriesMatrix simulated;  ///< n x (axes * count): the path with noise on its seen samples
   SeriesMatrix less;       ///< smoothed with kLessSmooth
   SeriesMatrix least;      ///< with kLeastSmooth; empty where not asked for
+  SeriesMatrix noise;      ///< what of `less` is noise; empty where not asked for
 };
 
-/// Simulated recordings of `path`, a batch at a time. Noise is white, of the recording's SD, on seen samples;
-/// that of number k comes from stream (stream, k) of the seed, whatever else is computed.
+/// Simulated recordings of `path`, a batch at a time. Noise is white, of the recording's SD, or coloured as
+/// the recording has it, on seen samples; a path that was filtered is filtered again with the noise. That of
+/// number k comes from stream (stream, k) of the seed, whatever else is computed.
 void for_each_batch(const Recording& recording, const SeriesMatrix& path, const RefitNumbers& numbers,
                     const std::function<void(const RefitBatch&)>& visit);
 
@@ -66,6 +81,13 @@ void for_each_batch(const Recording& recording, const SeriesMatrix& path, const 
 void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::int64_t refits,
                     std::uint64_t seed, std::uint64_t stream,
                     const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit);
+
+/// A recording of `path` as number k of for_each_batch() has it, unsmoothed.
+[[nodiscard]] SeriesMatrix simulated_recording(const Recording& recording, const SeriesMatrix& path,
+                                               std::uint64_t seed, std::uint64_t stream, std::int64_t number);
+
+/// Noise of model number k that the smoother at kLessSmooth lets through: variance of a smoothed sample, m^2.
+[[nodiscard]] double noise_let_through(const Recording& recording, std::int64_t number);
 
 /// White noise of `sd` added to seen samples, from stream (stream, number) of the seed.
 [[nodiscard]] SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd,

@@ -17,6 +17,8 @@ namespace {
 constexpr double kRestCounts =
     0.05;                         // share of a stretch at rest from which a path's length is an upper bound
 constexpr double kTooWide = 0.5;  // half-width over value
+constexpr double kMostlyDoubt = 2.0;  // spread among refits with most noise over that with least
+constexpr double kBand_hz = 12.0;     // up to which tremor is looked for
 
 void remark(data::Measure& measure, std::string_view sentence) {
   if (!measure.remark.empty()) measure.remark += "; ";
@@ -51,19 +53,33 @@ double at_least_none(const PathDefinition& definition, double value) {
   return is_size(definition) ? std::max(0.0, value) : value;
 }
 
+// Peaks and what needs derivatives beyond the first: what a filter takes first.
+bool is_peak(const PathDefinition& definition) {
+  return definition.weakness == Weakness::extreme_of_constant || definition.pivot == Pivot::of_derivative;
+}
+
 // Why there is no interval, or an empty text.
 std::string no_interval(const PathDefinition& definition, const StretchSummary& stretch) {
   if (stretch.refits == 0) return "no interval was asked for";
   if (stretch.longest_gap_s > kLongestGap_s)
     return fmt::format("no interval: what happened in a gap of {:.2g} s is not known", stretch.longest_gap_s);
-  if (stretch.below_noise && definition.pivot != Pivot::raw_squared)
-    return fmt::format("no interval: the movement about its slow trend is below half the noise of {:.2g} mm",
+  if (!stretch.no_noise.empty()) return "no interval: " + stretch.no_noise;
+  if (stretch.below_noise > 0.0 && definition.pivot != Pivot::raw_squared)
+    return fmt::format("no interval: the movement about its slow trend is below {} the noise of {:.2g} mm",
+                       stretch.below_noise < 1.0 ? "half" : fmt::format("{:g} times", stretch.below_noise),
                        1e3 * stretch.noise_sd_m);
+  if (definition.needs_slow_noise && stretch.slow_noise_unknown)
+    return fmt::format(
+        "no interval: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm); "
+        "state it",
+        1e3 * stretch.slow_low_m, 1e3 * stretch.slow_high_m);
+  if (stretch.filtered_within && is_peak(definition))
+    return "no interval: low-passed within the movement's band, how much that took away is not in the data";
   return {};
 }
 
 void put_interval(data::Measure& measure, const PathDefinition& definition, const Pivoted& pivoted,
-                  const PathFrame& frame) {
+                  const PathFrame& frame, const StretchSummary& stretch) {
   auto& interval = measure.interval;
   interval.kind = data::IntervalKind::two_sided;
   interval.low = at_least_none(definition, pivoted.low);
@@ -78,10 +94,19 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
                                       100.0 * frame.share_at_rest));
   else if (definition.weakness == Weakness::extreme_of_constant && frame.steady)
     only_at_most(measure, "the speed hardly changes, so that its largest value is the noise's");
+  else if (definition.weakness == Weakness::upper_if_discrete && frame.discrete)
+    only_at_most(measure, "before and behind a movement noise can only lengthen it");
   else if (definition.weakness == Weakness::upper_alone)
     only_at_most(measure, "noise can only lengthen it");
   else if (definition.weakness == Weakness::upper_alone_if_discrete && frame.discrete)
     only_at_most(measure, "a start has jerk that no filter passes");
+  if (definition.pivot == Pivot::raw_squared && stretch.filtered_hz < kBand_hz) {
+    interval.kind = data::IntervalKind::at_least;
+    interval.low = std::isnan(interval.low) ? 0.0 : interval.low;
+    interval.high = kNaN;
+    measure.remark.clear();
+    remark(measure, fmt::format("low-passed at {:.2g} Hz: what it had above is lost", stretch.filtered_hz));
+  }
   if (interval.kind == data::IntervalKind::two_sided && is_size(definition) &&
       0.5 * (interval.high - interval.low) > kTooWide * std::abs(measure.value))
     remark(measure, "the interval is too wide to support a claim");
@@ -101,8 +126,10 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   out.method = method_of(definition, stretch);
   out.interval.level = stretch.level;
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
-  const auto pivoted = square ? pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
-                              : pivot(numbers.estimate, numbers.deviations, stretch.level);
+  auto pivoted = square ? wide_pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
+                        : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
+  // Thinning leaves next to no bias: what the refits find of it is as uncertain as it is large.
+  if (numbers.thinned) pivoted.value = 0.5 * (pivoted.value + numbers.estimate);
   const std::string why_none = no_interval(definition, stretch);
   if (definition.weakness == Weakness::needs_change && frame.steady) {
     remark(out, "the speed hardly changes");
@@ -128,14 +155,16 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   }
   Pivoted ends = pivoted;
   if (definition.pivot == Pivot::of_derivative)
-    ends = pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
+    ends = wide_pivot(numbers.estimate_of_interval, numbers.deviations_of_interval, stretch.level);
   out.sd = std::isfinite(ends.low) ? ends.sd : pivoted.sd;  // of the interval that stands beside it
   if (definition.pivot == Pivot::of_derivative && !(ends.low <= out.value && out.value <= ends.high)) {
     out.value = at_least_none(definition, ends.value);  // as the interval has it
     out.uncorrected = numbers.estimate_of_interval;
     remark(out, "depends on how strongly the path is smoothed: value and interval of the weaker smoothing");
   }
-  if (std::isfinite(ends.low)) put_interval(out, definition, ends, frame);
+  if (!std::isfinite(ends.low)) return out;
+  put_interval(out, definition, ends, frame, stretch);
+  if (numbers.doubt > kMostlyDoubt) remark(out, "most of the interval's width is doubt about the noise");
   return out;
 }
 

@@ -22,12 +22,19 @@ struct StretchSummary {
   double end_s = kNaN;              ///< last sample
   double share_not_measured = 0.0;  ///< of its samples
   double longest_gap_s = 0.0;       ///< in it
-  bool below_noise = false;         ///< it moves about its slow trend by half the noise at most
-  double noise_sd_m = 0.0;          ///< per axis
-  double cut_off_hz = kNaN;         ///< of least expected error
-  int order = 0;                    ///< of the smoother
-  double level = 0.95;              ///< of the intervals
-  std::int64_t refits = 0;          ///< behind them; 0: no intervals
+  double below_noise = 0.0;  ///< times the noise by which it moves about its slow trend at most; 0: by more
+  double noise_sd_m = 0.0;   ///< per axis
+  std::string no_noise;      ///< why no interval can rest on the noise; empty: it can
+  bool slow_noise_unknown =
+      false;  ///< noise below 2 Hz cannot be told from movement: from `slow_low_m` to `slow_high_m`
+  double slow_low_m = kNaN;      ///< of that noise
+  double slow_high_m = kNaN;     ///< of that noise
+  bool filtered_within = false;  ///< low-passed within the movement's band
+  double filtered_hz = kNaN;     ///< -3 dB of the filter that it went through; NaN: none
+  double cut_off_hz = kNaN;      ///< of least expected error
+  int order = 0;                 ///< of the smoother
+  double level = 0.95;           ///< of the intervals
+  std::int64_t refits = 0;       ///< behind them; 0: no intervals
 };
 
 /// Numbers of one measure. Deviations as Pivot says, of squares where it says so.
@@ -36,6 +43,9 @@ struct MeasureNumbers {
   double estimate_of_interval = kNaN;  ///< of that with kLeastSmooth, where the interval comes from it
   std::span<const double> deviations;  ///< of the refits
   std::span<const double> deviations_of_interval;  ///< of those with kLeastSmooth
+  bool thinned = false;                            ///< estimate and deviations are of thinned_extremes()
+  /// Spread of the deviations among the third of refits with most noise over that with least.
+  double doubt = 1.0;
 };
 
 /// Longest gap across which intervals were tried; there is none beyond it, s.

@@ -89,12 +89,12 @@ TEST_F(StatedMeasure, ThicknessThatMayBeNoneSaysSo) {
 }
 
 TEST_F(StatedMeasure, NoIntervalBelowTheNoiseButForTremor) {
-  stretch_.below_noise = true;
+  stretch_.below_noise = 0.5;
   const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
   EXPECT_TRUE(says(m, "below half the noise of 1 mm"));
   EXPECT_NE(tell("tremor", 2e-3, 1e-6, 0.2e-6).interval.kind, data::IntervalKind::none);
-  stretch_.below_noise = false;
+  stretch_.below_noise = 0.0;
   EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.02, 0.05), "below half the noise"));
 }
 
@@ -192,6 +192,69 @@ TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
     EXPECT_EQ(std::ranges::count(ids, d.what.id), 0) << d.what.id;
     ids.push_back(d.what.id);
   }
+}
+
+TEST_F(StatedMeasure, SlowNoiseWithdrawsOnlyWhatRestsOnIt) {
+  EXPECT_EQ(tell("extent_long", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  stretch_.slow_noise_unknown = true;
+  stretch_.slow_low_m = 1e-4, stretch_.slow_high_m = 9e-4;
+  for (const char* id : {"extent_long", "extent_wide", "largest_distance", "plane_sd", "box_length"}) {
+    const auto none = tell(id, 1.0, 0.0, 0.1);
+    EXPECT_EQ(none.interval.kind, data::IntervalKind::none) << id;
+    EXPECT_TRUE(says(none, "between 0.1 and 0.9 mm")) << none.remark;
+  }
+  for (const char* id : {"path_length", "peak_speed", "cycle_time"})
+    EXPECT_NE(tell(id, 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::none) << id;
+}
+
+TEST_F(StatedMeasure, NoiseThatIsNotKnownLeavesNoInterval) {
+  stretch_.no_noise = "the noise above the movement fits no model";
+  const auto none = tell("path_length", 1.0, 0.02, 0.05);
+  EXPECT_EQ(none.interval.kind, data::IntervalKind::none);
+  EXPECT_EQ(none.remark, "no interval: the noise above the movement fits no model");
+}
+
+TEST_F(StatedMeasure, AFilterWithinTheMovementTakesPeaksAndJerk) {
+  EXPECT_EQ(tell("peak_speed", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  stretch_.filtered_within = true;
+  EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.1), "within the movement's band"));
+  EXPECT_TRUE(says(tell("rms_jerk", 1.0, 0.0, 0.1), "within the movement's band"));
+  EXPECT_EQ(tell("path_length", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+}
+
+TEST_F(StatedMeasure, WhatAFilterTookOfABandMayHaveBeenMore) {
+  const auto whole = tell("tremor", 1.0, 0.0, 0.1);
+  EXPECT_EQ(whole.interval.kind, data::IntervalKind::two_sided);
+  stretch_.filtered_hz = 14.0;
+  EXPECT_EQ(tell("tremor", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  stretch_.filtered_hz = 6.0;
+  const auto part = tell("tremor", 1.0, 0.0, 0.1);
+  EXPECT_EQ(part.interval.kind, data::IntervalKind::at_least);
+  EXPECT_TRUE(says(part, "low-passed at 6 Hz"));
+}
+
+TEST_F(StatedMeasure, DoubtAboutTheNoiseIsSaidWhereItDecides) {
+  const auto deviations = around(0.0, 0.1);
+  MeasureNumbers numbers{.estimate = 1.0, .deviations = deviations, .doubt = 1.5};
+  EXPECT_FALSE(
+      says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
+  numbers.doubt = 3.0;
+  EXPECT_TRUE(
+      says(state_measure(definition("peak_speed"), stretch_, frame_, numbers), "doubt about the noise"));
+}
+
+TEST_F(StatedMeasure, QuickMovementBelowTheNoiseSaysHowMuch) {
+  stretch_.below_noise = 1.5;
+  EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.1), "below 1.5 times the noise of 1 mm"));
+  EXPECT_EQ(tell("tremor", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+}
+
+TEST_F(StatedMeasure, MovementsPathsAreUpperBoundsOnlyBetweenRests) {
+  EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  frame_.discrete = true;
+  const auto path = tell("movement_path", 1.0, 0.02, 0.05);
+  EXPECT_EQ(path.interval.kind, data::IntervalKind::at_most);
+  EXPECT_TRUE(says(path, "noise can only lengthen it"));
 }
 
 }  // namespace

@@ -13,14 +13,15 @@ namespace kinemark::analysis {
 ///
 /// `turn_rad` turns the joint's axis away from the wand: seen along the line from the centre to the proximal
 /// centre, from above, the wand lies that angle counter-clockwise of the marker. NaN where
-/// the distance to the proximal centre is below `distance`, where the three are in line, or for an angle that
-/// no centre has.
+/// the distance to the proximal centre is below `distance`, where the three are in line, and for an angle
+/// that no centre has: of 90 deg or more, or larger than a wand so near to the line allows.
 [[nodiscard]] Eigen::Vector3d chord(const Eigen::Vector3d& wand, const Eigen::Vector3d& marker,
                                     const Eigen::Vector3d& proximal, double distance, double turn_rad = 0.0);
 
 /// The corner from which three rods of equal length go to a, b and c, perpendicular to each other: where a
-/// knee alignment device touches. Of both corners the one nearer to `towards`. NaN where the three are in
-/// line.
+/// knee alignment device touches. Where the measured triangle is not equilateral, below its centroid by the
+/// root mean square of its sides over sqrt(6). Of both corners the one nearer to `towards`. NaN where the
+/// three are in line.
 [[nodiscard]] Eigen::Vector3d corner(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      const Eigen::Vector3d& c, const Eigen::Vector3d& towards);
 

@@ -47,6 +47,18 @@ TEST(Chord, TurnsTheJointsAxisByTheAngleOfTheWand) {
   }
 }
 
+// Just inside and just outside of what a wand near the line of marker and proximal centre allows.
+TEST(Chord, IsMissingWhereTheWandIsNearerThanItsOffsetAllows) {
+  const Vector3d marker(0, 0, 0), proximal(0, 0, 0.4);
+  const double d = 0.06, turn = 0.5, s = std::sqrt(1.0 - d * d / 0.16), t = std::tan(turn);
+  const double least = d * 0.5 * t / std::sqrt(1.0 + s * s * t * t);  // half way up
+  EXPECT_TRUE(chord({0, 1.001 * least, 0.2}, marker, proximal, d, turn).allFinite());
+  EXPECT_TRUE(chord({0, 0.999 * least, 0.2}, marker, proximal, d, turn).hasNaN());
+  EXPECT_TRUE(chord({0, 0.999 * least, 0.2}, marker, proximal, d).allFinite())
+      << "without a turn it is there";
+  EXPECT_TRUE(chord({0, 0.1, 0.2}, marker, proximal, d, 1.6).hasNaN()) << "beyond 90 deg";
+}
+
 TEST(Chord, HasNoCentreWhereGeometryHasNone) {
   const Vector3d marker(0, 0, 0), wand(0, 0.1, 0.2);
   EXPECT_TRUE(chord(wand, marker, {0, 0, 0.05}, 0.058).hasNaN());
@@ -68,6 +80,14 @@ TEST(Corner, IsWhereThreeRodsMeet) {
     EXPECT_GT((corner(rod(0), rod(1), rod(2), rod(0) + rod(1) - at) - at).norm(), 0.05);
   }
   EXPECT_TRUE(corner({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}).hasNaN());
+}
+
+TEST(Corner, OfAnUnequalTriangleIsBelowItsCentroidByTheRootMeanSquareSide) {
+  const Vector3d a(0.11, 0, 0), b(0, 0.1, 0), c(0, 0, 0.09), centroid = (a + b + c) / 3.0;
+  const Vector3d found = corner(a, b, c, Vector3d::Zero());
+  const double squares = (a - b).squaredNorm() + (b - c).squaredNorm() + (c - a).squaredNorm();
+  EXPECT_NEAR((found - centroid).squaredNorm(), squares / 18.0, 1e-15);
+  EXPECT_NEAR((found - centroid).dot(a - b), 0.0, 1e-15);
 }
 
 TEST(TurnAbout, CountsAgainstTheClock) {

@@ -28,7 +28,7 @@ Result<FormulaTracks> FormulaTracks::create(const SegmentDefinition& definition,
                                             std::span<const GraphOutput> outputs) {
   auto subject = internal::find_subject(definition, input, options);
   if (!subject) return std::unexpected(subject.error());
-  const internal::TrialMarkers trial(*input.markers);
+  const internal::TrialMarkers trial(*input.markers, input.aliases);
   auto graph = build_graph(definition, subject->names(trial, input.static_trial == input.markers), outputs);
   if (!graph) return std::unexpected(graph.error());
   auto marker_idx = internal::indices_of(*graph, trial);
@@ -56,6 +56,13 @@ std::vector<std::int64_t> FormulaTracks::markers_of(std::size_t output) const {
 
 std::vector<std::string> FormulaTracks::lack_sentences(std::span<const std::string> names) const {
   return internal::lack_sentences(*steps_->definition, names, steps_->graph, steps_->recording->names);
+}
+
+std::vector<UsedParameter> FormulaTracks::constant_parameters() const {
+  std::vector<UsedParameter> out;
+  for (const auto& [name, used] : steps_->subject.parameters)
+    if (used.constant) out.push_back(used);
+  return out;
 }
 
 void FormulaTracks::evaluate(const data::Trajectories& markers, std::int64_t frame,

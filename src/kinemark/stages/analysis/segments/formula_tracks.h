@@ -37,6 +37,8 @@ class FormulaTracks {
   /// One sentence for outputs that lack something, grouped by what they lack.
   /// @param names  of all outputs, as sentences call them; those that are empty are not named
   [[nodiscard]] std::vector<std::string> lack_sentences(std::span<const std::string> names) const;
+  /// Measures of the subject whose errors are the same in all frames (UsedParameter::constant).
+  [[nodiscard]] std::vector<UsedParameter> constant_parameters() const;
   /// Values of all outputs in a frame of a version of the recording: those of an output that lacks something
   /// are not touched. From several threads, each with its own `work`.
   /// @param markers  names and shape as the recording's; NaN where missing gives NaN

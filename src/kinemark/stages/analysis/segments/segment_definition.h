@@ -36,7 +36,8 @@ enum class InTrial : std::uint8_t {
 /// count in different trials.
 struct SegmentDefinition {
   /// A measure of the subject. Its value is the first there is of: one that is given; `measured`, the mean
-  /// over the static trial; one that a file of the subject holds; `formula`.
+  /// over the static trial; one that a file of the subject holds; the one that outputs of a model in the
+  /// recording were made with (`shown`); `formula`.
   struct Parameter {
     std::string name;                                    ///< in formulas
     std::vector<std::string> also;                       ///< other names that files have for it
@@ -47,13 +48,22 @@ struct SegmentDefinition {
     std::optional<Formula> formula;     ///< of other parameters
     bool zero_is_unknown = false;       ///< files write 0 for what was not measured
     std::optional<Formula> formula_sd;  ///< standard deviation of a value that is given or from a file
+    bool entered_first = false;         ///< a file's value counts before `measured`
+    std::optional<Formula> assumed_sd;  ///< of a value that nobody measured: of `formula` or `shown`
+    std::optional<Formula> zero_sd;     ///< of a file's 0, which may stand for what nobody measured
+    std::vector<Formula> shown;         ///< each gives the value by a model's outputs in the recording
+    bool shown_anywhere = false;        ///< by those of static trials as well
+    std::vector<double> choices;        ///< values one of which it has, the first unless `chosen_by` decides
+    std::vector<std::string> chosen_by;  ///< parameters that are measured and that files hold too
   };
   /// A point, by a formula in every frame.
   struct Point {
-    std::string name;              ///< in formulas and results
-    Formula formula;               ///< where it is
-    InTrial trial = InTrial::any;  ///< where it counts
-    bool written = false;          ///< among the results
+    std::string name;                    ///< in formulas and results
+    Formula formula;                     ///< where it is
+    InTrial trial = InTrial::any;        ///< where it counts
+    bool written = false;                ///< among the results
+    std::vector<std::string> also = {};  ///< other names that files have for it
+    bool regression = false;             ///< an estimate for which other models have another formula
   };
   /// A point seen in another trial and carried by a segment: a landmark under a pointer, a functional centre.
   struct Landmark {
@@ -136,6 +146,9 @@ struct SegmentDefinition {
   std::vector<Value> values;          ///< in the order of the file
   std::vector<Body> bodies;           ///< in the order of the file
   std::vector<Joint> joints;          ///< in the order of the file
+  /// Angular accelerations of bodies: central differences over so many frames to either side, twice. 0: of
+  /// eighth order over nine frames, the most faithful ones.
+  std::int64_t angular_span = 0;
   /// Whose way through the laboratory "progression" follows, a point, and the direction that counts where it
   /// covers less than half a metre.
   std::optional<std::pair<Formula, Formula>> progression;

@@ -23,6 +23,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using internal::Subject;
+using internal::SubjectShift;
 using internal::TrialMarkers;
 using State = data::SampleState;
 
@@ -56,7 +57,11 @@ class InputNoise {
     } else if (markers.covariance.empty()) {
       for (const auto m : marker_idx) sd_.push_back(sd_from_differences(markers, m));
     }
-    for (const auto& name : graph.parameters) parameter_sd_.push_back(subject.parameters.at(name).sd);
+    // Constant errors are shifts of the whole subject.
+    for (const auto& name : graph.parameters) {
+      const auto& used = subject.parameters.at(name);
+      parameter_sd_.push_back(used.constant ? 0.0 : used.sd);
+    }
   }
   /// Columns are directions of one deviation; of a parameter the first row.
   [[nodiscard]] Matrix3d root(std::int64_t frame, std::size_t input) const {
@@ -84,13 +89,15 @@ class InputNoise {
 class Run {
  public:
   Run(const SegmentGraph& graph, const TrialMarkers& trial, const Subject& subject,
-      std::vector<Target> targets, double noise_sd_m)
+      const std::vector<SubjectShift>& shifts, std::vector<Target> targets, const SegmentOptions& options)
       : graph_(graph),
         markers_(trial.markers()),
         subject_(subject),
         targets_(std::move(targets)),
+        shifts_(shifts),
+        deviations_(options.deviations),
         marker_idx_(internal::indices_of(graph, trial)),
-        noise_(graph, marker_idx_, markers_, subject, noise_sd_m),
+        noise_(graph, marker_idx_, markers_, subject, options.noise_sd_m),
         touched_(static_cast<std::size_t>(graph.inputs())) {
     for (std::size_t t = 0; t < targets_.size(); ++t)
       for (const int input : graph.steps[static_cast<std::size_t>(graph.outputs[t])].inputs)
@@ -99,14 +106,15 @@ class Run {
 
   void frames(std::int64_t begin, std::int64_t end, data::Trajectories& points) const {
     Work work{.values = std::vector<StepValue>(graph_.steps.size()),
-              .covariance = std::vector<Matrix3d>(targets_.size())};
+              .covariance = std::vector<Matrix3d>(targets_.size()),
+              .constant = std::vector<Matrix3d>(targets_.size())};
     for (std::int64_t f = begin; f < end; ++f) frame(f, work, points);
   }
 
  private:
   struct Work {
     std::vector<StepValue> values, base;
-    std::vector<Matrix3d> covariance;
+    std::vector<Matrix3d> covariance, constant;  // of all errors; of those that are the same in all frames
     std::vector<Vector3d> plus;
   };
 
@@ -166,13 +174,55 @@ class Run {
       work.values[static_cast<std::size_t>(follower)] = work.base[static_cast<std::size_t>(follower)];
   }
 
+  // Outputs with the subject's measures moved by `share` of a shift.
+  void evaluate_shift(const Subject& moved, double share, Work& work) const {
+    for (std::size_t i = 0; i < graph_.parameters.size(); ++i) {
+      const double base = work.base[marker_idx_.size() + i][0];
+      const double there = moved.parameters.at(graph_.parameters[i]).value;
+      work.values[marker_idx_.size() + i][0] = base + share * (there - base);
+    }
+    graph_.evaluate(work.values);
+  }
+
+  // Constant errors. A shift may be larger than geometry allows: a smaller one, or one side of it, counts
+  // then.
+  void spread_constant(Work& work) const {
+    constexpr double h = 1.7320508075688772;
+    for (const auto& shift : shifts_) {
+      std::vector<bool> done(targets_.size(), false);
+      for (const double share : {1.0, 0.25, 0.0625}) {
+        if (std::ranges::find(done, false) == done.end()) break;
+        evaluate_shift(shift.plus, share, work);
+        work.plus.clear();
+        for (std::size_t t = 0; t < targets_.size(); ++t) work.plus.push_back(output(work.values, t));
+        evaluate_shift(shift.minus, share, work);
+        for (std::size_t t = 0; t < targets_.size(); ++t) {
+          if (done[t]) continue;
+          const Vector3d centre = output(work.base, t);
+          const Vector3d up = difference(work.plus[t], centre, t);
+          const Vector3d down = difference(output(work.values, t), centre, t);
+          done[t] = !centre.allFinite() || (up.allFinite() && down.allFinite());
+          if (!done[t] || !centre.allFinite()) continue;
+          const double size = h * share;
+          const Vector3d first = (up - down) / (2.0 * size);
+          const Vector3d second = (up + down) * (std::sqrt(h * h - 1.0) / (2.0 * size * size));
+          work.constant[t] += first * first.transpose() + second * second.transpose();
+        }
+      }
+    }
+    work.values = work.base;
+    for (std::size_t t = 0; t < targets_.size(); ++t) work.covariance[t] += work.constant[t];
+  }
+
   void frame(std::int64_t f, Work& work, data::Trajectories& points) const {
     internal::set_inputs(graph_, marker_idx_, markers_, f, subject_, work.values);
     graph_.evaluate(work.values);
     work.base = work.values;
     for (auto& covariance : work.covariance) covariance.setZero();
-    for (std::size_t input = 0; input < touched_.size(); ++input)
+    for (auto& covariance : work.constant) covariance.setZero();
+    for (std::size_t input = 0; deviations_ && input < touched_.size(); ++input)
       if (std::isfinite(work.base[input][0])) spread(f, input, work);
+    if (deviations_) spread_constant(work);
     for (std::size_t t = 0; t < targets_.size(); ++t) store(f, t, work, points);
   }
 
@@ -188,6 +238,7 @@ class Run {
         const bool there = state != State::missing && std::isfinite(value[c]);
         series.value[i] = there ? value[c] : kNaN;
         series.sd[i] = there ? std::sqrt(work.covariance[t](c, c)) : kNaN;
+        series.constant_sd[i] = there ? std::sqrt(work.constant[t](c, c)) : kNaN;
         some = some || there;
       }
       series.state[static_cast<std::size_t>(f)] = some ? state : State::missing;
@@ -204,6 +255,8 @@ class Run {
   const data::Trajectories& markers_;
   const Subject& subject_;
   std::vector<Target> targets_;
+  const std::vector<SubjectShift>& shifts_;
+  bool deviations_;
   std::vector<std::int64_t> marker_idx_;
   InputNoise noise_;
   std::vector<std::vector<std::size_t>> touched_;  // for each input, targets that depend on it
@@ -215,6 +268,7 @@ SegmentSeries empty_series(std::string name, std::vector<std::string> labels, Su
   const auto n = static_cast<std::size_t>(frames);
   out.value.assign(n * out.size(), kNaN);
   out.sd.assign(n * out.size(), kNaN);
+  out.constant_sd.assign(n * out.size(), kNaN);
   out.state.assign(n, State::missing);
   return out;
 }
@@ -289,7 +343,7 @@ Result<SegmentMotion> compute_segments(const SegmentDefinition& definition, cons
   const bool is_static = input.static_trial == input.markers;
   const auto subject = internal::find_subject(definition, input, options);
   if (!subject) return std::unexpected(subject.error());
-  const TrialMarkers trial(markers);
+  const TrialMarkers trial(markers, input.aliases);
   const Wanted wanted = wanted_of(definition, is_static);
   auto graph = build_graph(definition, subject->names(trial, is_static), wanted.outputs);
   if (!graph) return std::unexpected(graph.error());
@@ -324,7 +378,13 @@ Result<SegmentMotion> compute_segments(const SegmentDefinition& definition, cons
   graph->outputs = std::move(outputs);
   out.points = data::Trajectories::all_missing(std::move(points), markers.time);
   out.points.covariance.assign(6 * out.points.state.size(), kNaN);
-  const Run run(*graph, trial, *subject, std::move(targets), options.noise_sd_m);
+  std::vector<SubjectShift> shifts;
+  if (options.deviations) {
+    auto found = internal::find_shifts(definition, input, options, *subject);
+    if (!found) return std::unexpected(found.error());
+    shifts = std::move(*found);
+  }
+  const Run run(*graph, trial, *subject, shifts, std::move(targets), options);
   parallel_for(markers.frames(), kGrain, options.threads,
                [&](std::int64_t begin, std::int64_t end) { run.frames(begin, end, out.points); });
   for (const auto& [name, used] : subject->parameters) out.parameters.push_back(used);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,10 @@ namespace kinemark::analysis {
 
 /// A measure of the subject that somebody knows, in SI units.
 struct SubjectValue {
-  std::string name;    ///< of the definition, or another name that files have for it
-  double value = 0.0;  ///< m, rad, kg
-  std::string from;    ///< who says so: "--subject", "Ann.vsk"
+  std::string name;               ///< of the definition, or another name that files have for it
+  double value = 0.0;             ///< m, rad, kg
+  std::string from;               ///< who says so: "--subject", "Ann.vsk"
+  std::optional<double> sd = {};  ///< standard deviation, SI; none: that of the definition
 };
 
 /// What segments are computed from.
@@ -32,6 +34,9 @@ struct SegmentInput {
   std::map<std::string, const data::Trajectories*> trials;  ///< others, in which landmarks were shown
   std::vector<SubjectValue> given;                          ///< taken first
   std::vector<SubjectValue> known;                          ///< of files; the first of a name counts
+  /// Names of points as files have them, by those that formulas have: LFEO is LFE_MO.
+  std::map<std::string, std::string> aliases;
+  bool zeros_doubtful = false;  ///< the laboratory measures offsets: a file's 0 has `assumed_sd`
 };
 
 /// How segments are computed.
@@ -41,6 +46,7 @@ struct SegmentOptions {
   double noise_sd_m = 0.0;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< axis of the laboratory against gravity
   int threads = 1;                                ///< 0: all cores; any number gives the same bits
+  bool deviations = true;                         ///< false: none are computed, `sd` is 0
 
   [[nodiscard]] Status check() const;  ///< Code::usage
 };
@@ -53,6 +59,8 @@ struct SegmentSeries {
   std::string unit = {};                              ///< "N m/kg"; empty: that of the quantity
   Array<double> value;                                ///< F x n, SI; NaN where missing
   Array<double> sd;                                   ///< F x n, SI
+  Array<double> constant_sd = {};                     ///< F x n, SI: the part of sd that is one error in all
+                                                      ///< frames, of the subject's measures; may be empty
   Array<data::SampleState> state;                     ///< F: measured, interpolated (a marker was), missing
 
   [[nodiscard]] std::size_t size() const { return labels.empty() ? 1 : labels.size(); }  ///< n
@@ -64,7 +72,21 @@ struct UsedParameter {
   SubjectQuantity quantity = SubjectQuantity::number;  ///< what it measures
   double value = kNaN;                                 ///< SI
   double sd = 0.0;                                     ///< standard deviation; 0: not known, taken as exact
-  std::string from;  ///< "--subject", "the static trial", "its formula", ...
+  std::string from;       ///< "--subject", "the static trial", "its formula", ...
+  bool assumed = false;   ///< nobody measured it, or it may be so
+  bool constant = false;  ///< sd is that of one error in all frames, on which other measures depend
+};
+
+/// A measure of the subject by the outputs of a model that the recording holds.
+struct ShownParameter {
+  std::string name;                                    ///< of the definition
+  SubjectQuantity quantity = SubjectQuantity::number;  ///< what it measures
+  double used = kNaN;                                  ///< the value that was computed with, SI; NaN: none
+  double value = kNaN;                                 ///< the value that the outputs were made with, SI
+  double spread = 0.0;        ///< half the range from 5 to 95 % of the frames, the largest of its formulas
+  double disagreement = 0.0;  ///< of its formulas, half their range; SI
+  std::int64_t formulas = 0;  ///< number of formulas that tell
+  std::string from = {};      ///< who says `used`
 };
 
 /// What a definition gives of a recording.
@@ -84,10 +106,19 @@ struct SegmentMotion {
 /// et al. 2000, the divided-difference form of the unscented rule): exact for what is quadratic in a marker,
 /// which the chord function nearly is. They know nothing of skin that moves or of a wrong knee width.
 ///
+/// Constant errors, of measures that are assumed or that carry a deviation of their own, are one draw for all
+/// joints and frames: what follows from such a measure, a foot's offset in the static trial, moves with it.
+///
 /// Code::usage as SegmentOptions::check(); Code::bad_input for a definition that does not check() or makes no
 /// sense, and where nothing can be computed.
 [[nodiscard]] Result<SegmentMotion> compute_segments(const SegmentDefinition& definition,
                                                      const SegmentInput& input,
                                                      const SegmentOptions& options = {});
+
+/// Parameters by the outputs of a model in the recording: those whose `shown` formulas find what they name.
+/// Each is found with those before it as shown. Fails as compute_segments().
+[[nodiscard]] Result<std::vector<ShownParameter>> shown_parameters(const SegmentDefinition& definition,
+                                                                   const SegmentInput& input,
+                                                                   const SegmentOptions& options = {});
 
 }  // namespace kinemark::analysis

@@ -368,5 +368,111 @@ TEST(SegmentMotion, RefusesOptionsAndDefinitionsThatMakeNoSense) {
               HasSubstr("value reach: distance() does not take"));
 }
 
+const UsedParameter* used(const SegmentMotion& motion, const std::string& name) {
+  for (const auto& one : motion.parameters)
+    if (one.name == name) return &one;
+  return nullptr;
+}
+
+SegmentDefinition with_parameters(std::vector<SegmentDefinition::Parameter> parameters,
+                                  std::vector<std::string> values) {
+  auto d = two_segments();
+  d.parameters = std::move(parameters);
+  for (auto& value : values)
+    d.values.push_back({.name = "of " + value, .quantity = SubjectQuantity::length, .formula = of(value)});
+  return d;
+}
+
+// An offset that the static trial measures with an assumed size takes back its error.
+TEST(SegmentMotion, AnAssumedMeasureIsOneErrorOfAllThatFollowsFromIt) {
+  const auto d = with_parameters(
+      {{.name = "size",
+        .quantity = SubjectQuantity::length,
+        .formula = of("0.014"),
+        .assumed_sd = of("0.002")},
+       {.name = "offset", .quantity = SubjectQuantity::length, .measured = of("distance(P1, P2) - size")}},
+      {"size", "offset + size", "offset - size"});
+  const auto markers = movement(20);
+  const auto motion =
+      compute_segments(d, {.markers = &markers, .static_trial = &markers}, {.noise_sd_m = 1e-9});
+  ASSERT_TRUE(motion) << motion.error().message;
+  EXPECT_TRUE(used(*motion, "size")->assumed && used(*motion, "size")->constant);
+  EXPECT_EQ(used(*motion, "size")->from, "assumed");
+  EXPECT_NEAR(motion->values[1].sd[7], 0.002, 1e-9);
+  EXPECT_NEAR(motion->values[1].constant_sd[7], 0.002, 1e-9);
+  EXPECT_NEAR(motion->values[2].sd[7], 0.0, 1e-6) << "what one adds the other takes";
+  EXPECT_NEAR(motion->values[3].sd[7], 0.004, 1e-6);
+  const auto exact = compute_segments(
+      d, {.markers = &markers, .static_trial = &markers, .given = {{"size", 0.016, "somebody"}}});
+  EXPECT_FALSE(used(*exact, "size")->assumed);
+  EXPECT_NEAR(exact->values[1].constant_sd[7], 0.0, 1e-12);
+  const auto stated = compute_segments(
+      d, {.markers = &markers, .static_trial = &markers, .given = {{"size", 0.016, "somebody", 0.001}}});
+  EXPECT_NEAR(stated->values[1].constant_sd[7], 0.001, 1e-9);
+  const auto without = compute_segments(d, {.markers = &markers}, {.deviations = false});
+  EXPECT_EQ(without->values[1].sd[7], 0.0);
+}
+
+TEST(SegmentMotion, TakesASmallerStepWhereGeometryAllowsNoLargerOne) {
+  const auto d = with_parameters({{.name = "size",
+                                   .quantity = SubjectQuantity::length,
+                                   .formula = of("0.01"),
+                                   .assumed_sd = of("0.02")}},
+                                 {"sqrt(size)"});
+  const auto markers = movement(3);
+  const auto motion = compute_segments(d, {.markers = &markers}, {.noise_sd_m = 1e-9});
+  ASSERT_TRUE(motion);
+  EXPECT_GT(motion->values[1].sd[1], 0.09) << "0.02 / (2 sqrt(0.01)), and more by its curvature";
+  EXPECT_LT(motion->values[1].sd[1], 0.5);
+}
+
+TEST(SegmentMotion, OutputsInTheFileTellWhatNobodyStates) {
+  const auto d = with_parameters({{.name = "size",
+                                   .quantity = SubjectQuantity::length,
+                                   .formula = of("0.1"),
+                                   .assumed_sd = of("0.002"),
+                                   .shown = {of("distance(P1, P2)"), of("distance(P1, OUT)")}}},
+                                 {"size"});
+  const auto markers = movement(20);
+  const double shown = (markers.x(0, 1) - markers.x(0, 0)).norm();
+  const auto motion = compute_segments(d, {.markers = &markers});
+  EXPECT_NEAR(used(*motion, "size")->value, shown, 1e-12) << "a formula without its point says nothing";
+  EXPECT_EQ(used(*motion, "size")->sd, 0.002);
+  const auto stated = compute_segments(d, {.markers = &markers, .known = {{"size", 0.12, "a file"}}});
+  EXPECT_EQ(used(*stated, "size")->value, 0.12) << "what a file states counts before";
+  const auto list = shown_parameters(d, {.markers = &markers, .known = {{"size", 0.12, "a file"}}});
+  ASSERT_TRUE(list);
+  ASSERT_EQ(list->size(), 1U);
+  EXPECT_NEAR(list->front().value, shown, 1e-12);
+  EXPECT_EQ(list->front().used, 0.12);
+  EXPECT_EQ(list->front().formulas, 1);
+  EXPECT_LT(list->front().spread, 1e-9);
+  // Two formulas that disagree are of another model.
+  const auto torn = compute_segments(d, {.markers = &markers, .aliases = {{"OUT", "C2"}}});
+  EXPECT_EQ(used(*torn, "size")->value, 0.1);
+  EXPECT_EQ(used(*torn, "size")->from, "assumed");
+}
+
+TEST(SegmentMotion, AChoiceIsTheOneWithWhichTheStaticTrialGivesWhatFilesHold) {
+  const auto d =
+      with_parameters({{.name = "flat", .formula = of("1"), .choices = {1.0, 0.0}, .chosen_by = {"offset"}},
+                       {.name = "offset",
+                        .quantity = SubjectQuantity::length,
+                        .measured = of("distance(P1, P2) + flat * 0.1")}},
+                      {"offset"});
+  const auto markers = movement(1);
+  const double plain = (markers.x(0, 1) - markers.x(0, 0)).norm();
+  const auto choice = [&](std::vector<SubjectValue> known) {
+    const auto motion =
+        compute_segments(d, {.markers = &markers, .static_trial = &markers, .known = std::move(known)});
+    return *used(*motion, "flat");
+  };
+  EXPECT_EQ(choice({{"offset", plain, "a file"}}).value, 0.0);
+  EXPECT_EQ(choice({{"offset", plain, "a file"}}).from, "offsets in a file");
+  EXPECT_EQ(choice({{"offset", plain + 0.1, "a file"}}).value, 1.0);
+  EXPECT_TRUE(choice({{"offset", plain + 0.05, "a file"}}).assumed) << "neither";
+  EXPECT_TRUE(choice({}).assumed);
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "kinemark/stages/analysis/segments/internal/subject.h"
 
@@ -14,6 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::string_view kFromOutputs = "the file's own model outputs";
+
 /// A formula's mean over the frames that give it, and the standard deviation of that mean.
 struct TrialMean {
   Vector3d mean = Vector3d::Constant(kNaN), sd = Vector3d::Constant(kNaN);
@@ -21,31 +25,38 @@ struct TrialMean {
   std::int64_t frames = 0;
 };
 
-// None where the trial lacks what the formula needs.
-Result<TrialMean> mean_over(const SegmentDefinition& definition, const GraphOutput& output,
-                            const GraphNames& names, const Subject& subject, const TrialMarkers& trial) {
-  TrialMean out;
+// Values in the frames that give one; none where the trial lacks what the formula needs.
+Result<std::vector<Vector3d>> values_over(const SegmentDefinition& definition, const GraphOutput& output,
+                                          const GraphNames& names, const Subject& subject,
+                                          const TrialMarkers& trial) {
+  std::vector<Vector3d> out;
   const auto graph = build_graph(definition, names, std::span(&output, 1));
   if (!graph) return std::unexpected(graph.error());
   if (graph->outputs.front() < 0) return out;
   const auto marker_idx = indices_of(*graph, trial);
   std::vector<StepValue> values(graph->steps.size());
-  Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
   for (std::int64_t f = 0; f < trial.markers().frames(); ++f) {
     set_inputs(*graph, marker_idx, trial.markers(), f, subject, values);
     graph->evaluate(values);
     const auto& value = values[static_cast<std::size_t>(graph->outputs.front())];
     const Vector3d v = output.type == StepType::number ? Vector3d(value[0], 0.0, 0.0)
                                                        : Vector3d(value[0], value[1], value[2]);
-    if (!v.allFinite()) continue;
-    if (out.frames == 0) out.first = v;
-    out.last = v;
-    // About the first value, so that large coordinates lose no digits.
+    if (v.allFinite()) out.push_back(v);
+  }
+  return out;
+}
+
+TrialMean mean_of(const std::vector<Vector3d>& values) {
+  TrialMean out{.frames = std::ssize(values)};
+  if (values.empty()) return out;
+  out.first = values.front();
+  out.last = values.back();
+  Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
+  // About the first value, so that large coordinates lose no digits.
+  for (const auto& v : values) {
     sum += v - out.first;
     squares += (v - out.first).cwiseAbs2();
-    ++out.frames;
   }
-  if (out.frames == 0) return out;
   const auto n = static_cast<double>(out.frames);
   out.mean = out.first + sum / n;
   out.sd.setZero();
@@ -53,12 +64,15 @@ Result<TrialMean> mean_over(const SegmentDefinition& definition, const GraphOutp
   return out;
 }
 
+bool is_called(const SegmentDefinition::Parameter& parameter, const std::string& name) {
+  return name == parameter.name || std::ranges::find(parameter.also, name) != parameter.also.end();
+}
+
 const SubjectValue* find_value(const std::vector<SubjectValue>& list,
                                const SegmentDefinition::Parameter& parameter) {
   const auto at = std::ranges::find_if(list, [&](const SubjectValue& v) {
-    if (v.name != parameter.name && std::ranges::find(parameter.also, v.name) == parameter.also.end())
-      return false;
-    return std::isfinite(v.value) && !(parameter.zero_is_unknown && v.value == 0.0);
+    return is_called(parameter, v.name) && std::isfinite(v.value) &&
+           !(parameter.zero_is_unknown && v.value == 0.0);
   });
   return at == list.end() ? nullptr : &*at;
 }
@@ -67,8 +81,8 @@ const SubjectValue* find_value(const std::vector<SubjectValue>& list,
 class Finder {
  public:
   Finder(const SegmentDefinition& definition, const SegmentInput& input, const SegmentOptions& options)
-      : d_(definition), input_(input), recording_(*input.markers) {
-    if (input.static_trial != nullptr) static_.emplace(*input.static_trial);
+      : d_(definition), input_(input), recording_(*input.markers, input.aliases) {
+    if (input.static_trial != nullptr) static_.emplace(*input.static_trial, input.aliases);
     subject_.up = options.up;
   }
 
@@ -80,21 +94,45 @@ class Finder {
     return std::move(subject_);
   }
 
+  // After find(): `subject` is what it gave.
+  Result<std::vector<ShownParameter>> shown(Subject subject) {
+    subject_ = std::move(subject);
+    std::vector<ShownParameter> out;
+    for (const auto& p : d_.parameters) {
+      const auto used = subject_.parameters.find(p.name);
+      what_ = fmt::format("parameter {}", p.name);
+      auto one = shown_by(p, recording_, recording_is_static());
+      if (!one) continue;
+      if (used != subject_.parameters.end()) {
+        one->used = used->second.value;
+        one->from = used->second.from;
+        if (agree(*one)) used->second.value = one->value;
+      }
+      out.push_back(std::move(*one));
+    }
+    if (!status_) return std::unexpected(status_.error());
+    return out;
+  }
+
  private:
   [[nodiscard]] bool recording_is_static() const { return input_.static_trial == input_.markers; }
 
-  // The mean of a formula over a trial; without frames where it lacks something or makes no sense.
-  TrialMean mean(const Formula& formula, StepType type, const TrialMarkers& trial, bool is_static) {
+  // Values of a formula over a trial; none where it lacks something or makes no sense.
+  std::vector<Vector3d> values(const Formula& formula, StepType type, const TrialMarkers& trial,
+                               bool is_static) {
     GraphNames names = subject_.names(trial, is_static);
     names.has_parameter = [this](const std::string& name) {
       find_parameter(name);
       return subject_.parameters.contains(name);
     };
     names.levels = &levels_;
-    auto out = mean_over(d_, {.formula = &formula, .type = type, .what = what_}, names, subject_, trial);
+    auto out = values_over(d_, {.formula = &formula, .type = type, .what = what_}, names, subject_, trial);
     if (out) return *out;
     if (status_) status_ = std::unexpected(out.error());
     return {};
+  }
+  TrialMean mean(const Formula& formula, StepType type, const TrialMarkers& trial, bool is_static) {
+    return mean_of(values(formula, type, trial, is_static));
   }
   TrialMean number(const Formula& formula) {
     return mean(formula, StepType::number, recording_, recording_is_static());
@@ -123,25 +161,117 @@ class Finder {
     --depth_;
   }
 
-  void take(const SegmentDefinition::Parameter& p, double value, double sd, std::string from) {
-    subject_.parameters[p.name] = {p.name, p.quantity, value, sd, std::move(from)};
+  using Parameter = SegmentDefinition::Parameter;
+
+  void take(const Parameter& p, double value, double sd, std::string from, bool constant = false,
+            bool assumed = false) {
+    subject_.parameters[p.name] = {p.name,  p.quantity,          value, sd, std::move(from),
+                                   assumed, constant && sd > 0.0};
+  }
+  double deviation(const std::optional<Formula>& formula) {
+    if (!formula) return 0.0;
+    const auto found = number(*formula);
+    return found.frames > 0 ? std::abs(found.mean.x()) : 0.0;
   }
 
-  void parameter(const SegmentDefinition::Parameter& p) {
-    double sd = 0.0;
-    if (p.formula_sd)
-      if (const auto found = number(*p.formula_sd); found.frames > 0) sd = std::abs(found.mean.x());
-    if (const auto* given = find_value(input_.given, p)) return take(p, given->value, sd, given->from);
+  void parameter(const Parameter& p) {
+    if (const auto* given = find_value(input_.given, p))
+      return take(p, given->value, given->sd.value_or(deviation(p.formula_sd)), given->from, true);
+    const auto* known = find_value(input_.known, p);
+    if (known != nullptr && p.entered_first) return take_known(p, *known);
     if (p.measured && static_ && !p.measured_here)
       if (const auto found = mean(*p.measured, StepType::number, *static_, true); found.frames > 0)
         return take(p, found.mean.x(), found.sd.x(), "the static trial");
-    if (const auto* known = find_value(input_.known, p)) return take(p, known->value, sd, known->from);
+    if (known != nullptr) return take_known(p, *known);
+    if (const auto shown = shown_by_any(p))
+      return take(p, shown->value, deviation(p.assumed_sd), std::string(kFromOutputs), true, true);
+    if (!p.choices.empty() && choose(p)) return;
     if (p.formula)
-      if (const auto found = number(*p.formula); found.frames > 0)
-        return take(p, found.mean.x(), sd, "its formula");
+      if (const auto found = number(*p.formula); found.frames > 0) {
+        const bool assumed = p.assumed_sd.has_value() || !p.choices.empty();
+        return take(p, found.mean.x(), deviation(assumed ? p.assumed_sd : p.formula_sd),
+                    assumed ? "assumed" : "its formula", true, assumed);
+      }
     if (p.measured && p.measured_anywhere)
       if (const auto found = number(*p.measured); found.frames > 0)
         take(p, found.mean.x(), found.sd.x(), "the recording");
+  }
+  void take_known(const Parameter& p, const SubjectValue& known) {
+    if (known.value != 0.0 || !p.zero_sd)
+      return take(p, known.value, known.sd.value_or(deviation(p.formula_sd)), known.from, true);
+    const double sd = deviation(input_.zeros_doubtful && p.assumed_sd ? p.assumed_sd : p.zero_sd);
+    take(p, 0.0, known.sd.value_or(sd), known.from + ", where 0 may stand for 'not measured'", true, true);
+  }
+
+  // The value that the outputs in a trial were made with: the median over its formulas of medians over
+  // frames.
+  std::optional<ShownParameter> shown_by(const Parameter& p, const TrialMarkers& trial, bool is_static) {
+    if (is_static && !p.shown_anywhere) return std::nullopt;
+    ShownParameter out{.name = p.name, .quantity = p.quantity};
+    std::vector<double> medians;
+    for (const auto& formula : p.shown) {
+      std::vector<double> x;
+      for (const auto& v : values(formula, StepType::number, trial, is_static)) x.push_back(v.x());
+      if (x.empty()) continue;
+      std::ranges::sort(x);
+      const auto quantile = [&](double q) {
+        return x[static_cast<std::size_t>(std::lround(q * static_cast<double>(x.size() - 1)))];
+      };
+      medians.push_back(quantile(0.5));
+      out.spread = std::max(out.spread, 0.5 * (quantile(0.95) - quantile(0.05)));
+    }
+    if (medians.empty()) return std::nullopt;
+    std::ranges::sort(medians);
+    const auto n = medians.size();
+    out.value = 0.5 * (medians[(n - 1) / 2] + medians[n / 2]);
+    out.disagreement = 0.5 * (medians.back() - medians.front());
+    out.formulas = std::ssize(medians);
+    return out;
+  }
+  // Outputs count where they tell one value: others are of another model, or the markers have changed since.
+  std::optional<ShownParameter> shown_by_any(const Parameter& p) {
+    if (p.shown.empty()) return std::nullopt;
+    if (auto here = shown_by(p, recording_, recording_is_static()); here && agree(*here)) return here;
+    if (static_ && p.shown_anywhere && !recording_is_static())
+      if (auto there = shown_by(p, *static_, true); there && agree(*there)) return there;
+    return std::nullopt;
+  }
+  static bool agree(const ShownParameter& shown) {
+    constexpr double kOneAngle_rad = 0.02, kOneLength_m = 0.0005, kSpread_m = 0.002;
+    if (shown.quantity == SubjectQuantity::length)
+      return shown.spread < kSpread_m && shown.disagreement < kOneLength_m;
+    return shown.spread < kOneAngle_rad && shown.disagreement < kOneAngle_rad;
+  }
+
+  // The choice with which `chosen_by` come out of the static trial as files hold them; none, or all: not
+  // told.
+  bool choose(const Parameter& p) {
+    constexpr double kSame_rad = 0.002;
+    if (!static_) return false;
+    std::vector<std::pair<double, std::string>> fitting;
+    for (const double choice : p.choices) {
+      take(p, choice, 0.0, "a trial");
+      double worst = 0.0;
+      std::string file;
+      for (const auto& name : p.chosen_by) {
+        const auto by = std::ranges::find(d_.parameters, name, &Parameter::name);
+        if (by == d_.parameters.end() || !by->measured) continue;
+        const auto found = mean(*by->measured, StepType::number, *static_, true);
+        double nearest = kNaN;
+        for (const auto& known : input_.known)
+          if (found.frames > 0 && is_called(*by, known.name)) {
+            const double off = std::abs(known.value - found.mean.x());
+            if (!(off >= nearest)) nearest = off;
+            if (off == nearest) file = known.from;
+          }
+        if (std::isfinite(nearest)) worst = std::max(worst, nearest);
+      }
+      if (!file.empty() && worst < kSame_rad) fitting.emplace_back(choice, file);
+    }
+    subject_.parameters.erase(p.name);
+    if (fitting.size() != 1) return false;
+    take(p, fitting.front().first, 0.0, "offsets in " + fitting.front().second);
+    return true;
   }
 
   void landmark(const SegmentDefinition::Landmark& l) {
@@ -150,7 +280,7 @@ class Finder {
     if (l.trial == "static") {
       if (static_) trial = &*static_;
     } else if (const auto at = input_.trials.find(l.trial); at != input_.trials.end()) {
-      trial = &other.emplace(*at->second);
+      trial = &other.emplace(*at->second, input_.aliases);
     }
     if (trial == nullptr) return;
     // in(segment, formula), as a formula would say it.
@@ -202,15 +332,23 @@ class Finder {
 
 }  // namespace
 
-TrialMarkers::TrialMarkers(const data::Trajectories& markers)
-    : markers_(markers), index_(markers.names), seen_(markers.names.size()) {
+TrialMarkers::TrialMarkers(const data::Trajectories& markers,
+                           const std::map<std::string, std::string>& aliases)
+    : markers_(markers), aliases_(aliases), index_(markers.names), seen_(markers.names.size()) {
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     for (std::int64_t m = 0; m < markers.markers(); ++m)
       if (markers.present(f, m)) seen_[static_cast<std::size_t>(m)] = true;
 }
 
-bool TrialMarkers::has(const std::string& name) const {
+std::int64_t TrialMarkers::find(const std::string& name) const {
   const auto m = index_.find(name);
+  if (m >= 0) return m;
+  const auto other = aliases_.find(name);
+  return other == aliases_.end() ? -1 : index_.find(other->second);
+}
+
+bool TrialMarkers::has(const std::string& name) const {
+  const auto m = find(name);
   return m >= 0 && seen_[static_cast<std::size_t>(m)];
 }
 
@@ -225,6 +363,31 @@ GraphNames Subject::names(const TrialMarkers& trial, bool is_static) const {
 Result<Subject> find_subject(const SegmentDefinition& definition, const SegmentInput& input,
                              const SegmentOptions& options) {
   return Finder(definition, input, options).find();
+}
+
+Result<std::vector<SubjectShift>> find_shifts(const SegmentDefinition& definition, const SegmentInput& input,
+                                              const SegmentOptions& options, const Subject& subject) {
+  constexpr double h = 1.7320508075688772;
+  std::vector<SubjectShift> out;
+  for (const auto& [name, used] : subject.parameters) {
+    if (!used.constant) continue;
+    SubjectShift shift;
+    for (auto* moved : {&shift.plus, &shift.minus}) {
+      SegmentInput with = input;
+      const double step = moved == &shift.plus ? h * used.sd : -h * used.sd;
+      with.given.insert(with.given.begin(), {name, used.value + step, used.from});
+      // Outputs of a model tell what they told.
+      for (const auto& [other, value] : subject.parameters)
+        if (value.from == kFromOutputs) with.given.push_back({other, value.value, value.from});
+      auto found = find_subject(definition, with, options);
+      if (!found) return std::unexpected(found.error());
+      *moved = std::move(*found);
+      // What cannot be measured then stays as it was.
+      for (const auto& [other, value] : subject.parameters) moved->parameters.try_emplace(other, value);
+    }
+    out.push_back(std::move(shift));
+  }
+  return out;
 }
 
 std::vector<std::int64_t> indices_of(const SegmentGraph& graph, const TrialMarkers& trial) {
@@ -243,3 +406,18 @@ void set_inputs(const SegmentGraph& graph, const std::vector<std::int64_t>& mark
 }
 
 }  // namespace kinemark::analysis::internal
+
+namespace kinemark::analysis {
+
+Result<std::vector<ShownParameter>> shown_parameters(const SegmentDefinition& definition,
+                                                     const SegmentInput& input,
+                                                     const SegmentOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = definition.check(); !s) return std::unexpected(s.error());
+  internal::Finder finder(definition, input, options);
+  auto subject = finder.find();
+  if (!subject) return std::unexpected(subject.error());
+  return finder.shown(std::move(*subject));
+}
+
+}  // namespace kinemark::analysis

@@ -237,6 +237,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
   const int n = model.coordinate_count(), M = model.marker_count();
   motion.q_sd.assign(motion.q.size(), std::numeric_limits<double>::quiet_NaN());
   motion.determined.assign(motion.q.size(), 0);
+  std::vector<std::uint8_t> open(motion.q.size(), 1);
   parallel_for(problem.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
     Frame frame(problem);
     MatrixXd unit_H, unit_K, B, rows, segment;
@@ -257,6 +258,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
         const double per_metre = std::sqrt(std::max(0.0, rows.row(c).dot(frame.E.row(c))));
         const bool rotation = motion.is_rotation[at(c)];
         determined[c] = per_metre <= (rotation ? kBlindRotation : kBlindTranslation);
+        open[motion.index(f, c)] = determined[c] == 0 ? 1 : 0;
       }
 
       // Sandwich: K (J'W S W J) K.
@@ -287,6 +289,8 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
       }
     }
   });
+  motion.open_frames.assign(at(n), 0);
+  for (std::size_t i = 0; i < open.size(); ++i) motion.open_frames[i % at(n)] += open[i];
 }
 
 }  // namespace kinemark::motion

@@ -68,6 +68,7 @@ std::int64_t FrameWalk::find_first(const data::Trajectories& markers) const {
 
 bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std::int64_t end, int direction,
                      SolvedFrames& solved) {
+  last_seen_.assign(at(weight_.size()), -1);
   int steady = 0;  // frames in a row with all markers: then the pose is extrapolated
   double usual_cost = -1.0;
   for (std::int64_t f = first; f != end; f += direction) {
@@ -104,11 +105,40 @@ bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std:
       steady = 0;
       solver_.square_cost(y_, weight_, f, x_);  // residuals of the pose that was kept
     }
+    compare_with_before_gap(f, direction, solved, outcome);
     unwind(before_, f);
     usual_cost = usual_cost < 0.0 ? outcome.cost : 0.95 * usual_cost + 0.05 * outcome.cost;
     store(f, outcome.converged, solved);
   }
   return true;
+}
+
+void FrameWalk::compare_with_before_gap(std::int64_t f, int direction, const SolvedFrames& solved,
+                                        FrameSolver::Outcome& outcome) {
+  std::int64_t before = -1;  // the oldest frame that saw a marker which comes back now
+  for (Eigen::Index m = 0; m < weight_.size(); ++m) {
+    if (weight_[m] == 0.0) continue;
+    auto& last = last_seen_[at(m)];
+    if (last >= 0 && last != f - direction && (before < 0 || (last - before) * direction < 0)) before = last;
+    last = f;
+  }
+  if (before < 0) return;
+  retry_ = solved.states.col(before);
+  const Eigen::VectorXd start = retry_;
+  const auto second = solver_.solve(y_, weight_, f, retry_);
+  const double margin = kSameCost * outcome.cost + kSameCost_m2;
+  bool take = second.converged && second.cost < outcome.cost - margin;
+  if (second.converged && !take && second.cost <= outcome.cost + margin) {
+    model::difference(problem_.model, start, retry_, move_);
+    const double way = move_.norm();
+    model::difference(problem_.model, start, x_, move_);
+    take = way < move_.norm() - kSamePose;
+  }
+  if (take) {
+    x_ = retry_;
+    outcome = second;
+  }
+  solver_.square_cost(y_, weight_, f, x_);
 }
 
 // A hinge that a bad sample had turned comes back the shorter way round, which may end a whole turn away.
@@ -164,6 +194,14 @@ void FrameWalk::store(std::int64_t f, bool converged, SolvedFrames& solved) {
                                      : FrameStatus::not_converged;
   solved.loop_gap_m[at(f)] = seen ? solver_.loop_gap() : 0.0;
   solved.cost[at(f)] = seen ? marker_cost() : 0.0;
+}
+
+void FrameWalk::put(const data::Trajectories& markers, std::int64_t f, const Eigen::VectorXd& state,
+                    SolvedFrames& solved) {
+  problem_.observe(markers, f, y_, weight_);
+  x_ = state;
+  solver_.square_cost(y_, weight_, f, x_);
+  store(f, solved.status[at(f)] == FrameStatus::converged, solved);
 }
 
 void FrameWalk::solve_again(const data::Trajectories& markers, const std::vector<std::uint8_t>& concerned,

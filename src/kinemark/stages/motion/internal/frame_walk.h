@@ -53,11 +53,20 @@ class FrameWalk {
   void solve_filled(const data::Trajectories& kept, const data::Trajectories& filled,
                     const std::vector<std::uint8_t>& concerned, SolvedFrames& solved);
 
+  /// Take a pose for a frame, as it is.
+  void put(const data::Trajectories& markers, std::int64_t f, const Eigen::VectorXd& state,
+           SolvedFrames& solved);
+
   /// Of all frames that were solved so far.
   [[nodiscard]] std::int64_t iterations() const { return solver_.iterations(); }
 
  private:
   [[nodiscard]] std::int64_t find_first(const data::Trajectories& markers) const;
+  /// A marker comes back in frame f: the pose from before it went counts as well as the one found without it.
+  /// The cheaper is taken, of two that are as good the one nearer to before. What happened in the gap then
+  /// does not outlast it.
+  void compare_with_before_gap(std::int64_t f, int direction, const SolvedFrames& solved,
+                               FrameSolver::Outcome& outcome);
   bool walk(const data::Trajectories& markers, std::int64_t first, std::int64_t end, int direction,
             SolvedFrames& solved);
   /// Begin anew, from no known pose, where bad samples had spoilt the frame that was solved first: what
@@ -81,6 +90,7 @@ class FrameWalk {
   FrameSolver solver_;
   Eigen::Matrix3Xd y_;
   Eigen::VectorXd weight_, x_, before_, retry_, move_;
+  std::vector<std::int64_t> last_seen_;  ///< per marker: the frame of this walk that saw it last, or -1
   std::int64_t done_ = 0;
 };
 

@@ -60,8 +60,19 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
                                             const data::Trajectories& markers, const Progress& progress) {
   JudgedFrames judged;
   FrameWalk walk(problem, options, progress);
-  if (!walk.run(markers, options.judge_samples, judged.solved)) return std::nullopt;
+  // Labels first: a pose that follows exchanged markers spoils the frames beside.
+  if (options.judge_samples) judged.exchanges = find_path_exchanges(problem, markers);
+  if (!judged.exchanges.empty()) {
+    judged.kept = markers;
+    exchange_back(problem, judged.exchanges, *judged.kept);
+  }
+  const auto now = [&]() -> const data::Trajectories& { return judged.kept ? *judged.kept : markers; };
+  if (!walk.run(now(), options.judge_samples, judged.solved)) return std::nullopt;
   if (!options.judge_samples) return judged;
+  const auto solve_again = [&](const std::vector<std::uint8_t>& concerned) {
+    walk.solve_again(*judged.kept, concerned, judged.solved);
+    walk.mend(*judged.kept, judged.solved);
+  };
   const auto reject = [&](const std::vector<Outlier>& outliers) {
     if (outliers.empty()) return false;
     if (!judged.kept) judged.kept = markers;
@@ -69,19 +80,32 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
     const auto concerned = leave_out(problem, outliers, *judged.kept, any);
     if (!any) return false;
     judged.rejected.insert(judged.rejected.end(), outliers.begin(), outliers.end());
-    walk.solve_again(*judged.kept, concerned, judged.solved);
-    walk.mend(*judged.kept, judged.solved);
+    solve_again(concerned);
     return true;
   };
-  reject(find_plain_defects(problem, markers, judged.solved));
+  const auto undo = [&](const std::vector<Exchange>& exchanges) {
+    if (exchanges.empty()) return false;
+    if (!judged.kept) judged.kept = markers;
+    exchange_back(problem, exchanges, *judged.kept);
+    add_exchanges(exchanges, judged.exchanges);
+    std::vector<std::uint8_t> concerned(at(problem.frames), 0);
+    for (const Exchange& exchange : exchanges)
+      for (const auto f : exchange.frames) concerned[at(f)] = 1;
+    solve_again(concerned);
+    return true;
+  };
+  reject(find_plain_defects(problem, now(), judged.solved));
   for (int round = 0; round < kRounds; ++round) {
-    auto judgement = judge_recording(problem, options, judged.kept ? *judged.kept : markers, judged.solved);
+    auto judgement = judge_recording(problem, options, now(), judged.solved);
     judged.doubtful = std::move(judgement.doubtful);
-    if (!reject(judgement.bad)) break;
+    // What is not believed even when exchanged back is left out in the end.
+    const bool undone = round + 1 < kRounds && undo(take_mutual(judgement.bad));
+    if (!reject(judgement.bad) && !undone) break;
   }
   if (judged.kept) {
     bool any = false;
     data::Trajectories counted = markers;
+    exchange_back(problem, judged.exchanges, counted);
     const auto concerned = leave_out(problem, judged.rejected, counted, any);
     StepScale scale(problem, judged.solved);
     judged.filled = fill_rejected(problem, *judged.kept, concerned, scale, judged.solved);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinemark/stages/motion/internal/exchanges.h"
 #include "kinemark/stages/motion/internal/judgement.h"
 
 namespace kinemark::motion::internal {
@@ -14,15 +15,16 @@ namespace kinemark::motion::internal {
 struct JudgedFrames {
   SolvedFrames solved;
   std::optional<data::Trajectories>
-      kept;  ///< the recording without what was left out; none where all was kept
+      kept;  ///< the recording, exchanges undone and without what was left out; none where it is as it was
   std::optional<data::Trajectories>
       filled;  ///< the same with what was left out where its marker lies on the body in the frames beside
-  std::vector<Outlier> rejected;  ///< by marker and frame, none overlaps another of the same marker
-  std::vector<Outlier> doubtful;  ///< as of Judgement
+  std::vector<Outlier> rejected;    ///< by marker and frame, none overlaps another of the same marker
+  std::vector<Outlier> doubtful;    ///< as of Judgement
+  std::vector<Exchange> exchanges;  ///< undone: each pair once
 };
 
-/// Solve, judge, solve the frames concerned again, until nothing more is found. No value when the caller
-/// stopped it.
+/// Undo exchanges of labels, solve, judge, solve the frames concerned again, until nothing more is found. No
+/// value when the caller stopped it.
 [[nodiscard]] std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOptions& options,
                                                           const data::Trajectories& markers,
                                                           const Progress& progress);

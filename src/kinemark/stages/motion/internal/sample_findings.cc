@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/sample_findings.h"
 
+#include <iterator>
+#include <vector>
+
 #include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -20,6 +24,25 @@ data::Finding finding_of(const Problem& problem, const Outlier& outlier) {
   return finding;
 }
 
+data::Finding finding_of(const Problem& problem, const Exchange& exchange,
+                         const data::Trajectories& markers) {
+  const auto sample = [&](std::int64_t f, int m) {
+    return markers.x(problem.first_frame + f, problem.data_marker[at(m)]);
+  };
+  std::vector<double> apart;
+  for (const auto f : exchange.frames)
+    apart.push_back((sample(f, exchange.one) - sample(f, exchange.other)).norm());
+  const bool whole = exchange.frames.back() - exchange.frames.front() + 1 == std::ssize(exchange.frames);
+  return {.kind = data::FindingKind::label_swap,
+          .subject = problem.fit.markers[at(exchange.one)].name,
+          .partner = problem.fit.markers[at(exchange.other)].name,
+          .first_frame = exchange.frames.front(),
+          .last_frame = exchange.frames.back(),
+          .frames = whole ? std::vector<std::int64_t>() : exchange.frames,
+          .size = math::upper_median(apart),
+          .detail = "exchanged back"};
+}
+
 }  // namespace
 
 void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
@@ -34,6 +57,8 @@ void add_sample_findings(const Problem& problem, const JudgedFrames& judged,
       motion.marker_state[at(f) * M + m] = state;
       *fit.markers[m].rejected_frames += state == data::SampleState::rejected;
     }
+  for (const Exchange& exchange : judged.exchanges)
+    fit.findings.push_back(finding_of(problem, exchange, markers));
   for (const Outlier& outlier : judged.rejected) fit.findings.push_back(finding_of(problem, outlier));
   for (const Outlier& outlier : judged.doubtful) {
     auto finding = finding_of(problem, outlier);

@@ -16,8 +16,8 @@ namespace {
 constexpr double kKnown_m = 0.01;     ///< a position with a larger SD is reported as not known
 constexpr double kKnown_rad = 0.175;  ///< ten degrees
 constexpr double kSmall_rad = 0.1;    ///< SD of a motion that is too small to tell a centre
-constexpr double kOneArc = 0.5;   ///< second SD of the rotation over the first: below, the motion is one arc
-constexpr double kRepeats = 0.7;  ///< SD between parts of the trial over that about the bone
+constexpr double kOneArc = 0.25;      ///< of the second SD of the rotation over the first
+constexpr double kRepeats = 0.7;      ///< SD between parts of the trial over that about the bone
 constexpr double kStill_rad = 0.035;  ///< two degrees of motion are none
 
 std::string millimetres(double m) { return fmt::format("{:.1f} mm", 1e3 * m); }
@@ -37,7 +37,9 @@ std::string describe_hinge(const data::SkeletonJoint& joint, const Eigen::Matrix
 /// Why a centre is known so badly, where the motion tells.
 std::string describe_lack(const Eigen::Vector3d& sd_rad) {
   if (sd_rad(0) < kSmall_rad) return ": the motion was too small";
-  if (sd_rad(1) < kOneArc * sd_rad(0)) return ": the motion was one arc only";
+  if (sd_rad(1) < kOneArc * sd_rad(0))
+    return fmt::format(": the motion was one arc only (SD {:.1f} deg, {:.1f} deg beside it)",
+                       sd_rad(0) * kDegPerRad, sd_rad(1) * kDegPerRad);
   return "";
 }
 
@@ -70,6 +72,16 @@ std::string describe_repeatability(const Eigen::Matrix3d& covariance, const Eige
   return fmt::format("; another part of the trial repeats it to {}", millimetres(repeats));
 }
 
+/// What the error bar rests on, where that is not the recording.
+std::string describe_source(const data::SkeletonJoint& joint) {
+  if (!joint.prior_dominated()) return "";
+  std::string text =
+      "; prior-dominated: most of this is what is known of skin, not what this recording shows";
+  if (joint.kind == data::JointKind::hinge)
+    text += " (1 mm of sliding per rad moves the axis by 1 mm and leaves no trace)";
+  return text;
+}
+
 }  // namespace
 
 std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector3d& sd_rad) {
@@ -86,7 +98,8 @@ std::string describe_joint(const data::SkeletonJoint& joint, const Eigen::Vector
   const Eigen::Vector3d& axis = in_parent ? joint.axis_in_parent : joint.axis_in_child;
   return motion + ": " + (hinge ? describe_hinge(joint, covariance) : describe_ball(covariance, sd_rad)) +
          describe_repeatability(
-             covariance, in_parent ? joint.repeatability_in_parent : joint.repeatability_in_child, axis);
+             covariance, in_parent ? joint.repeatability_in_parent : joint.repeatability_in_child, axis) +
+         describe_source(joint);
 }
 
 }  // namespace kinemark::skeleton

@@ -31,10 +31,13 @@ TEST(DescribeJoint, ABallIsKnownAsFarAsItIs) {
 
 TEST(DescribeJoint, AMotionThatIsTooSmallOrOneArcIsSaidWhereItMatters) {
   const auto wide = ball(1.0, {0.001, 0.05, 0.002}), narrow = ball(1.0, {0.001, 0.0005, 0.002});
-  const Eigen::Vector3d arc(0.4, 0.1, 0.05), small(0.08, 0.07, 0.05);
-  EXPECT_TRUE(describe_joint(wide, arc).ends_with("to 50.0 mm along it: the motion was one arc only"));
+  const Eigen::Vector3d arc(0.4, 0.09, 0.05), small(0.08, 0.07, 0.05);
+  EXPECT_TRUE(describe_joint(wide, arc).ends_with(
+      "to 50.0 mm along it: the motion was one arc only (SD 22.9 deg, 5.2 deg beside it)"));
   EXPECT_TRUE(describe_joint(wide, small).ends_with(": the motion was too small"));
   EXPECT_TRUE(describe_joint(wide, kAround).ends_with("along it")) << "the motion is not the reason";
+  EXPECT_TRUE(describe_joint(wide, {0.4, 0.11, 0.05}).ends_with("along it"))
+      << "more than a quarter is another arc";
   for (const auto& sd_rad : {arc, small})
     EXPECT_TRUE(describe_joint(narrow, sd_rad).ends_with("centre known to 2.0 mm")) << "nothing is lacking";
 }
@@ -64,6 +67,18 @@ TEST(DescribeJoint, RepeatingIsSaidWhereItIsNotBeingRight) {
       << "parts differ by all there is";
   joint.repeatability_in_parent.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(describe_joint(joint, kAround), "57 deg of motion: centre known to 9.0 mm");
+}
+
+TEST(DescribeJoint, PriorKnowledgeIsNotPassedOffAsData) {
+  data::SkeletonJoint joint = ball(1.0, {0.001, 0.0005, 0.009});
+  for (const double share : {0.51, 0.9}) {
+    joint.prior_share = share;
+    EXPECT_NE(describe_joint(joint, kAround).find("prior-dominated"), std::string::npos);
+  }
+  for (const double share : {0.0, 0.49, std::numeric_limits<double>::quiet_NaN()}) {
+    joint.prior_share = share;
+    EXPECT_EQ(describe_joint(joint, kAround), "57 deg of motion: centre known to 9.0 mm");
+  }
 }
 
 TEST(DescribeJoint, AStillJointAndAnUnknownOneSaySo) {

@@ -35,7 +35,8 @@ struct JointFit {
   /// The same of what another part of the trial would differ by; NaN when unknown.
   Eigen::Matrix3d axis_repeatability = Eigen::Matrix3d::Constant(kNaN);
   double axis_sd_rad = 0.0;     ///< of the tilt that is known less
-  double slide_share = 0.0;     ///< probability that skin slides with the posture, SkinSlide::share
+  double prior_share = kNaN;    ///< SkinSlide::prior_share; NaN: skin was not looked at
+  data::SkinAccount skin;       ///< what the recording shows of skin that slides with the posture
   double residual_rms_m = 0.0;  ///< distance between the two positions, or distance from the spheres, RMS
   std::int64_t frames = 0;      ///< used
   std::string method;           ///< name of the method that found it

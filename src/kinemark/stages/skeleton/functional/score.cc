@@ -8,14 +8,11 @@
 #include <limits>
 
 #include "kinemark/data/joint_choice.h"
-#include "kinemark/stages/skeleton/functional/axis_slide.h"
-#include "kinemark/stages/skeleton/functional/skin_slide.h"
 
 namespace kinemark::skeleton {
 namespace {
 
 constexpr std::size_t kLeastFrames = 4;
-constexpr double kSlides = 0.5;             ///< probability beyond which skin is taken to slide
 constexpr std::int64_t kNoiseFrames = 200;  ///< from which the noise of the poses is estimated
 
 struct Solution {
@@ -125,7 +122,7 @@ double ScoreSums::cost(const Vector6& p) const {
 }
 
 JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
-                   const RelativeMotion& motion, data::JointKind kind, const SkinPrior& prior) {
+                   const RelativeMotion& motion, data::JointKind kind) {
   JointFit fit;
   fit.kind = kind;
   fit.method = kind == data::JointKind::hinge ? "SARA" : "SCoRE";
@@ -168,13 +165,9 @@ JointFit fit_score(const Samples& samples, const SegmentPoses& parent, const Seg
     }
     fit.scatter += scale * d * d.transpose();
   }
-  const SkinSlide slide = measure_skin_slide(parent, child, motion, best.inverse, best.centre, kind, prior);
-  fit.slide_share = slide.share;
-  fit.covariance = slide.share > kSlides ? slide.covariance : fit.scatter;
-  fit.repeatability = slide.share > kSlides ? slide.repeatability : fit.scatter;
+  fit.covariance = fit.repeatability = fit.scatter;
   if (kind == data::JointKind::hinge) {
     fit.axis_repeatability = fit.axis_covariance;
-    fit.axis_covariance += axis_slide_covariance(samples, parent, child, motion, fit.axis_in_parent, prior);
     fit.axis_sd_rad =
         std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fit.axis_covariance).eigenvalues()(2));
   }

@@ -8,7 +8,6 @@
 #include "kinemark/stages/skeleton/functional/joint_fit.h"
 #include "kinemark/stages/skeleton/functional/relative_motion.h"
 #include "kinemark/stages/skeleton/functional/segment_poses.h"
-#include "kinemark/stages/skeleton/functional/skin_prior.h"
 
 namespace kinemark::skeleton {
 
@@ -34,12 +33,12 @@ struct ScoreSums {
 /// for a hinge: the axis is the direction that the same equations do not fix, and the centre the point on it
 /// nearest to the markers of both segments.
 ///
-/// The covariance comes from leaving out one block of frames at a time or, where skin more likely slides with
-/// the posture than not, from measure_skin_slide() and axis_slide_covariance(); plus what motion and noise of
-/// the poses leave open (data::kJointPriorSd_m). Frames: those of motion.frames. Fewer than 4: nothing is
-/// known.
+/// The covariance comes from leaving out one block of frames at a time, plus what motion and noise of the
+/// poses leave open (data::kJointPriorSd_m): by how much such frames, drawn anew, would differ. Errors that
+/// repeat themselves in every movement are not in it: widen_by_skin(). Frames: those of motion.frames. Fewer
+/// than 4: nothing is known.
 [[nodiscard]] JointFit fit_score(const Samples& samples, const SegmentPoses& parent,
                                  const SegmentPoses& child, const RelativeMotion& motion,
-                                 data::JointKind kind, const SkinPrior& prior = {});
+                                 data::JointKind kind);
 
 }  // namespace kinemark::skeleton

@@ -9,12 +9,17 @@
 namespace kinemark::skeleton {
 
 Status SkinPrior::check() const {
-  for (const double value : {turn, turn_weight, slide_m})
+  for (const double value : {ball, hinge, misfit})
     if (!(value > 0.0) || !std::isfinite(value))
       return fail(Code::usage,
-                  fmt::format("skin that slides by {} m and turns by {} rad per rad with a weight of {}; "
-                              "need more than 0",
-                              slide_m, turn, turn_weight));
+                  fmt::format("skin that slides as one body by {} (ball) and {} (hinge) times its "
+                              "own slide, with a misfit of {}; need more than 0",
+                              ball, hinge, misfit));
+  for (const double factor : {ball_factor, hinge_factor})
+    if (!(factor > 1.0) || !std::isfinite(factor))
+      return fail(Code::usage, fmt::format("skin that differs by a factor of {}; need more than 1", factor));
+  if (!(anywhere > 0.0 && anywhere < 1.0))
+    return fail(Code::usage, fmt::format("a probability of {}; need one between 0 and 1", anywhere));
   return {};
 }
 

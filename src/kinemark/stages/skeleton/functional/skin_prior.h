@@ -7,23 +7,21 @@
 
 namespace kinemark::skeleton {
 
-/// Skin of the thigh and shank against bone, as published. With bone pins, knee rotations were wrong by 4.4
-/// deg and places by 13 mm on average in walking, by 13.1 deg and 16 mm in cutting (Benoit et al. 2006, Gait
-/// & Posture 24:152); with fluoroscopy a thigh's markers turn as one body by some 10 deg and shift by 18 mm,
-/// a shank's by 7 deg and 17 mm (PubMed Central PMC8631460), all while a knee bends by some 60 deg.
+/// How far a segment's markers slide as one body, in proportion to how far each slides by itself. The latter
+/// shows in their shape, the former leaves little or no trace. On thighs and shanks half of the energy
+/// (Grimpampi et al. 2014, IEEE Trans Biomed Eng 61:362) to 80 % of it (Barre et al. 2013, ibid. 60:3131)
+/// moves the markers as one body: 0.4 to 1.1 times the own slide for translation and turn. People differ by a
+/// factor of two.
 struct SkinPrior {
-  /// SD of the turn of one segment's markers against the other's about each axis across a hinge, per rad of
-  /// the hinge's angle: 6 deg in 60. The figures above lie between 0.07 and 0.2.
-  double turn = 0.1;
-  /// How much it weighs beside what a recording's own markers show: as much as this many numbers. Skin slides
-  /// by 5 to 20 mm from one person, movement and marker set to the next: of another's skin one number is
-  /// known.
-  double turn_weight = 1.0;
-  /// Median of the slide of a hinge's place on an axis at one SD of its angle, m: 15 mm from one end of a
-  /// movement to the other have an SD of 5 mm.
-  double slide_m = 0.005;
+  double ball = 1.0;          ///< median of common over own slide, of a ball joint
+  double hinge = 1.4;         ///< the same of a hinge
+  double ball_factor = 1.6;   ///< one SD of its logarithm, as a factor, of a ball joint
+  double hinge_factor = 2.0;  ///< the same of a hinge
+  double anywhere = 1e-3;     ///< probability that the common slide has nothing to do with the own one
+  /// Skin is no linear and quadratic function of the posture: what is left over, as a share of the slide.
+  double misfit = 0.3;
 
-  /// More than 0 and finite.
+  /// More than 0 and finite; factors beyond 1, probability below 1.
   [[nodiscard]] Status check() const;
 };
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <limits>
 
 namespace kinemark::skeleton {
 namespace {
@@ -12,11 +12,15 @@ namespace {
 TEST(SkinPrior, DefaultsAreUsable) { EXPECT_TRUE(SkinPrior{}.check()); }
 
 TEST(SkinPrior, RefusesWhatIsNoSize) {
-  for (const double bad : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
-    EXPECT_FALSE(SkinPrior{.turn = bad}.check());
-    EXPECT_FALSE(SkinPrior{.turn_weight = bad}.check());
-    EXPECT_FALSE(SkinPrior{.slide_m = bad}.check());
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(SkinPrior{.ball = bad}.check());
+    EXPECT_FALSE(SkinPrior{.hinge = bad}.check());
+    EXPECT_FALSE(SkinPrior{.misfit = bad}.check());
+    EXPECT_FALSE(SkinPrior{.anywhere = bad}.check());
   }
+  EXPECT_FALSE(SkinPrior{.ball_factor = 1.0}.check());
+  EXPECT_FALSE(SkinPrior{.hinge_factor = 0.5}.check());
+  EXPECT_FALSE(SkinPrior{.anywhere = 1.0}.check());
 }
 
 }  // namespace

@@ -4,262 +4,357 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/joint_choice.h"
-#include "kinemark/stages/skeleton/functional/internal/posture.h"
+#include "kinemark/stages/skeleton/functional/internal/alike.h"
+#include "kinemark/stages/skeleton/functional/internal/axis_slide.h"
+#include "kinemark/stages/skeleton/functional/internal/gap_model.h"
+#include "kinemark/stages/skeleton/functional/skin_evidence.h"
 
 namespace kinemark::skeleton {
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using internal::Cluster;
+using internal::GapModel;
+using internal::kGapSize;
+using internal::OwnSlide;
+
 constexpr std::int64_t kLeastSlideFrames = 40;
-constexpr int kTerms = 9;               ///< three linear, six quadratic functions of the posture
-constexpr int kSlide = 2 * 3 * kTerms;  ///< coefficients: both sides, three axes
 /// Gaps and noise of no more than this are rounding: no marker is known so well.
 constexpr double kRounding_m = 1e-7;
-constexpr double kLeastPosture_rad = 0.01;  ///< components of the posture that move less are not blown up
-/// A component of the posture that hardly moves is mostly crosstalk and slides less than in proportion to its
-/// SD: it counts as having this SD in quadrature.
-constexpr double kCrosstalk_rad = 0.14;
-constexpr double kQuadratic = 0.15;   ///< variance of quadratic coefficients over that of linear ones
-constexpr double kPriorMedian = 0.5;  ///< of a ball joint's amplitude, over the RMS gap per axis
+/// Sizes of the common slide and turn, m per rad.
+constexpr int kSizes = 8;
+constexpr std::array<double, kSizes> kCommon_m = {0.0, 0.5e-3, 1.5e-3, 3.5e-3, 7e-3, 12e-3, 20e-3, 35e-3};
+constexpr double kAnywhereTo_m = 20e-3;  ///< published slides lie below it
+constexpr double kLogFloor_m = 0.1e-3;   ///< what is smaller counts as so much where logarithms are compared
+constexpr double kRatioFloor_m = 0.2e-3, kLeastRatio = 0.15;
+constexpr double kLeastNoise = 0.7;  ///< of the noise's variance over that of the shape
+constexpr double kSlide_m = 0.03;    ///< wide prior of coefficients, for the first residual alone
 constexpr double kLeveragePower = 0.5, kLeastLeft = 0.05;
-constexpr double kPriorLog = 1.0;  ///< SD of its logarithm
-constexpr int kGrid = 24;
-constexpr double kGridFrom = 0.04, kGridTo = 6.0;  ///< of the amplitude, over its median
+constexpr std::int64_t kLeastParts = 3, kMostParts = 12;
+constexpr double kLeastMotion_rad = 0.035;  ///< SD of a posture that could tell anything
 
-using internal::Posture;
-using Row = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+/// A segment's own slide, and what it and a common slide of unit size do to the joint's place.
+struct Side {
+  const Cluster& cluster;
+  OwnSlide slide;
+  Matrix3d own, turn;     ///< of the joint's place by a slide of one metre per rad, m^2
+  double softness = 1.0;  ///< of this segment over the softer one
 
-/// Functions of the posture, F x 9, each of the size that its coefficients are expected to have alike.
-Eigen::MatrixXd terms_of(const Posture& posture) {
-  const auto n = posture.component.rows();
-  Eigen::MatrixX3d z(n, 3);
-  for (int k = 0; k < 3; ++k) {
-    const double sd = posture.sd_rad(k);
-    const double size = std::sqrt((sd * sd + kCrosstalk_rad * kCrosstalk_rad) /
-                                  (posture.sd_rad(0) * posture.sd_rad(0) + kCrosstalk_rad * kCrosstalk_rad));
-    z.col(k) = posture.component.col(k) * (size / std::max(sd, kLeastPosture_rad));
+  Side(const Cluster& of, OwnSlide slide_, const Eigen::Vector3d& joint) : cluster(of), slide(slide_) {
+    const Eigen::Vector3d l = joint - of.mean;
+    Matrix3d lever;
+    lever << 0.0, -l.z(), l.y(), l.z(), 0.0, -l.x(), -l.y(), l.x(), 0.0;
+    own = Matrix3d::Identity() / static_cast<double>(of.columns.size()) +
+          lever * of.inverse_inertia * lever.transpose();
+    turn = lever * lever.transpose() / (of.radius_m * of.radius_m);
   }
-  Eigen::MatrixXd out(n, kTerms);
-  out.leftCols<3>() = z;
-  int column = 3;
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b, ++column) {
-      out.col(column) = z.col(a).cwiseProduct(z.col(b)) * std::sqrt(kQuadratic * (a == b ? 0.5 : 1.0));
-      out.col(column).array() -= out.col(column).mean();
-    }
+  /// Covariance of a linear coefficient of the joint's place, per rad.
+  [[nodiscard]] Matrix3d linear(double common_m, double turn_m) const {
+    return slide.size_m * slide.size_m * own +
+           softness * softness * (common_m * common_m * Matrix3d::Identity() + turn_m * turn_m * turn) +
+           1e-10 * Matrix3d::Identity();
+  }
+};
+
+void set_softness(Side& a, Side& b) {
+  const double ratio = (a.slide.size_m + kRatioFloor_m) / (b.slide.size_m + kRatioFloor_m);
+  a.softness = std::clamp(ratio, kLeastRatio, 1.0);
+  b.softness = std::clamp(1.0 / ratio, kLeastRatio, 1.0);
+}
+
+/// Log prior of each size of a common slide: log-normal about the own slide, which is known with its weights.
+std::array<double, kSizes> common_prior(const OwnSlide& own, double ratio, double factor, double anywhere) {
+  const auto logarithm = [](double m) { return std::log(std::max(m, kLogFloor_m)); };
+  const auto near = std::ranges::count_if(kCommon_m, [](double m) { return m < 1.05 * kAnywhereTo_m; });
+  std::array<double, kSizes> out{};
+  for (int b = 0; b < internal::kSlideSizes; ++b) {
+    const double about = logarithm(internal::slide_sizes()[at(b)]) + (b > 0 ? std::log(ratio) : 0.0);
+    std::array<double, kSizes> density{};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kSizes; ++i)
+      sum += density[i] = std::exp(-0.5 * std::pow((logarithm(kCommon_m[i]) - about) / std::log(factor), 2));
+    for (std::size_t i = 0; i < kSizes; ++i)
+      out[i] += own.weight[at(b)] *
+                ((1.0 - anywhere) * density[i] / sum +
+                 (kCommon_m[i] < 1.05 * kAnywhereTo_m ? anywhere / static_cast<double>(near) : 0.0));
+  }
+  for (double& p : out) p = std::log(p);
   return out;
 }
 
-/// One frame's rows of p_a - R p_b + slide = y, in the parent's axes.
-Row row_of(const SegmentPoses& parent, const SegmentPoses& child, std::int64_t frame,
-           const Eigen::Ref<const Eigen::RowVectorXd>& terms) {
-  const auto f = at(frame);
-  const Eigen::Matrix3d to_parent = parent.world_from_segment[f].transpose();
-  const Eigen::Matrix3d rotation = to_parent * child.world_from_segment[f];
-  Row out(3, 6 + kSlide + 1);
-  out.leftCols<3>().setIdentity();
-  out.middleCols<3>(3) = -rotation;
-  for (int k = 0; k < kTerms; ++k) {
-    // Two sides share the amplitude's square.
-    out.middleCols<3>(6 + 3 * k) = terms(k) * std::sqrt(0.5) * Eigen::Matrix3d::Identity();
-    out.middleCols<3>(6 + 3 * kTerms + 3 * k) = terms(k) * std::sqrt(0.5) * rotation;
-  }
-  out.col(6 + kSlide) = to_parent * (child.origin[f] - parent.origin[f]);
-  return out;
-}
+MatrixXd root_of(const Matrix3d& C) { return C.llt().matrixL(); }
 
-/// Frames that count as one: 1 + 2 sum of autocorrelations while pairs of them are positive (Geyer 1992).
-double frames_alike(const Eigen::MatrixX3d& residual) {
-  const auto n = residual.rows();
-  const double variance = residual.squaredNorm();
-  if (!(variance > 0.0)) return 1.0;
-  const auto correlation = [&](Eigen::Index lag) {
-    return residual.topRows(n - lag).cwiseProduct(residual.bottomRows(n - lag)).sum() / variance;
+/// Root of the prior covariance of all coefficients of the gap, joint first.
+MatrixXd prior_root(const Side& a, const Side& b, const Matrix3d& mean, double common_m, double turn_m) {
+  MatrixXd out = MatrixXd::Zero(kGapSize, kGapSize);
+  out.topLeftCorner<6, 6>().diagonal().setConstant(data::kJointPriorSd_m);
+  const Matrix3d above = a.linear(common_m, turn_m), below = b.linear(common_m, turn_m);
+  const Matrix3d below_in_parent = mean * below * mean.transpose();
+  const auto fill = [&](int from, int count, const MatrixXd& root) {
+    for (int k = from; k < from + count; ++k) out.block<3, 3>(6 + 3 * k, 6 + 3 * k) = root;
   };
-  double sum = 1.0;
-  for (Eigen::Index lag = 1; lag + 1 < n / 2; lag += 2) {
-    const double pair = correlation(lag) + correlation(lag + 1);
-    if (!(pair > 0.0)) break;
-    sum += 2.0 * pair;
-  }
-  return std::clamp(sum, 1.0, static_cast<double>(n) / 4.0);
-}
-
-/// Sums of the regression: what the slide's size is inferred from.
-struct SlideProblem {
-  Eigen::MatrixXd normal;  ///< of joint, slide and gap together
-  double variance = 0.0;   ///< of the noise of a frame that counts as one
-
-  [[nodiscard]] Matrix6 xx() const { return normal.topLeftCorner<6, 6>(); }
-  [[nodiscard]] Eigen::MatrixXd xz() const { return normal.block(0, 6, 6, kSlide); }
-  /// Log likelihood of an amplitude, the joint itself integrated out.
-  [[nodiscard]] double log_likelihood(double amplitude_m) const;
-  /// Covariance of least squares.
-  [[nodiscard]] Matrix6 covariance(const Matrix6& solve, double amplitude_m) const {
-    const Eigen::MatrixXd z = solve * xz();
-    return variance * solve * xx() * solve + amplitude_m * amplitude_m * z * z.transpose();
-  }
-};
-
-double SlideProblem::log_likelihood(double amplitude_m) const {
-  const Vector6 xy = normal.block<6, 1>(0, 6 + kSlide);
-  Matrix6 M = xx() / variance;
-  Vector6 right = xy / variance;
-  double squares = normal(6 + kSlide, 6 + kSlide) / variance, log_det = 0.0;
-  if (amplitude_m > 0.0) {
-    Eigen::MatrixXd inner = normal.block(6, 6, kSlide, kSlide) * (amplitude_m * amplitude_m / variance);
-    inner.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(inner);
-    const double scale = amplitude_m / variance;
-    const Eigen::MatrixXd zx = llt.matrixL().solve(Eigen::MatrixXd(scale * xz().transpose()));
-    const Eigen::VectorXd zy =
-        llt.matrixL().solve(Eigen::VectorXd(scale * normal.block(6, 6 + kSlide, kSlide, 1)));
-    M -= zx.transpose() * zx;
-    right -= zx.transpose() * zy;
-    squares -= zy.squaredNorm();
-    log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  }
-  // What the motion leaves open, as the place along a hinge, has no eigenvalue but rounding: the prior's
-  // alone.
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(M);
-  const Vector6 information =
-      eigen.eigenvalues().cwiseMax(0.0).array() + 1.0 / (data::kJointPriorSd_m * data::kJointPriorSd_m);
-  const Vector6 along = eigen.eigenvectors().transpose() * right;
-  log_det += information.array().log().sum();
-  return -0.5 * (log_det + squares - along.cwiseAbs2().cwiseQuotient(information).sum());
-}
-
-/// The amplitude's grid with the weight of each value; the first is none.
-struct Amplitudes {
-  std::array<double, kGrid + 1> value{}, weight{};
-};
-
-Amplitudes infer_amplitude(const SlideProblem& problem, double median_m) {
-  Amplitudes out;
-  std::array<double, kGrid + 1> log_weight{};
-  const double step = std::log(kGridTo / kGridFrom) / (kGrid - 1);
-  log_weight[0] = problem.log_likelihood(0.0);
-  for (int i = 1; i <= kGrid; ++i) {
-    const double ratio = kGridFrom * std::exp(step * (i - 1));
-    out.value[at(i)] = ratio * median_m;
-    const double deviate = std::log(ratio) / kPriorLog;
-    // The grid's weights sum to one, as that of "none" is one.
-    log_weight[at(i)] = problem.log_likelihood(out.value[at(i)]) - 0.5 * deviate * deviate +
-                        std::log(step / (kPriorLog * std::sqrt(2.0 * M_PI)));
-  }
-  const double best = *std::ranges::max_element(log_weight);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < log_weight.size(); ++i) sum += out.weight[i] = std::exp(log_weight[i] - best);
-  for (double& w : out.weight) w /= sum;
+  using namespace internal;
+  fill(0, kLinearTerms, root_of(above));
+  const auto both = [&](double of_a, double of_b) {
+    return root_of(of_a * of_a * above + of_b * of_b * below_in_parent);
+  };
+  fill(kLinearTerms, kQuadraticTerms, both(a.slide.quadratic, b.slide.quadratic));
+  fill(kLinearTerms + kQuadraticTerms, kLagTerms, both(a.slide.lag, b.slide.lag));
+  fill(kPostureTerms, kLinearTerms, root_of(below));
   return out;
 }
 
-/// One movement's share of the sums.
-struct Cycle {
-  Matrix6 xx = Matrix6::Zero();
-  Eigen::MatrixXd xz = Eigen::MatrixXd::Zero(6, kSlide);
+/// The grid's result: means and covariances of the joint, weighted by their evidence.
+struct Posterior {
+  Vector6 mean = Vector6::Zero();
+  Matrix6 covariance = Matrix6::Zero(), before = Matrix6::Zero();
+  double common2 = 0.0, turn2 = 0.0;
+  MatrixXd slides;  ///< root of the slides' prior covariance at the sizes found
 };
 
-std::vector<Cycle> cycles_of(const SegmentPoses& parent, const SegmentPoses& child, const Posture& posture,
-                             const Eigen::MatrixXd& terms, double alike) {
-  const std::int64_t count = internal::count_cycles(posture);
-  std::vector<Cycle> out(at(count));
-  const Eigen::Index n = terms.rows();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
-    Cycle& cycle = out[at(i * count / n)];
-    cycle.xx.noalias() += row.leftCols<6>().transpose() * row.leftCols<6>() / alike;
-    cycle.xz.noalias() += row.leftCols<6>().transpose() * row.middleCols(6, kSlide) / alike;
+class SlideFit {
+ public:
+  SlideFit(const GapModel& model, Side a, Side b, const Matrix3d& mean, const SkinPrior& prior, bool hinge)
+      : model_(model), a_(std::move(a)), b_(std::move(b)), mean_(mean) {
+    set_softness(a_, b_);
+    const double ratio = hinge ? prior.hinge : prior.ball;
+    prior_ = common_prior(a_.slide.size_m > b_.slide.size_m ? a_.slide : b_.slide, ratio,
+                          hinge ? prior.hinge_factor : prior.ball_factor, prior.anywhere);
+    const Matrix3d frame =
+        a_.slide.noise_variance * a_.own + mean * (b_.slide.noise_variance * b_.own) * mean.transpose();
+    const double residual = find_noise(frame);
+    // Real slides are no polynomials. A misfit in proportion to the slides that are tried would drive these
+    // to nothing, so it is that of the expected ones.
+    const auto expected = [&](const Side& side) {
+      const double m = side.slide.size_m;
+      return Matrix3d(m * m * (side.own + ratio * ratio * (Matrix3d::Identity() + side.turn)));
+    };
+    noise_ = frame * (residual * alike_ / static_cast<double>(model.posture.block));
+    all_ = noise_ + 2.0 * prior.misfit * prior.misfit * model.posture.smooth.squaredNorm() /
+                        static_cast<double>(model.posture.smooth.rows()) *
+                        (expected(a_) + mean * expected(b_) * mean.transpose());
+    const auto rows = model.blocks.rows();
+    const Eigen::LLT<Matrix3d> llt(all_);
+    MatrixXd design = model.blocks;
+    Eigen::VectorXd gap = model.block_gap;
+    for (Eigen::Index r = 0; r < rows; r += 3) {
+      design.middleRows<3>(r) = llt.matrixL().solve(design.middleRows<3>(r).eval()).eval();
+      gap.segment<3>(r) = llt.matrixL().solve(gap.segment<3>(r).eval()).eval();
+    }
+    normal_ = design.transpose() * design;
+    right_ = design.transpose() * gap;
+    const auto X = model.blocks.leftCols<6>();
+    Matrix6 plain = X.transpose() * X;
+    plain.diagonal().array() +=
+        1e-4 * static_cast<double>(rows / 3) / (data::kJointPriorSd_m * data::kJointPriorSd_m);
+    solve_ = plain.inverse();
+    carried_ = solve_ * X.transpose() * model.blocks.rightCols(kGapSize - 6);
   }
-  return out;
-}
 
-/// Covariance of the joint by slides of one metre that the movements, drawn anew, would not share: the
-/// sandwich over clusters, its residuals those of the slide about the joint that absorbs it, each as large as
-/// one of a movement that the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology
-/// 28:169). Averaged over all slides.
-Matrix6 between_cycles(const std::vector<Cycle>& cycles, const Matrix6& solve) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(solve);
-  // What the motion leaves open, as the place along a hinge, has no eigenvalue but rounding.
-  const Matrix6 root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-                       eigen.eigenvectors().transpose();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(6, kSlide);
-  for (const Cycle& cycle : cycles) all += cycle.xz;
-  const Eigen::MatrixXd absorbed = solve * all;
-  Matrix6 out = Matrix6::Zero();
-  for (const Cycle& cycle : cycles) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6> leverage(root * cycle.xx * root);
-    const Vector6 left =
-        (1.0 - leverage.eigenvalues().array()).cwiseMax(kLeastLeft).pow(-kLeveragePower).matrix();
-    const Matrix6 wider = leverage.eigenvectors() * left.asDiagonal() * leverage.eigenvectors().transpose();
-    const Eigen::MatrixXd by = root * wider * root * (cycle.xz - cycle.xx * absorbed);
-    out += by * by.transpose();
+  [[nodiscard]] double alike() const { return alike_; }
+  [[nodiscard]] const Side& parent() const { return a_; }
+  [[nodiscard]] const Side& child() const { return b_; }
+
+  /// Covariance of least squares by an error of each block.
+  [[nodiscard]] Matrix6 by_noise(const Matrix3d& of_block) const {
+    Matrix6 sum = Matrix6::Zero();
+    for (Eigen::Index r = 0; r < model_.blocks.rows(); r += 3) {
+      const Eigen::Matrix<double, 3, 6> X = model_.blocks.block<3, 6>(r, 0);
+      sum += X.transpose() * of_block * X;
+    }
+    return solve_ * sum * solve_;
   }
+  [[nodiscard]] Matrix6 by_noise() const { return by_noise(noise_); }
+
+  [[nodiscard]] Posterior integrate() const {
+    struct Point {
+      double log_weight;
+      Vector6 mean;
+      Matrix6 covariance, before;
+      std::size_t i, j;
+    };
+    std::vector<Point> points;
+    const Matrix6 by_blocks = by_noise(all_);
+    for (std::size_t i = 0; i < kSizes; ++i)
+      for (std::size_t j = 0; j < kSizes; ++j) {
+        const MatrixXd root = prior_root(a_, b_, mean_, kCommon_m[i], kCommon_m[j]);
+        MatrixXd inner = root.transpose() * normal_ * root;
+        inner.diagonal().array() += 1.0;
+        const Eigen::LLT<MatrixXd> llt(inner);
+        const Eigen::VectorXd u = llt.matrixL().solve(root.transpose() * right_);
+        const MatrixXd joint = llt.matrixL().solve(MatrixXd(root.transpose()).leftCols(6));
+        const MatrixXd K = carried_ * root.bottomRightCorner(kGapSize - 6, kGapSize - 6);
+        points.push_back({.log_weight = 0.5 * u.squaredNorm() -
+                                        llt.matrixLLT().diagonal().array().log().sum() + prior_[i] +
+                                        prior_[j],
+                          .mean = joint.transpose() * u,
+                          .covariance = joint.transpose() * joint,
+                          .before = K * K.transpose() + by_blocks,
+                          .i = i,
+                          .j = j});
+      }
+    const double best = std::ranges::max_element(points, {}, &Point::log_weight)->log_weight;
+    double sum = 0.0;
+    for (Point& p : points) sum += p.log_weight = std::exp(p.log_weight - best);
+    Posterior out;
+    for (Point& p : points) {
+      p.log_weight /= sum;
+      out.mean += p.log_weight * p.mean;
+      out.before += p.log_weight * p.before;
+      out.common2 += p.log_weight * kCommon_m[p.i] * kCommon_m[p.i];
+      out.turn2 += p.log_weight * kCommon_m[p.j] * kCommon_m[p.j];
+    }
+    for (const Point& p : points) {
+      const Vector6 d = p.mean - out.mean;
+      out.covariance += p.log_weight * (p.covariance + d * d.transpose());
+    }
+    out.slides = prior_root(a_, b_, mean_, std::sqrt(out.common2), std::sqrt(out.turn2))
+                     .bottomRightCorner(kGapSize - 6, kGapSize - 6);
+    return out;
+  }
+
+  /// Covariance of the joint by slides that the movements, drawn anew, would not share: the sandwich over
+  /// clusters, its residuals those of the slide about the joint that absorbs it, each as large as one of a
+  /// movement that the joint was not fitted to (CR2: Bell & McCaffrey 2002, Survey Methodology 28:169).
+  [[nodiscard]] Matrix6 between_movements(const MatrixXd& slides, std::int64_t parts) const {
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(solve_);
+    const Matrix6 root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                         eigen.eigenvectors().transpose();
+    const auto blocks = model_.blocks.rows() / 3;
+    Matrix6 out = Matrix6::Zero();
+    for (std::int64_t part = 0; part < parts; ++part) {
+      const auto from = part * blocks / parts, to = (part + 1) * blocks / parts;
+      const auto rows = model_.blocks.middleRows(3 * from, 3 * (to - from));
+      const Matrix6 xx = rows.leftCols<6>().transpose() * rows.leftCols<6>();
+      const MatrixXd xz = rows.leftCols<6>().transpose() * rows.rightCols(kGapSize - 6);
+      const Eigen::SelfAdjointEigenSolver<Matrix6> leverage(root * xx * root);
+      const Vector6 left =
+          (1.0 - leverage.eigenvalues().array()).cwiseMax(kLeastLeft).pow(-kLeveragePower).matrix();
+      const Matrix6 wider = leverage.eigenvectors() * left.asDiagonal() * leverage.eigenvectors().transpose();
+      const MatrixXd by = root * wider * root * (xz - xx * carried_) * slides;
+      out += by * by.transpose();
+    }
+    return out;
+  }
+
+ private:
+  /// Variance of the gap that joint and slides leave over what the shapes' noise would make of it, and how
+  /// many frames of it count as one.
+  double find_noise(const Matrix3d& frame) {
+    const Matrix3d inverse = frame.inverse();
+    const Eigen::LLT<Matrix3d> root(inverse);
+    MatrixXd design = model_.blocks;
+    Eigen::VectorXd gap = model_.block_gap;
+    const double weight = std::sqrt(static_cast<double>(model_.posture.block));
+    for (Eigen::Index r = 0; r < design.rows(); r += 3) {
+      design.middleRows<3>(r) = weight * (root.matrixU() * design.middleRows<3>(r)).eval();
+      gap.segment<3>(r) = weight * (root.matrixU() * gap.segment<3>(r)).eval();
+    }
+    MatrixXd H = design.transpose() * design;
+    H.diagonal().head<6>().array() += 1.0 / (data::kJointPriorSd_m * data::kJointPriorSd_m);
+    H.diagonal().tail(kGapSize - 6).array() += 1.0 / (kSlide_m * kSlide_m);
+    const Eigen::VectorXd x = H.llt().solve(design.transpose() * gap);
+    const MatrixXd left = model_.residual(x);
+    alike_ = internal::frames_alike(left, model_.posture.smooth);
+    const double squares = (left * inverse).cwiseProduct(left).sum();
+    return std::max(squares / (3.0 * static_cast<double>(left.rows())), kLeastNoise);
+  }
+
+  const GapModel& model_;
+  Side a_, b_;
+  Matrix3d mean_;
+  std::array<double, kSizes> prior_{};
+  double alike_ = 1.0;
+  Matrix3d noise_, all_;  ///< of a block: noise, and noise with misfit, m^2
+  MatrixXd normal_;
+  Eigen::VectorXd right_;
+  Matrix6 solve_;
+  MatrixXd carried_;  ///< the joint's change by each slide coefficient
+};
+
+/// Takes out what lies along a hinge's axis: nothing is known of it, and it is no part of the place.
+Matrix6 across(const JointFit& score) {
+  Matrix6 out = Matrix6::Identity();
+  if (score.kind != data::JointKind::hinge) return out;
+  out.topLeftCorner<3, 3>() -= score.axis_in_parent * score.axis_in_parent.transpose();
+  out.bottomRightCorner<3, 3>() -= score.axis_in_child * score.axis_in_child.transpose();
   return out;
 }
 
 }  // namespace
 
-SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,
-                             const RelativeMotion& motion, const Matrix6& solve, const Vector6& centre,
-                             data::JointKind kind, const SkinPrior& prior) {
+SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
+                             const RelativeMotion& motion, const JointFit& score, const SkinPrior& prior) {
   SkinSlide out;
-  if (static_cast<std::int64_t>(motion.frames.size()) < kLeastSlideFrames) return out;
-  const Posture posture = internal::posture_of(parent, child, motion);
-  const Eigen::MatrixXd terms = terms_of(posture);
-  const auto n = terms.rows();
-  constexpr int kAll = 6 + kSlide + 1;
-  SlideProblem problem{.normal = Eigen::MatrixXd::Zero(kAll, kAll)};
-  double gap = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
-    // About the joint: sums of what is small beside the positions lose no digits.
-    row.col(kAll - 1) -= row.leftCols<6>() * centre;
-    problem.normal.noalias() += row.transpose() * row;
-    gap += row.col(kAll - 1).squaredNorm();
-  }
-  gap = std::sqrt(gap / (3.0 * static_cast<double>(n)));
-  if (!(gap > kRounding_m)) return out;
-  // Noise about joint and slide together, both fitted.
-  Eigen::MatrixXd both = problem.normal.topLeftCorner(kAll - 1, kAll - 1);
-  both.diagonal().array() += 1e-9 * both.trace() / (kAll - 1);
-  const Eigen::VectorXd fitted = both.ldlt().solve(problem.normal.topRightCorner(kAll - 1, 1));
-  Eigen::MatrixX3d residual(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Row row = row_of(parent, child, posture.frames[at(i)], terms.row(i));
-    residual.row(i) =
-        (row.col(kAll - 1) - row.leftCols<6>() * centre - row.leftCols(kAll - 1) * fitted).transpose();
-  }
-  const double freedom = std::max(3.0 * static_cast<double>(n) - 6.0 - 0.5 * kSlide, 1.0);
-  const double variance = std::max(residual.squaredNorm() / freedom, kRounding_m * kRounding_m);
+  if (!(score.residual_rms_m > kRounding_m)) return out;
+  const auto clusters = internal::find_clusters(samples, parent, child, motion);
+  if (static_cast<std::int64_t>(clusters.frames.size()) < kLeastSlideFrames) return out;
+  const auto posture =
+      internal::posture_of(parent, child, motion, clusters.frames, samples.trajectories.time.rate_hz);
+  if (static_cast<std::int64_t>(posture.frames.size()) < kLeastSlideFrames ||
+      !(posture.sd_rad(0) > kLeastMotion_rad))
+    return out;
+  const GapModel model = internal::gap_model(parent, child, motion, posture);
+  const auto side = [&](const SegmentPoses& poses, const Cluster& cluster, const Eigen::Vector3d& joint) {
+    return Side(cluster,
+                internal::find_own_slide(internal::deformation(samples, poses, cluster, posture.frames),
+                                         posture, cluster.freedom()),
+                joint);
+  };
+  const bool hinge = score.kind == data::JointKind::hinge;
+  const SlideFit fit(model, side(parent, clusters.parent, model.about.head<3>()),
+                     side(child, clusters.child, model.about.tail<3>()), motion.mean, prior, hinge);
+  const Posterior found = fit.integrate();
+  const Matrix6 keep = across(score);
+  const auto within = [&](const Matrix6& C) { return Matrix6(keep * C * keep.transpose()); };
   out.known = true;
-  out.frames_alike = frames_alike(residual);
-  out.noise_sd_m = std::sqrt(variance);
-  problem.variance = variance;
-  // Frames that are alike count as one: all sums shrink, and with them the weight of what the solution gets.
-  problem.normal /= out.frames_alike;
-  const Matrix6 per_frame =
-      solve * (out.frames_alike * static_cast<double>(motion.frames.size()) / static_cast<double>(n));
-  const double median = kind == data::JointKind::hinge ? prior.slide_m : kPriorMedian * gap;
-  const Amplitudes amplitude = infer_amplitude(problem, median);
-  const Matrix6 between =
-      between_cycles(cycles_of(parent, child, posture, terms, out.frames_alike), per_frame);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < amplitude.value.size(); ++i) {
-    squares += amplitude.weight[i] * amplitude.value[i] * amplitude.value[i];
-    out.covariance += amplitude.weight[i] * problem.covariance(per_frame, amplitude.value[i]);
-    out.repeatability += amplitude.weight[i] * (problem.covariance(per_frame, 0.0) +
-                                                amplitude.value[i] * amplitude.value[i] * between);
-  }
-  out.share = 1.0 - amplitude.weight[0];
-  out.amplitude_m = std::sqrt(squares);
+  out.own_parent_m = fit.parent().slide.size_m;
+  out.own_child_m = fit.child().slide.size_m;
+  out.own_limit_m = std::max(fit.parent().slide.limit_m, fit.child().slide.limit_m);
+  out.none = fit.parent().slide.weight[0] * fit.child().slide.weight[0];
+  out.common_m = std::sqrt(found.common2);
+  out.turn_m = std::sqrt(found.turn2);
+  out.frames_alike = fit.alike();
+  out.shift = keep * (model.about + found.mean - score.centre);
+  out.covariance = within(found.covariance);
+  out.noise = within(fit.by_noise());
+  const auto parts =
+      std::clamp<std::int64_t>(internal::movements_of(posture).back() + 1, kLeastParts, kMostParts);
+  out.repeatability = out.noise + within(fit.between_movements(found.slides, parts));
+  const double before = within(found.before).topLeftCorner<3, 3>().trace(),
+               after = out.covariance.topLeftCorner<3, 3>().trace(),
+               by_noise = out.noise.topLeftCorner<3, 3>().trace();
+  out.moves_m = std::sqrt(std::max(before - by_noise, 0.0));
+  out.prior_share = before > 2.0 * by_noise ? std::clamp(after / before, 0.0, 1.0) : 0.0;
+  if (hinge)
+    out.axis_covariance = internal::axis_slide_covariance(
+        {clusters.parent, fit.parent().slide.size_m, fit.parent().softness * out.turn_m},
+        {clusters.child, fit.child().slide.size_m, fit.child().softness * out.turn_m}, motion, posture,
+        score);
   return out;
+}
+
+void widen_by_skin(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
+                   const RelativeMotion& motion, JointFit& fit, const SkinPrior& prior) {
+  const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit, prior);
+  if (!slide.known) return;
+  fit.covariance = slide.covariance + slide.shift * slide.shift.transpose() + fit.open;
+  fit.repeatability = slide.repeatability + fit.open;
+  fit.prior_share = slide.prior_share;
+  fit.skin = account_of_skin(find_skin(samples, parent, child, motion, fit), slide);
+  if (fit.kind != data::JointKind::hinge) return;
+  fit.axis_covariance = slide.axis_covariance;
+  fit.axis_sd_rad = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(fit.axis_covariance).eigenvalues()(2));
 }
 
 }  // namespace kinemark::skeleton

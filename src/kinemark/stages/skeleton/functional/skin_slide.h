@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What skin that slides with the posture does to a joint: every cycle of a movement repeats the same error,
-// so scatter alone does not show it. Theory: docs/theory/joint-centres-skin.md
+// What skin that slides with the posture does to a joint: every movement repeats the same error, so scatter
+// alone does not show it. Theory: docs/theory/joint-centres-skin.md
 #pragma once
 
 #include <Eigen/Core>
@@ -14,38 +14,49 @@
 
 namespace kinemark::skeleton {
 
-/// The error that sliding skin leaves in a joint that least squares of the gap between its two places found.
+/// Slides of the markers as random effects, and what they leave of a joint that least squares of the gap
+/// between its two places found.
 ///
-/// Posture is the rotation of child against parent from its mean, in its principal components. Under the
-/// slide model each side's place of the joint moves by a random linear and quadratic function of the posture;
-/// its size has a log-normal prior about half the gap seen, may be none, and is integrated out. Part of such
-/// a function looks like a shift of the joint and cannot be seen; the part that can be seen tells how large
-/// the other is.
+/// Posture is the rotation of child against parent from its mean. A segment's markers slide, each by itself,
+/// by a random linear and quadratic function of the posture; their size shows in how the shape follows the
+/// posture. As one body they slide and turn by amounts whose prior is tied to that size (SkinPrior), and
+/// which the gap tells as far as it can: on a grid, integrated out. All of it is carried to the joint by the
+/// lever from the markers. What does not deform is taken not to slide.
 struct SkinSlide {
-  /// false: too few frames (40) to tell, or a gap of no more than rounding (0.1 um); all below is zero
+  /// false: too few frames show all markers (40), a motion of no more than 2 deg (SD), or a gap of no more
+  /// than rounding (0.1 um); all below is zero
   bool known = false;
-  double share = 0.0;         ///< probability that there is any slide, 0 to 1
-  double amplitude_m = 0.0;   ///< SD of the slide on an axis at one SD of the posture's first component
-  double noise_sd_m = 0.0;    ///< of the gap about the slide, per axis
+  /// own slide of a marker, per axis, m per rad: RMS over what is likely
+  double own_parent_m = 0.0, own_child_m = 0.0;
+  double own_limit_m = 0.0;   ///< 95 % limit of the larger of the two, m per rad
+  double none = 1.0;          ///< probability that no marker slides by itself on either segment
+  double common_m = 0.0;      ///< slide of the softer segment's markers as one body, m per rad
+  double turn_m = 0.0;        ///< their turn as one body, at their radius, m per rad
   double frames_alike = 1.0;  ///< frames that count as one, as errors of neighbours are alike
-  Matrix6 covariance = Matrix6::Zero();  ///< of the joint in both segments: noise and slide, m^2
-  /// By how much of that another part of the trial, with movements of its own, would differ (m^2): the same
-  /// skin slides in it in the same way, so what the movements share is left out.
+  /// The joint's expected place less the one of least squares; zero along a hinge's axis, m.
+  Vector6 shift = Vector6::Zero();
+  Matrix6 covariance = Matrix6::Zero();  ///< about that expected place, m^2; none along a hinge's axis
+  Matrix6 noise = Matrix6::Zero();       ///< the part of it by noise that does not repeat itself, m^2
+  /// By how much another part of the trial, with movements of its own, would differ, m^2: the same skin
+  /// slides in it in the same way, so what the movements share is left out.
   Matrix6 repeatability = Matrix6::Zero();
+  Eigen::Matrix3d axis_covariance = Eigen::Matrix3d::Zero();  ///< of a hinge's axis in the parent, rad^2
+  double moves_m = 0.0;  ///< how far slides of this size take least squares from the place, RMS, m
+  /// How much of what the prior says of the place is left when the recording was seen: variance over
+  /// variance, 0 to 1; 0 where noise outweighs the slides.
+  double prior_share = 0.0;
 };
 
-/// @param solve   change of the joint (parent's axes, child's axes) with the right-hand side of the normal
-/// equations
-///                (ScoreSums): symmetric, without the directions that the motion leaves open
-/// @param centre  the joint that least squares found, m
-/// @param kind    of the joint: a hinge's gap shows the slide along its axis only, so the prior's figure
-/// stands for
-///                the gap as the median of the size
-/// At most 1,500 frames, evenly drawn, are used. O(frames).
-[[nodiscard]] SkinSlide measure_skin_slide(const SegmentPoses& parent, const SegmentPoses& child,
-                                           const RelativeMotion& motion, const Matrix6& solve,
-                                           const Vector6& centre,
-                                           data::JointKind kind = data::JointKind::ball,
-                                           const SkinPrior& prior = {});
+/// @param score  of the same segments and frames, see fit_score()
+/// At most some 3,000 frames, 50 a second, are used. O(frames).
+[[nodiscard]] SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
+                                           const SegmentPoses& child, const RelativeMotion& motion,
+                                           const JointFit& score, const SkinPrior& prior = {});
+
+/// Gives a least-squares joint the covariance about the bone, the repeatability and the account of skin: the
+/// joint stays where it is, and the way to its expected place counts as error. Nothing where the slides are
+/// not known.
+void widen_by_skin(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
+                   const RelativeMotion& motion, JointFit& fit, const SkinPrior& prior = {});
 
 }  // namespace kinemark::skeleton

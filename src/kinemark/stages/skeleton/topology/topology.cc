@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "kinemark/core/text.h"
+#include "kinemark/stages/skeleton/topology/internal/drawn.h"
 #include "kinemark/stages/skeleton/topology/internal/edges.h"
 #include "kinemark/stages/skeleton/topology/internal/pairs.h"
 
@@ -24,23 +25,7 @@ std::vector<std::int64_t> draw_frames(const data::Trajectories& t, const Topolog
   const double pairs = std::max(1.0, static_cast<double>(t.markers()) * static_cast<double>(t.markers()));
   const auto affordable = std::max(kFewFrames, static_cast<std::int64_t>(std::min(1e9, kMostWork / pairs)));
   const std::int64_t n = std::min({t.frames(), options.most_frames, affordable});
-  std::vector<std::int64_t> frames;
-  for (std::int64_t i = 0; i < n; ++i) frames.push_back(i * t.frames() / n);
-  return frames;
-}
-
-/// The recording cut to the frames drawn: what fits and poses are made of.
-data::Trajectories cut(const data::Trajectories& t, const std::vector<std::int64_t>& frames,
-                       const Array<std::uint8_t>& mask) {
-  auto out = data::Trajectories::all_missing(
-      t.names, {.rate_hz = t.time.rate_hz, .t0_s = 0.0, .frames = static_cast<std::int64_t>(frames.size())});
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    for (std::int64_t m = 0; m < t.markers(); ++m) {
-      if (!t.present(frames[i], m) || (!mask.empty() && !mask[t.index(frames[i], m)])) continue;
-      out.x(static_cast<std::int64_t>(i), m) = t.x(frames[i], m);
-      out.state[out.index(static_cast<std::int64_t>(i), m)] = data::SampleState::measured;
-    }
-  return out;
+  return internal::draw_evenly(t.frames(), n);
 }
 
 /// Markers used, in the order of the matrices, and the segment of each.
@@ -192,7 +177,8 @@ Result<Topology> find_topology(const data::Trajectories& trajectories, const Top
   if (!options.mask.empty() && options.mask.size() != trajectories.state.size())
     return fail(Code::usage,
                 fmt::format("mask of {} samples for {}", options.mask.size(), trajectories.state.size()));
-  const data::Trajectories drawn = cut(trajectories, draw_frames(trajectories, options), options.mask);
+  const data::Trajectories drawn =
+      internal::cut(trajectories, draw_frames(trajectories, options), options.mask);
   const Samples samples{drawn, {}};
   std::vector<std::int64_t> frames(static_cast<std::size_t>(drawn.frames()));
   std::iota(frames.begin(), frames.end(), 0);

@@ -47,6 +47,8 @@ data::Trajectories markers_of(const data::Trajectories& all, const FrameSpan& fr
   part.covariance = part_of(all.covariance, M, frames, kept, 6);
   part.methods = all.methods;
   part.method = part_of(all.method, M, frames, kept);
+  part.unfiltered_in_world = part_of(all.unfiltered_in_world, M, frames, kept, 3);
+  if (!all.filters.empty()) part.filters = part_of(all.filters, kept);
   const bool same_in_every_frame = std::ssize(all.sample_offset_s) == M;
   part.sample_offset_s =
       part_of(all.sample_offset_s, M, same_in_every_frame ? FrameSpan{.first = 0, .count = 1} : frames, kept);

@@ -37,6 +37,9 @@ TEST(PartOfTrial, TakesWhatIsKnownOfEverySample) {
       EXPECT_EQ(part.camera_mask[here], whole.camera_mask[there]);
       for (std::size_t i = 0; i < 6; ++i)
         EXPECT_EQ(part.markers.covariance[6 * here + i], whole.markers.covariance[6 * there + i]);
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(part.markers.unfiltered_in_world[3 * here + i],
+                  whole.markers.unfiltered_in_world[3 * there + i]);
       if (whole.markers.present(f + 3, markers[m])) {
         EXPECT_EQ(Eigen::Vector3d(part.markers.x(f, m)), Eigen::Vector3d(whole.markers.x(f + 3, markers[m])));
         EXPECT_EQ(part.markers.time_s(f, m), whole.markers.time_s(f + 3, markers[m]));

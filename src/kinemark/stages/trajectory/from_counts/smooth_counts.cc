@@ -14,6 +14,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/math/symmetric3.h"
+#include "kinemark/stages/trajectory/from_counts/hand_on_start.h"
 #include "kinemark/stages/trajectory/from_counts/internal/led_path.h"
 
 namespace kinemark::trajectory {
@@ -194,6 +195,7 @@ Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig
                                                                 .noise_sd_m = kNaN};
     }
   });
+  hand_on_start(start, out.derivatives, out.points);
   for (std::int64_t f = 0; f < counts.frames(); ++f)
     for (std::int64_t led = 0; led < counts.led_count(); ++led)
       if (out.points.state[out.points.index(f, led)] == data::SampleState::model_filled)

@@ -55,7 +55,8 @@ struct LedFit {
 struct SmoothedCounts {
   /// One marker per LED, at the times of the frames. Frames with an observation are measured, frames between
   /// observations model_filled (with their covariance), frames before the first and after the last one
-  /// missing.
+  /// missing. Measured ones tell that they were smoothed; with them go the filter of each LED, the noise that
+  /// `start` had against it, and the points of `start` from before the filter (hand_on_start()).
   data::Trajectories points;
   data::Derivatives derivatives;  ///< velocity and acceleration
   std::vector<LedFit> leds;       ///< L

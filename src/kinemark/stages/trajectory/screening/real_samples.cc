@@ -5,6 +5,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string_view>
+
+#include "kinemark/data/filtering.h"
 
 namespace kinemark::trajectory {
 namespace {
@@ -12,12 +15,14 @@ namespace {
 using data::SampleState;
 using data::Trajectories;
 
-/// Made by the recorder, as far as known: no method is recorded for the sample.
+/// Made by the recorder, as far as known: no method is recorded for the sample but that it was smoothed
+/// since.
 bool made_by_recorder(const Trajectories& t, std::int64_t frame, std::int64_t marker,
                       const data::Upsampling& u) {
   const SampleState s = t.state[t.index(frame, marker)];
+  const std::string_view by = t.made_by(frame, marker);
   return (s == SampleState::measured || s == SampleState::interpolated) && !u.real(frame) &&
-         t.made_by(frame, marker).empty();
+         (by.empty() || by.starts_with(data::smoothed_by("")));
 }
 
 Trajectories mark(const Trajectories& t, const data::UpsamplingAccount& report, bool drop) {
@@ -28,6 +33,9 @@ Trajectories mark(const Trajectories& t, const data::UpsamplingAccount& report, 
     const std::string method = fmt::format("recorder, {} x{}", to_string(u.kernel), u.factor);
     for (std::int64_t f = 0; f < t.frames(); ++f) {
       if (!made_by_recorder(t, f, m, u)) continue;
+      if (!out.unfiltered_in_world.empty())  // nobody measured it
+        std::fill_n(out.unfiltered_in_world.begin() + static_cast<std::ptrdiff_t>(3 * out.index(f, m)), 3,
+                    std::numeric_limits<double>::quiet_NaN());
       if (drop) {
         out.set_missing(f, m);
       } else {
@@ -50,6 +58,9 @@ void take(const Trajectories& from, std::int64_t frame, std::int64_t marker, std
     std::copy_n(from.covariance.begin() + static_cast<std::ptrdiff_t>(6 * a), 6,
                 to.covariance.begin() + static_cast<std::ptrdiff_t>(6 * b));
   if (!from.method.empty()) to.method[b] = from.method[a];
+  if (!from.unfiltered_in_world.empty())
+    std::copy_n(from.unfiltered_in_world.begin() + static_cast<std::ptrdiff_t>(3 * a), 3,
+                to.unfiltered_in_world.begin() + static_cast<std::ptrdiff_t>(3 * b));
 }
 
 Trajectories decimate(const Trajectories& t, const data::UpsamplingAccount& report) {
@@ -74,6 +85,9 @@ Trajectories decimate(const Trajectories& t, const data::UpsamplingAccount& repo
   if (!t.method.empty()) out.method.assign(out.state.size(), 0);
   if (!t.covariance.empty())
     out.covariance.assign(6 * out.state.size(), std::numeric_limits<double>::quiet_NaN());
+  out.filters = t.filters;
+  if (!t.unfiltered_in_world.empty())
+    out.unfiltered_in_world.assign(3 * out.state.size(), std::numeric_limits<double>::quiet_NaN());
   Array<double> offset(out.state.size(), 0.0);
   bool any_offset = false;
   for (std::int64_t m = 0; m < t.markers(); ++m) {

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "kinemark/data/filtering.h"
 #include "kinemark/stages/trajectory/screening/testing/walker.h"
 
 namespace kinemark::trajectory {
@@ -114,6 +117,23 @@ TEST_F(RealSamples, SamplesThatSomebodyElseMadeKeepTheirName) {
   const Trajectories out = keep_real_samples(t, report, MadeSamples::mark).value();
   EXPECT_EQ(out.state[out.index(10, 0)], SampleState::model_filled);
   EXPECT_EQ(out.made_by(10, 0), "rigid body");
+}
+
+TEST_F(RealSamples, WhatTheRecorderMadeWasNotMeasuredBeforeAFilterEither) {
+  t.filters.assign(3, {.method = "kalman", .order = 4, .cutoff_hz = 6.0, .noise_sd_m = 1e-4});
+  t.unfiltered_in_world = t.x_in_world;
+  for (std::int64_t m = 0; m < 3; ++m) data::mark_smoothed(t, m, "kalman");
+  for (const MadeSamples made : {MadeSamples::mark, MadeSamples::missing, MadeSamples::decimate}) {
+    const Trajectories out = keep_real_samples(t, report, made).value();
+    ASSERT_TRUE(out.validate()) << out.validate().error().message;
+    EXPECT_EQ(out.filters.size(), 3U);
+    ASSERT_EQ(out.unfiltered_in_world.size(), out.x_in_world.size());
+    for (std::size_t i = 0; i < out.state.size(); ++i)
+      if (out.state[i] == SampleState::measured)
+        EXPECT_EQ(out.unfiltered_in_world[3 * i], out.x_in_world[3 * i]) << i;
+      else
+        EXPECT_TRUE(std::isnan(out.unfiltered_in_world[3 * i])) << i;
+  }
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ data::Finding as_finding(Defect defect, const data::Trajectories& t) {
           .partner = name_of(defect.other_marker),
           .first_frame = defect.first_frame,
           .last_frame = defect.last_frame,
+          .frames = std::move(defect.frames),
           .size = defect.size,
           .confidence = defect.confidence,
           .description = std::move(defect.description)};
@@ -60,6 +61,9 @@ void reject(const Defect& defect, data::Trajectories& t) {
   for (std::int64_t m = 0; m < t.markers(); ++m) {
     const bool partner = defect.kind == FindingKind::label_swap && m == defect.other_marker;
     if (defect.marker != -1 && m != defect.marker && !partner) continue;
+    for (const auto f : defect.frames)
+      if (t.present(f, m)) t.set_missing(f, m, data::SampleState::rejected);
+    if (!defect.frames.empty()) continue;
     for (std::int64_t f = defect.first_frame; f <= defect.last_frame; ++f)
       if (t.present(f, m)) t.set_missing(f, m, data::SampleState::rejected);
   }
@@ -134,9 +138,13 @@ Result<data::Trajectories> reject_defects(const data::Trajectories& t, std::span
                                   .marker = f.subject.empty() ? -1 : t.find(f.subject),
                                   .other_marker = f.partner.empty() ? -1 : t.find(f.partner),
                                   .first_frame = f.first_frame,
-                                  .last_frame = f.last_frame};
-    if ((!f.subject.empty() && defect.marker < 0) || (!f.partner.empty() && defect.other_marker < 0) ||
-        f.first_frame < 0 || f.last_frame < f.first_frame || f.last_frame >= t.frames())
+                                  .last_frame = f.last_frame,
+                                  .frames = f.frames};
+    const bool listed_inside = std::ranges::all_of(
+        f.frames, [&](std::int64_t frame) { return frame >= f.first_frame && frame <= f.last_frame; });
+    if (!listed_inside || (!f.subject.empty() && defect.marker < 0) ||
+        (!f.partner.empty() && defect.other_marker < 0) || f.first_frame < 0 ||
+        f.last_frame < f.first_frame || f.last_frame >= t.frames())
       return fail(Code::bad_input,
                   fmt::format("a finding is about marker '{}' and {}; that marker or these frames are not "
                               "among the {} markers and {} frames of the trajectories",

@@ -9,6 +9,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/stages/trajectory/smoothing/hand_on.h"
 #include "kinemark/stages/trajectory/smoothing/internal/account.h"
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
 #include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
@@ -144,6 +145,7 @@ Result<SmoothResult> smooth(const data::Trajectories& in, const SmoothOptions& o
       t.state[in.index(f, one.marker)] = one.state[static_cast<std::size_t>(f)];
       t.set_method(f, one.marker, one.account.used.method);
     }
+    hand_on(in, one.marker, one.account.used, t, one.marker);
     d.filters.push_back(one.account.used);
     out.markers.push_back(std::move(one.account));
     return {};

@@ -17,13 +17,15 @@ namespace kinemark::analysis::internal {
 /// A recording whose markers formulas name. A marker without a sample is none.
 class TrialMarkers {
  public:
-  explicit TrialMarkers(const data::Trajectories& markers);
+  /// @param aliases  names that the recording may have for others; must outlive this
+  TrialMarkers(const data::Trajectories& markers, const std::map<std::string, std::string>& aliases);
   [[nodiscard]] const data::Trajectories& markers() const { return markers_; }
   [[nodiscard]] bool has(const std::string& name) const;
-  [[nodiscard]] std::int64_t find(const std::string& name) const { return index_.find(name); }
+  [[nodiscard]] std::int64_t find(const std::string& name) const;
 
  private:
   const data::Trajectories& markers_;
+  const std::map<std::string, std::string>& aliases_;
   data::NameIndex index_;
   std::vector<bool> seen_;  // of each marker, whether any frame has it
 };
@@ -41,6 +43,16 @@ struct Subject {
 /// Measure, look up and compute all that is fixed. Code::bad_input for formulas that make no sense.
 [[nodiscard]] Result<Subject> find_subject(const SegmentDefinition& definition, const SegmentInput& input,
                                            const SegmentOptions& options);
+
+/// The subject as he is where one of his measures is larger, and smaller, by sqrt(3) deviations.
+struct SubjectShift {
+  Subject plus, minus;
+};
+/// One for each measure with a constant error: what depends on it is measured and computed again.
+[[nodiscard]] Result<std::vector<SubjectShift>> find_shifts(const SegmentDefinition& definition,
+                                                            const SegmentInput& input,
+                                                            const SegmentOptions& options,
+                                                            const Subject& subject);
 
 /// Put a frame's markers and the subject's parameters in front of a graph's steps.
 void set_inputs(const SegmentGraph& graph, const std::vector<std::int64_t>& marker_idx,

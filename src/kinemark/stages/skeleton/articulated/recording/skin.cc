@@ -11,6 +11,7 @@
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/functional/description.h"
 #include "kinemark/stages/skeleton/functional/score.h"
+#include "kinemark/stages/skeleton/functional/skin_evidence.h"
 #include "kinemark/stages/skeleton/functional/skin_slide.h"
 
 namespace kinemark::skeleton::articulated {
@@ -19,22 +20,51 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSlides = 0.5;  ///< probability beyond which skin is taken to slide
+/// What skin does to a joint that the chain found.
+struct Correction {
+  Vector6 shift = Vector6::Zero();        ///< of the joint in both segments, m
+  Matrix6 slides = Matrix6::Zero();       ///< covariance by slides, m^2
+  Matrix3d in_parent = Matrix3d::Zero();  ///< covariance that comes to that of independent frames, m^2
+  Matrix3d in_child = Matrix3d::Zero();
+};
 
-/// The covariance of a joint in both segments, on top of that of its centres in every frame that shows a
-/// pose.
-void widen_centres(std::size_t j, const SegmentPoses& parent, const SegmentPoses& child,
-                   const Matrix6& covariance, data::Skeleton& skeleton) {
+/// The nearest frames with a pose of a segment, for those without; -1 where there is none.
+std::vector<std::int64_t> nearest_known(const SegmentPoses& poses) {
+  const auto F = static_cast<std::int64_t>(poses.known.size());
+  std::vector<std::int64_t> out(poses.known.size(), -1);
+  std::int64_t before = -1;
+  for (std::int64_t f = 0; f < F; ++f) {
+    if (poses.known[at(f)] != 0) before = f;
+    out[at(f)] = before;
+  }
+  std::int64_t after = -1;
+  for (std::int64_t f = F - 1; f >= 0; --f) {
+    if (poses.known[at(f)] != 0) after = f;
+    if (after >= 0 && (out[at(f)] < 0 || after - f < f - out[at(f)])) out[at(f)] = after;
+  }
+  return out;
+}
+
+/// Moves and widens the joint in every frame that places it. A segment without a pose in a frame has that of
+/// the nearest frame: only its direction matters.
+void correct_centres(std::size_t j, const SegmentPoses& parent, const SegmentPoses& child,
+                     const Correction& by, data::Skeleton& skeleton) {
+  const auto above = nearest_known(parent), below = nearest_known(child);
   for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
     const std::size_t i = skeleton.index(f, static_cast<std::int64_t>(j));
+    if (skeleton.state[i] == data::CentreState::undetermined) continue;
+    const Matrix3d& R = parent.world_from_segment[at(above[at(f)])];
+    const Matrix3d& S = child.world_from_segment[at(below[at(f)])];
     const bool in_parent = parent.known[at(f)] != 0, in_child = child.known[at(f)] != 0;
-    if (skeleton.state[i] == data::CentreState::undetermined || (!in_parent && !in_child)) continue;
-    const double share = !in_child ? 1.0 : !in_parent ? 0.0 : 0.5;
+    const double share = in_parent == in_child ? 0.5 : in_parent ? 1.0 : 0.0;
     Eigen::Matrix<double, 3, 6> rotation;
-    rotation.leftCols<3>() = share * parent.world_from_segment[at(f)];
-    rotation.rightCols<3>() = (1.0 - share) * child.world_from_segment[at(f)];
+    rotation.leftCols<3>() = share * R;
+    rotation.rightCols<3>() = (1.0 - share) * S;
+    Eigen::Map<Vector3d>(skeleton.centre_in_world.data() + 3 * i) += rotation * by.shift;
     const Matrix3d wider = skeleton.centre_covariance(f, static_cast<std::int64_t>(j)) +
-                           rotation * covariance * rotation.transpose();
+                           rotation * by.slides * rotation.transpose() +
+                           share * R * by.in_parent * R.transpose() +
+                           (1.0 - share) * S * by.in_child * S.transpose();
     math::pack_symmetric3(wider, skeleton.covariance.data() + 6 * i);
   }
 }
@@ -56,6 +86,27 @@ void widen_lengths(int joint, data::Skeleton& skeleton) {
   }
 }
 
+/// A difference of covariances without what is below nothing.
+Matrix6 positive_part(const Matrix6& C) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(C);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+/// What a covariance of independent frames lacks where only one of `alike` frames counts; for a hinge across
+/// its axis, along which nothing is known anyway.
+Matrix3d of_fewer_frames(const Matrix3d& C, double alike, const Vector3d& axis) {
+  const Matrix3d across = Matrix3d::Identity() - axis * axis.transpose();
+  return (alike - 1.0) * across * C * across;
+}
+
+void widen_axis(const SkinSlide& slide, data::SkeletonJoint& joint) {
+  joint.axis_covariance_in_parent = slide.axis_covariance;
+  joint.axis_repeatability_in_parent *= slide.frames_alike;
+  joint.axis_sd_rad =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(joint.axis_covariance_in_parent).eigenvalues()(2));
+}
+
 void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses& parent,
                        const SegmentPoses& child, data::Skeleton& skeleton) {
   auto& joint = skeleton.joints[j];
@@ -64,25 +115,30 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
     return;
   const RelativeMotion motion = measure_motion(parent, child);
   const JointFit fit = fit_score(samples, parent, child, motion, joint.kind);
-  if (!fit.in_parent || !(fit.slide_share > kSlides)) return;
-  Vector6 shift = fit.centre;
-  shift.head<3>() -= joint.centre_in_parent;
-  shift.tail<3>() -= joint.centre_in_child;
-  const Matrix6 covariance = fit.covariance + shift * shift.transpose();
-  joint.covariance_in_parent += covariance.topLeftCorner<3, 3>();
-  joint.covariance_in_child += covariance.bottomRightCorner<3, 3>();
-  const Matrix6 repeatability = fit.repeatability + shift * shift.transpose();
-  joint.repeatability_in_parent += repeatability.topLeftCorner<3, 3>();
-  joint.repeatability_in_child += repeatability.bottomRightCorner<3, 3>();
-  if (joint.kind == data::JointKind::hinge) {
-    joint.axis_covariance_in_parent += fit.axis_covariance;
-    joint.axis_repeatability_in_parent += fit.axis_repeatability;
-    joint.axis_sd_rad =
-        std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(joint.axis_covariance_in_parent).eigenvalues()(2));
-  }
+  if (!fit.in_parent) return;
+  const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit);
+  if (!slide.known) return;
+  joint.skin = account_of_skin(find_skin(samples, parent, child, motion, fit), slide);
+  // Half-way to the expected place where skin is seen: the prior's size is no more sure. Else the joint
+  // stays, and the whole way counts as error.
+  Correction by;
+  if (joint.skin.verdict == data::SkinVerdict::follows) by.shift = 0.5 * slide.shift;
+  const Vector6 rest = slide.shift - by.shift;
+  by.slides = positive_part(slide.covariance - slide.noise) + rest * rest.transpose();
+  by.in_parent = of_fewer_frames(joint.covariance_in_parent, slide.frames_alike, joint.axis_in_parent);
+  by.in_child = of_fewer_frames(joint.covariance_in_child, slide.frames_alike, joint.axis_in_child);
+  const Matrix6 repeats = positive_part(slide.repeatability - slide.noise);
+  joint.repeatability_in_parent += by.in_parent + repeats.topLeftCorner<3, 3>();
+  joint.repeatability_in_child += by.in_child + repeats.bottomRightCorner<3, 3>();
+  joint.centre_in_parent += by.shift.head<3>();
+  joint.centre_in_child += by.shift.tail<3>();
+  joint.covariance_in_parent += by.in_parent + by.slides.topLeftCorner<3, 3>();
+  joint.covariance_in_child += by.in_child + by.slides.bottomRightCorner<3, 3>();
+  if (joint.kind == data::JointKind::hinge) widen_axis(slide, joint);
+  joint.prior_share = slide.prior_share;
   joint.range_of_motion_rad = motion.range_rad;
-  joint.description = describe_joint(joint, motion.sd_rad) + ", as skin slides with the posture";
-  widen_centres(j, parent, child, covariance, skeleton);
+  joint.description = describe_joint(joint, motion.sd_rad);
+  correct_centres(j, parent, child, by, skeleton);
   widen_lengths(static_cast<int>(j), skeleton);
 }
 

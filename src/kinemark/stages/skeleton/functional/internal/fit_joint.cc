@@ -7,6 +7,7 @@
 
 #include "kinemark/stages/skeleton/functional/internal/assemble.h"
 #include "kinemark/stages/skeleton/functional/score.h"
+#include "kinemark/stages/skeleton/functional/skin_slide.h"
 #include "kinemark/stages/skeleton/functional/sphere.h"
 
 namespace kinemark::skeleton::internal {
@@ -83,6 +84,7 @@ std::optional<JointFit> fit_joint(const Samples& samples, const JointTask& task,
   if (!paired) return fit_sides(samples, task, options, kind, why);
   if (task.motion.frames.size() >= 4) {
     JointFit fit = fit_score(samples, task.parent, task.child, task.motion, kind);
+    widen_by_skin(samples, task.parent, task.child, task.motion, fit);
     if (options.sides == Sides::parent) fit.in_child = false;
     if (options.sides == Sides::child) fit.in_parent = false;
     return fit;

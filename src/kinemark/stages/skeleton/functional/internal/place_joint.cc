@@ -96,6 +96,8 @@ void describe(const JointFit& fit, const RelativeMotion& motion, data::SkeletonJ
     out.axis_sd_rad = fit.axis_sd_rad;
     out.axis_covariance_in_parent = fit.axis_covariance;
   }
+  out.prior_share = fit.prior_share;
+  out.skin = fit.skin;
   out.range_of_motion_rad = motion.frames.size() > 1 ? motion.range_rad : kNaN;
   out.description = describe_joint(out, motion.sd_rad);
 }

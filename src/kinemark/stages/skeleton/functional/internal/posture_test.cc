@@ -5,44 +5,71 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <set>
 
 #include "kinemark/stages/skeleton/functional/testing/joint_setup.h"
+#include "kinemark/stages/skeleton/functional/testing/swinging_joint.h"
 
 namespace kinemark::skeleton::internal {
 namespace {
 
-/// A first component that swings so many times.
-Posture swings(int times, double noise = 0.0) {
-  Posture out;
-  out.component = Eigen::MatrixX3d::Zero(600, 3);
-  for (Eigen::Index i = 0; i < 600; ++i)
-    out.component(i, 0) = -std::cos(2.0 * std::numbers::pi * times * static_cast<double>(i) / 600.0) +
-                          noise * (i % 2 == 0 ? 1.0 : -1.0);
-  out.sd_rad(0) = std::sqrt(out.component.col(0).squaredNorm() / 600.0);
-  return out;
-}
-
-TEST(Posture, CyclesAreSwingsAndNotNoise) {
-  for (const int times : {3, 5, 9}) {
-    EXPECT_EQ(count_cycles(swings(times)), times);
-    EXPECT_EQ(count_cycles(swings(times, 0.3)), times) << "noise below half an SD is no swing";
-  }
-}
-
-TEST(Posture, CyclesAreThreeToTwelve) {
-  EXPECT_EQ(count_cycles(swings(1)), 3);
-  EXPECT_EQ(count_cycles(swings(40)), 12);
+Posture posture_in(const testing::JointSetup& setup) {
+  return posture_of(setup.parent, setup.child, setup.task.motion, setup.task.motion.frames,
+                    setup.chain.markers.time.rate_hz);
 }
 
 TEST(Posture, ComponentsAreAboutTheirMeanLargestFirst) {
-  const testing::JointSetup setup(testing::make_chain(
-      {.frames = 2000, .per_segment = 4, .rotations = testing::Rotations::cone, .range_rad = 1.0}));
-  const Posture posture = posture_of(setup.parent, setup.child, setup.task.motion);
-  EXPECT_EQ(posture.frames.size(), 1500U);
+  const testing::JointSetup setup(testing::make_swings({}));
+  const Posture posture = posture_in(setup);
+  EXPECT_EQ(posture.frames.size(), 800U);
+  EXPECT_NEAR(posture.step_s, 0.02, 1e-12);
   EXPECT_LT(posture.component.colwise().mean().norm(), 1e-12);
+  EXPECT_LT(posture.smooth.colwise().mean().norm(), 1e-12);
   EXPECT_GE(posture.sd_rad(0), posture.sd_rad(1));
   EXPECT_GE(posture.sd_rad(1), posture.sd_rad(2));
+}
+
+TEST(Posture, AtMostFiftyFramesASecondAndThreeThousand) {
+  auto chain = testing::make_swings({.movements = 40});
+  chain.markers.time.rate_hz = 200.0;
+  EXPECT_EQ(posture_in(testing::JointSetup(chain)).frames.size(), 1000U);
+  chain.markers.time.rate_hz = 10.0;
+  const Posture slow = posture_in(testing::JointSetup(chain));
+  EXPECT_EQ(slow.frames.size(), 2000U);
+  EXPECT_NEAR(slow.step_s, 0.2, 1e-12);
+}
+
+TEST(Posture, ComponentsThatHardlyMoveAreDamped) {
+  const Posture hinge = posture_in(testing::JointSetup(testing::make_swings({.hinge = true})));
+  EXPECT_EQ(hinge.kind[0], TermKind::linear);
+  EXPECT_EQ(hinge.kind[1], TermKind::damped);
+  EXPECT_LT(hinge.smooth.col(1).norm(), 0.01 * hinge.component.col(1).norm());
+  const Posture ball = posture_in(testing::JointSetup(testing::make_swings({})));
+  EXPECT_EQ(ball.kind[1], TermKind::linear);
+  EXPECT_GT(ball.smooth.col(1).norm(), 0.9 * ball.component.col(1).norm());
+}
+
+TEST(Posture, SmoothingTakesNothingFromPosesWithoutAPath) {
+  const testing::JointSetup setup(
+      testing::make_chain({.frames = 300, .per_segment = 4, .rotations = testing::Rotations::cone}));
+  const Posture posture = posture_in(setup);
+  EXPECT_FALSE(posture.in_time);
+  EXPECT_EQ(posture.block, 1);
+  EXPECT_LT((posture.smooth.col(0) - posture.component.col(0)).norm(), 0.1 * posture.component.col(0).norm());
+  EXPECT_EQ(posture.terms.rightCols<kLagTerms>().norm(), 0.0);
+  for (const int m : movements_of(posture)) EXPECT_EQ(m, 0) << "no movements can be told";
+}
+
+TEST(Posture, MovementsAreCounted) {
+  for (const bool hinge : {false, true})
+    for (const int movements : {3, 8, 12}) {
+      const auto found = movements_of(posture_in(testing::JointSetup(
+          testing::make_swings({.movements = movements, .hinge = hinge, .noise_sd_m = 0.002}))));
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      const auto count = static_cast<int>(std::set<int>(found.begin(), found.end()).size());
+      EXPECT_GE(count, movements) << hinge;
+      EXPECT_LE(count, movements + 1) << hinge << ": the rise of the first may begin one";
+    }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/frame_list.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/stages/trajectory/edits/internal/samples.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
@@ -57,6 +58,30 @@ Status nothing_there(const data::Trial& trial, const FrameSpan& frames, const st
               fmt::format("'{}' has no {} in {}; need one at least", name, what, words_of(frames, trial)));
 }
 
+Status check_frame(std::int64_t frame, const data::Trial& trial) {
+  if (frame >= trial.first_frame && frame <= trial.last_frame()) return {};
+  return fail(Code::bad_input, fmt::format("frame {} is not there; the recording has frames {} to {}", frame,
+                                           trial.first_frame, trial.last_frame()));
+}
+
+/// The frames of an edit, listed or as a range.
+Result<std::vector<FrameSpan>> spans_of(const data::Edit& edit, const data::Trial& trial) {
+  if (edit.frames.empty()) {
+    const auto frames = frames_of(edit, trial);
+    if (!frames) return std::unexpected(frames.error());
+    return std::vector{*frames};
+  }
+  if (trial.markers.frames() == 0) return fail(Code::bad_input, "the recording has no frames");
+  const auto listed = data::parse_frame_list(edit.frames);
+  if (!listed) return std::unexpected(listed.error());
+  std::vector<FrameSpan> spans;
+  for (const auto frame : *listed) {
+    if (auto s = check_frame(frame, trial); !s) return std::unexpected(s.error());
+    spans.push_back({.first = frame - trial.first_frame, .count = 1});
+  }
+  return spans;
+}
+
 void remove_marker(data::Trial& trial, std::int64_t marker) {
   std::vector<std::int64_t> kept, channels(at(trial.channels.count()));
   for (std::int64_t m = 0; m < trial.markers.markers(); ++m)
@@ -94,9 +119,7 @@ Result<FrameSpan> frames_of(const data::Edit& edit, const data::Trial& trial) {
   const auto first = edit.first_frame.value_or(trial.first_frame),
              last = edit.last_frame.value_or(trial.last_frame());
   for (const auto frame : {first, last})
-    if (frame < trial.first_frame || frame > trial.last_frame())
-      return fail(Code::bad_input, fmt::format("frame {} is not there; the recording has frames {} to {}",
-                                               frame, trial.first_frame, trial.last_frame()));
+    if (auto s = check_frame(frame, trial); !s) return std::unexpected(s.error());
   return FrameSpan{.first = first - trial.first_frame, .count = last - first + 1};
 }
 
@@ -136,9 +159,9 @@ Status swap_markers(data::Trial& trial, const data::Edit& edit) {
   if (!b) return std::unexpected(b.error());
   if (*a == *b)
     return fail(Code::bad_input, fmt::format("'{}' and '{}' are one marker", edit.marker, edit.other));
-  const auto frames = frames_of(edit, trial);
-  if (!frames) return std::unexpected(frames.error());
-  swap_samples(trial, *a, *b, *frames);
+  const auto spans = spans_of(edit, trial);
+  if (!spans) return std::unexpected(spans.error());
+  for (const FrameSpan& span : *spans) swap_samples(trial, *a, *b, span);
   gather_times(trial.markers);
   return {};
 }

@@ -3,6 +3,7 @@
 #include "kinemark/stages/trajectory/edits/internal/samples.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -22,6 +23,7 @@ void for_each_array(data::Trial& trial, const Visit& visit) {
   visit_some(m.x_in_world, 3, kNaN);
   visit_some(m.state, 1, SampleState::missing);
   visit_some(m.covariance, 6, kNaN);
+  visit_some(m.unfiltered_in_world, 3, kNaN);
   visit_some(m.method, 1, std::uint8_t{0});
   visit_some(trial.residual_m, 1, static_cast<float>(kNaN));
   visit_some(trial.camera_mask, 1, std::uint8_t{0});
@@ -67,6 +69,8 @@ void swap_samples(data::Trial& trial, std::int64_t a, std::int64_t b, const Fram
     }
   };
   for_each_array(trial, exchange);
+  if (!markers.filters.empty() && frames.count == markers.frames() && markers.frames() > 1)
+    std::swap(markers.filters[at(a)], markers.filters[at(b)]);
   if (!markers.sample_offset_s.empty() && !one_time_per_marker(markers))
     exchange(markers.sample_offset_s, 1, 0.0);
 }
@@ -106,6 +110,11 @@ void add_marker(data::Trial& trial, const std::string& name, std::int64_t like) 
       times[at(f * (M + 1) + M)] = times[at(f * (M + 1) + like)];
   }
   markers.names.push_back(name);
+  // What is moved here went through the filter of the marker that it comes from.
+  if (!markers.filters.empty()) {
+    const data::FilterUsed filter = markers.filters[at(like)];
+    markers.filters.push_back(filter);
+  }
 }
 
 void gather_times(data::Trajectories& m) {

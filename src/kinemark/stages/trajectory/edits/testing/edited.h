@@ -34,6 +34,8 @@ inline std::string bytes_of(const data::Trial& trial) {
   number(static_cast<double>(trial.first_frame)), number(m.time.t0_s),
       number(static_cast<double>(m.frames()));
   array(m.x_in_world), array(m.covariance), array(m.sample_offset_s), array(m.method);
+  array(m.unfiltered_in_world);
+  for (const auto& filter : m.filters) text(filter.method), number(filter.cutoff_hz);
   for (const auto& method : m.methods) text(method);
   for (const auto state : m.state) out += static_cast<char>('0' + static_cast<int>(state));
   array(trial.residual_m), array(trial.camera_mask), array(trial.analog.values), array(trial.channels.values);
@@ -58,6 +60,10 @@ inline data::Trial moving_trial() {
                                                   {.rate_hz = 100.0, .t0_s = 5.0, .frames = kFrames});
   trial.residual_m.assign(kFrames * kMarkers, static_cast<float>(kNaN));
   trial.camera_mask.assign(kFrames * kMarkers, 0);
+  trial.markers.unfiltered_in_world.assign(3 * kFrames * kMarkers, kNaN);
+  for (std::int64_t m = 0; m < kMarkers; ++m)
+    trial.markers.filters.push_back(
+        {.method = "kalman", .order = 4, .cutoff_hz = 6.0 + static_cast<double>(m)});
   for (std::int64_t m = 0; m < kMarkers; ++m)
     trial.markers.sample_offset_s.push_back(1e-4 * static_cast<double>(m));
   for (std::int64_t f = 0; f < kFrames; ++f)
@@ -71,6 +77,8 @@ inline data::Trial moving_trial() {
                           0.1 * at * std::sin(angle) + 0.2 * std::cos(angle), 0.5 + 0.05 * at * at);
       const auto i = trial.markers.index(f, m);
       trial.markers.state[i] = data::SampleState::measured;
+      for (std::size_t k = 0; k < 3; ++k)
+        trial.markers.unfiltered_in_world[3 * i + k] = trial.markers.x_in_world[3 * i + k] + 1e-3;
       trial.residual_m[i] = static_cast<float>(1e-4 * (at + 1.0));
       trial.camera_mask[i] = static_cast<std::uint8_t>(1 + m);
     }

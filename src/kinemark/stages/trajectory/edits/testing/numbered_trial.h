@@ -16,6 +16,8 @@ inline data::Trial numbered_trial() {
   auto& markers = trial.markers;
   markers =
       data::Trajectories::all_missing({"A", "B", "C"}, {.rate_hz = 100.0, .t0_s = 1.0, .frames = kFrames});
+  for (const double cutoff_hz : {6.0, 7.0, 8.0})
+    markers.filters.push_back({.method = "kalman", .order = 4, .cutoff_hz = cutoff_hz});
   double count = 0.0;
   for (std::int64_t f = 0; f < kFrames; ++f)
     for (std::int64_t m = 0; m < kMarkers; ++m) {
@@ -23,6 +25,7 @@ inline data::Trial numbered_trial() {
       trial.camera_mask.push_back(static_cast<std::uint8_t>(10 * f + m));
       markers.sample_offset_s.push_back(1e-4 * count);
       for (int i = 0; i < 6; ++i) markers.covariance.push_back(count + 0.1 * i);
+      for (int i = 0; i < 3; ++i) markers.unfiltered_in_world.push_back(count + 0.01 * i);
       if (f % 4 == m) continue;
       markers.x(f, m) = Eigen::Vector3d(count, count + 0.25, count + 0.5);
       markers.state[markers.index(f, m)] = data::SampleState::measured;

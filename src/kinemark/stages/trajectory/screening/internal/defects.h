@@ -19,6 +19,7 @@ struct Defect {
   std::int64_t marker = -1;        ///< -1: all markers
   std::int64_t other_marker = -1;  ///< -1: no partner
   std::int64_t first_frame = 0, last_frame = 0;
+  std::vector<std::int64_t> frames = {};  ///< those of them that are concerned; empty: all
   double size = kNaN;
   double confidence = kNaN;
   std::string description;

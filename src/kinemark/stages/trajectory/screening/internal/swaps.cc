@@ -7,7 +7,11 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "kinemark/core/missing.h"
+#include "kinemark/data/frame_list.h"
+#include "kinemark/math/exchanged_points.h"
 #include "kinemark/stages/trajectory/screening/internal/defects.h"
 
 namespace kinemark::trajectory::internal {
@@ -19,6 +23,7 @@ using Eigen::Vector3d;
 constexpr double kLongestGap = 0.1;    // s, over which a path is continued as a straight line
 constexpr double kLongestVisit = 0.5;  // s
 constexpr double kMuchBetter = 0.25;   // of the distances left by the labels as they are
+constexpr double kSideUnknown = 0.6;   // confidence where either side may be the wrong one
 constexpr double kTimesUsual = 8.0;    // a jump stands that much above what a marker's continuation misses by
 
 /// Frames in a time, 1 at least and no more than there are.
@@ -82,14 +87,9 @@ struct Jump {
   double length = 0.0;    ///< m
 };
 
-struct Exchange {
-  std::int64_t frame = 0, one = 0, other = 0;
-  double ratio = 0.0;  ///< distance as labelled over distance exchanged
-};
-
 /// Go through the recording; where two markers jump onto each other's continuation, exchange them from there
 /// on, so that the next frame is judged by the right path. `t` ends with labels that follow the paths.
-void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector<Exchange>& exchanges) {
+void follow(Trajectories& t, double least, std::vector<Jump>& jumps) {
   Continuation path(t);
   std::vector<std::int64_t> label(t.names.size());  // whose samples a path takes
   std::iota(label.begin(), label.end(), std::int64_t{0});
@@ -124,7 +124,6 @@ void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector
         const double exchanged = (t.x(f, i) - *path.at(f, j)).norm() + (t.x(f, j) - *path.at(f, i)).norm();
         const double as_is = now[a].length + now[b].length;
         if (!(exchanged < kMuchBetter * as_is)) continue;
-        exchanges.push_back({f, i, j, as_is / std::max(exchanged, 1e-6)});
         taken[a] = taken[b] = 1;
         std::swap(label[static_cast<std::size_t>(i)], label[static_cast<std::size_t>(j)]);
         const Vector3d one = t.x(f, i);
@@ -137,40 +136,70 @@ void follow(Trajectories& t, double least, std::vector<Jump>& jumps, std::vector
   }
 }
 
-/// Pair beginnings with ends; what is left lasts to an end of the recording, and the shorter side is called
-/// wrong.
-void report_exchanges(const Trajectories& t, std::vector<Exchange> found, Defects& out) {
-  for (std::size_t a = 0; a < found.size(); ++a) {
-    if (found[a].frame < 0) continue;
-    const Exchange start = found[a];
-    std::int64_t first = start.frame;
-    std::int64_t last = t.frames() - 1;
-    double ratio = start.ratio;
-    bool ends = false;
-    for (std::size_t b = a + 1; b < found.size() && !ends; ++b) {
-      if (found[b].one != start.one || found[b].other != start.other || found[b].frame < 0) continue;
-      last = found[b].frame - 1;
-      ratio = std::min(ratio, found[b].ratio);
-      found[b].frame = -1;
-      ends = true;
+/// The marker of the other side, "RTOE" for "LTOE" and "sub:RTOE" for "sub:LTOE", or -1.
+std::int64_t other_side(const Trajectories& t, std::int64_t marker) {
+  std::string name = t.names[static_cast<std::size_t>(marker)];
+  const auto begin = name.rfind(':') == std::string::npos ? 0 : name.rfind(':') + 1;
+  for (const auto& [from, to] :
+       {std::pair{'L', 'R'}, std::pair{'R', 'L'}, std::pair{'l', 'r'}, std::pair{'r', 'l'}}) {
+    for (const std::size_t at : {begin, name.size() - 1}) {
+      if (name.size() <= begin + 1 || name[at] != from) continue;
+      std::string other = name;
+      other[at] = to;
+      if (const auto found = t.find(other); found >= 0) return found;
     }
-    if (!ends && start.frame < t.frames() - start.frame) {
-      first = 0;
-      last = start.frame - 1;
+  }
+  return -1;
+}
+
+/// The usual distance of the same two markers on the other side of the body, m; NaN where there are none.
+double distance_beside(const Trajectories& t, std::int64_t one, std::int64_t other) {
+  const std::int64_t a = other_side(t, one), b = other_side(t, other);
+  std::vector<double> distances;
+  for (std::int64_t f = 0; f < t.frames() && a >= 0 && b >= 0; ++f)
+    if (t.present(f, a) && t.present(f, b)) distances.push_back((t.x(f, a) - t.x(f, b)).norm());
+  return distances.empty() ? kNaN : median_of(std::move(distances));
+}
+
+/// Exchanges by paths and distances, each pair once; and the recording without them.
+void report_exchanges(Trajectories& t, double least, Defects& out) {
+  const auto found = math::find_exchanges(
+      {.x = t.x_in_world.data(), .frames = t.frames(), .points = t.markers(), .rate_hz = t.time.rate_hz},
+      {.least_m = least, .longest_gap_s = kLongestGap, .distance = [&](std::int64_t one, std::int64_t other) {
+         return distance_beside(t, one, other);
+       }});
+  for (const math::ExchangedPair& pair : found) {
+    const std::int64_t first = pair.frames.front(), last = pair.frames.back();
+    const bool whole = last - first + 1 == std::ssize(pair.frames);
+    const auto frames =
+        whole ? describe_frames(t.time, first, last)
+              : fmt::format("{} frames: {}", pair.frames.size(), data::words_of_frames(pair.frames, t.time));
+    const double sure = confidence_of(pair.ratio, 0.4);
+    const bool one_turn = whole && !pair.ends && !pair.stated_by_distances;
+    const char* side =
+        !pair.side_known
+            ? "; which of these and the other frames are right cannot be decided, the fewer are named"
+        : one_turn ? "; which side is right cannot be decided by the paths, the far fewer frames are named"
+                   : "";
+    out.push_back({.kind = FindingKind::label_swap,
+                   .marker = pair.one,
+                   .other_marker = pair.other,
+                   .first_frame = first,
+                   .last_frame = last,
+                   .frames = whole ? std::vector<std::int64_t>() : pair.frames,
+                   .size = pair.apart_m,
+                   .confidence = pair.side_known ? sure : std::min(sure, kSideUnknown),
+                   .description =
+                       fmt::format("markers '{}' and '{}' are exchanged in {}: exchanged back they continue "
+                                   "their paths {:.0f} times "
+                                   "better{}",
+                                   t.names[static_cast<std::size_t>(pair.one)],
+                                   t.names[static_cast<std::size_t>(pair.other)], frames, pair.ratio, side)});
+    for (const std::int64_t f : pair.frames) {
+      const Vector3d x = t.x(f, pair.one);
+      t.x(f, pair.one) = t.x(f, pair.other);
+      t.x(f, pair.other) = x;
     }
-    out.push_back(
-        {.kind = FindingKind::label_swap,
-         .marker = start.one,
-         .other_marker = start.other,
-         .first_frame = first,
-         .last_frame = last,
-         .confidence = confidence_of(ratio, ends ? 0.4 : 1.0),
-         .description = fmt::format(
-             "markers '{}' and '{}' carry each other's label in {}: exchanged they continue "
-             "their paths {:.0f} times better{}",
-             t.names[static_cast<std::size_t>(start.one)], t.names[static_cast<std::size_t>(start.other)],
-             describe_frames(t.time, first, last), ratio,
-             ends ? "" : "; which side is right cannot be decided, the shorter one is named")});
   }
 }
 
@@ -262,10 +291,9 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
 
 void find_swaps(const Trajectories& recorded, const ScreenOptions& options, Defects& out) {
   Trajectories t = recorded;
+  report_exchanges(t, options.min_jump_m, out);
   std::vector<Jump> jumps;
-  std::vector<Exchange> exchanges;
-  follow(t, options.min_jump_m, jumps, exchanges);
-  report_exchanges(t, exchanges, out);
+  follow(t, options.min_jump_m, jumps);
   report_visits(t, jumps, options.min_jump_m, out);
 }
 

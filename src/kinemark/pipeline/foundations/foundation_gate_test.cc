@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/foundations/foundation_gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/index.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kNames{"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE",
+                                      "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"};
+
+/// Every marker where its name says.
+data::Trajectories standing() {
+  const auto body = motion::body_of_names(kNames);
+  auto out = data::Trajectories::all_missing(kNames, {.rate_hz = 100.0, .frames = 5});
+  for (std::int64_t f = 0; f < 5; ++f)
+    for (std::int64_t m = 0; m < out.markers(); ++m) {
+      const auto& marker = body.markers[static_cast<std::size_t>(m)];
+      Vector3d x = marker.x_in_segment;
+      for (int s = marker.segment; s >= 0; s = body.segments[at(s)].parent)
+        x += body.segments[at(s)].joint_in_parent;
+      out.x(f, m) = x;
+      out.state[out.index(f, m)] = data::SampleState::measured;
+    }
+  return out;
+}
+
+TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
+  JobOutcome outcome;
+  const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), standing(), {}, outcome);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_EQ(outcome.exit_status(), 0);
+  EXPECT_TRUE(outcome.warnings.empty());
+  ASSERT_EQ(outcome.gates.size(), 1);
+  EXPECT_EQ(outcome.gates[0].name, "static_trial");
+}
+
+TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
+  auto trial = standing();
+  const auto toe = trial.find("LTOE"), heel = trial.find("LHEE");
+  for (std::int64_t f = 0; f < trial.frames(); ++f) {
+    const Vector3d kept = trial.x(f, toe);
+    trial.x(f, toe) = trial.x(f, heel);
+    trial.x(f, heel) = kept;
+  }
+  JobOutcome outcome;
+  const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, outcome);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_EQ(outcome.exit_status(), 1);
+  ASSERT_EQ(outcome.warnings.size(), 1);
+  EXPECT_THAT(outcome.warnings[0], HasSubstr("LHEE and LTOE are exchanged in cal.c3d"));
+  const auto json = foundation_json("cal.c3d", *judged);
+  EXPECT_EQ(json["findings"][0]["partner"], "LTOE");
+  EXPECT_FALSE(json["findings"][0].contains("shift_m"));
+}
+
+TEST(FoundationGate, IsNotThereWhereNothingCanBeJudged) {
+  JobOutcome outcome;
+  const auto nobody = data::Trajectories::all_missing({"a", "b"}, {.rate_hz = 100.0, .frames = 2});
+  ASSERT_TRUE(judge_static_trial("cal.c3d", motion::body_of_names(nobody.names), nobody, {}, outcome));
+  EXPECT_TRUE(outcome.gates.empty());
+  EXPECT_TRUE(outcome.warnings.empty());
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

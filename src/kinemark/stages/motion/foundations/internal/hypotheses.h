@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Explanations of a still frame: nothing is wrong, one marker lies elsewhere, two are exchanged.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinemark/stages/motion/foundations/internal/body_fit.h"
+
+namespace kinemark::motion::internal {
+
+/// One explanation.
+struct Hypothesis {
+  int first = -1, second = -1;  ///< markers of the body; second -1: first lies elsewhere
+  double gain = 0.0;            ///< of the cost against no mistake, over the misfit
+  double score = 0.0;           ///< gain less what the freedom to lie anywhere gains by itself
+  double misfit = 1.0;          ///< squared distances over what the spreads lead to expect
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< of a single marker, in the first segment's axes, m
+  Eigen::Vector3d shift_sd = Eigen::Vector3d::Zero();  ///< per axis, m
+};
+
+/// Explanations in order, best first; computed in full are the likeliest `most` of each kind.
+[[nodiscard]] std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& prior,
+                                              const SeenFrame& frame, int most = 4);
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/foundations/judge.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
+#include "kinemark/core/text.h"
+#include "kinemark/data/name_index.h"
+#include "kinemark/stages/motion/foundations/internal/hypotheses.h"
+
+namespace kinemark::motion {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kHalf = 3;        // frames on both sides that are averaged
+constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
+constexpr double kRival = 6.0;           // explanations this much less likely are named
+constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
+
+/// Where the body's markers are in a recording.
+std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
+  const data::NameIndex index(recording.names);
+  std::vector<std::int64_t> out;
+  for (const auto& marker : body.markers) out.push_back(index.find(marker.name));
+  return out;
+}
+
+/// Means about a frame.
+internal::SeenFrame frame_at(const data::Trajectories& recording, const std::vector<std::int64_t>& columns,
+                             std::int64_t frame, std::int64_t half, double sd) {
+  internal::SeenFrame out;
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  out.x = Eigen::Matrix3Xd::Constant(3, count, kNaN);
+  out.sd = Eigen::VectorXd::Constant(count, sd);
+  for (std::size_t m = 0; m < columns.size(); ++m) {
+    if (columns[m] < 0) continue;
+    Vector3d sum = Vector3d::Zero();
+    double seen = 0.0;
+    for (std::int64_t f = std::max<std::int64_t>(0, frame - half);
+         f <= std::min(recording.frames() - 1, frame + half); ++f)
+      if (recording.present(f, columns[m])) {
+        sum += recording.x(f, columns[m]);
+        seen += 1.0;
+      }
+    if (seen > 0.0) out.x.col(static_cast<Eigen::Index>(m)) = sum / seen;
+  }
+  return out;
+}
+
+std::int64_t seen_at(const data::Trajectories& recording, const std::vector<std::int64_t>& columns,
+                     std::int64_t f) {
+  return std::ranges::count_if(columns, [&](std::int64_t c) { return c >= 0 && recording.present(f, c); });
+}
+
+/// The frame whose markers move least, among those that show most.
+std::int64_t stillest(const data::Trajectories& recording, const std::vector<std::int64_t>& columns) {
+  std::int64_t most = 0;
+  for (std::int64_t f = 0; f < recording.frames(); ++f) most = std::max(most, seen_at(recording, columns, f));
+  std::int64_t best = -1;
+  double least = 0.0;
+  for (std::int64_t f = 0; f < recording.frames(); ++f) {
+    if (seen_at(recording, columns, f) < most) continue;
+    const std::int64_t a = std::max<std::int64_t>(0, f - kHalf),
+                       b = std::min(recording.frames() - 1, f + kHalf);
+    double moved = 0.0, both = 0.0;
+    for (const std::int64_t c : columns)
+      if (c >= 0 && recording.present(a, c) && recording.present(b, c)) {
+        moved += (recording.x(b, c) - recording.x(a, c)).norm();
+        both += 1.0;
+      }
+    // At an end the window is shorter; what has no neighbours is taken only where nothing else is.
+    moved = both > 0.0 && b > a ? moved / both * static_cast<double>(2 * kHalf) / static_cast<double>(b - a)
+                                : 1e6;
+    if (best < 0 || moved < least) {
+      best = f;
+      least = moved;
+    }
+  }
+  return most > 0 ? best : -1;
+}
+
+/// Frames of a movement that show most markers, evenly picked.
+std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data::Trajectories& movement,
+                                           const FoundationOptions& options) {
+  const auto columns = columns_of(body, movement);
+  std::vector<std::int64_t> counts;
+  for (std::int64_t f = 0; f < movement.frames(); ++f) counts.push_back(seen_at(movement, columns, f));
+  std::vector<internal::SeenFrame> out;
+  if (counts.empty()) return out;
+  auto sorted = counts;
+  std::ranges::sort(sorted);
+  const std::int64_t enough = sorted[sorted.size() * 7 / 10];
+  if (enough < static_cast<std::int64_t>(kFewest)) return out;
+  std::vector<std::int64_t> full;
+  for (std::int64_t f = 0; f < movement.frames(); ++f)
+    if (counts[static_cast<std::size_t>(f)] >= enough) full.push_back(f);
+  const auto n = static_cast<std::size_t>(options.moving_frames);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (2 * k + 1) * full.size() / (2 * n);
+    out.push_back(frame_at(movement, columns, full[std::min(i, full.size() - 1)], 0, options.moving_sd_m));
+  }
+  return out;
+}
+
+/// What movements tell of the body, less sure by how far markers lie from one recording to the next.
+internal::SharedPrior prior_with(const StandingBody& body, const internal::SharedPrior& prior,
+                                 const std::vector<internal::SeenFrame>& frames, double between_sd_m) {
+  internal::SharedPrior known = internal::learn_shared(body, prior, frames);
+  Eigen::MatrixXd covariance = known.information.inverse();
+  const auto sites = static_cast<Eigen::Index>(3 * body.markers.size());
+  covariance.diagonal().tail(sites).array() += between_sd_m * between_sd_m;
+  known.information = covariance.inverse();
+  known.information = (0.5 * (known.information + known.information.transpose())).eval();
+  return known;
+}
+
+std::string words_of(const StandingBody& body, const internal::Hypothesis& h) {
+  const std::string& first = body.markers[at(h.first)].name;
+  if (h.second < 0) return fmt::format("{} {:.0f} mm off", first, 1e3 * h.shift.norm());
+  return fmt::format("{} and {} exchanged", first, body.markers[at(h.second)].name);
+}
+
+/// Shoulders, arms and heads move on the trunk by more than a rigid body tells: beside a movement, a single
+/// marker is accused on pelvis and legs alone.
+bool keeps_its_place(const StandingBody::Marker& marker) {
+  const auto landmark = landmark_of(marker.name);
+  if (!landmark) return false;
+  return landmark->part == BodyPart::pelvis || landmark->part == BodyPart::thigh ||
+         landmark->part == BodyPart::shank || landmark->part == BodyPart::foot;
+}
+
+/// Spread of the length of a shift.
+double length_sd(const Vector3d& shift, const Vector3d& sd) {
+  const double length = shift.norm();
+  return length > 0.0 ? shift.cwiseProduct(sd).norm() / length : sd.norm();
+}
+
+}  // namespace
+
+Status FoundationOptions::check() const {
+  for (const double sd : {still_sd_m, moving_sd_m, between_sd_m})
+    if (!(sd > 0.0 && sd < 1.0))
+      return fail(Code::usage, fmt::format("a spread of {} m; need above 0, below 1", sd));
+  if (!(least_score > 0.0))
+    return fail(Code::usage, fmt::format("a score of {}; need a number above 0", least_score));
+  if (moving_frames < 1 || most_findings < 1)
+    return fail(Code::usage,
+                fmt::format("{} frames and {} findings; need at least 1", moving_frames, most_findings));
+  return {};
+}
+
+Result<FoundationJudgement> judge_foundation(const StandingBody& body, const data::Trajectories& still,
+                                             std::span<const data::Trajectories* const> movements,
+                                             const FoundationOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  FoundationJudgement out;
+  const auto columns = columns_of(body, still);
+  const std::int64_t frame_idx = stillest(still, columns);
+  if (frame_idx < 0) return out;
+  internal::SeenFrame frame = frame_at(still, columns, frame_idx, kHalf, options.still_sd_m);
+  std::set<int> segments;
+  std::vector<std::string> judged;
+  for (std::size_t m = 0; m < body.markers.size(); ++m)
+    if (frame.x.col(static_cast<Eigen::Index>(m)).allFinite()) {
+      judged.push_back(still.names[static_cast<std::size_t>(columns[m])]);
+      segments.insert(body.markers[m].segment);
+    }
+  if (judged.size() < kFewest || segments.size() < 2) return out;
+  out.judged = std::move(judged);
+  out.frame = frame_idx;
+
+  internal::SharedPrior prior = internal::prior_of(body);
+  std::vector<internal::SeenFrame> moving;
+  for (const auto* movement : movements) {
+    auto frames = frames_of(body, *movement, options);
+    out.movements += frames.empty() ? 0 : 1;
+    moving.insert(moving.end(), frames.begin(), frames.end());
+  }
+  if (!moving.empty()) prior = prior_with(body, prior, moving, options.between_sd_m);
+
+  const auto name_of = [&](int m) { return still.names[static_cast<std::size_t>(columns[at(m)])]; };
+  for (int k = 0; k < options.most_findings; ++k) {
+    const auto explanations = internal::explain(body, prior, frame);
+    if (explanations.empty() || explanations.front().score < options.least_score) break;
+    const auto& best = explanations.front();
+    if (best.second < 0 && best.shift.norm() < kLeastShift_m) break;
+    FoundationFinding finding{.marker = name_of(best.first),
+                              .partner = best.second < 0 ? std::string() : name_of(best.second),
+                              .shift_m = best.shift,
+                              .shift_sd_m = best.shift_sd,
+                              .score = best.score,
+                              .rivals = {}};
+    for (std::size_t i = 1; i < explanations.size(); ++i)
+      if (explanations[i].score > best.score - kRival)
+        finding.rivals.push_back(words_of(body, explanations[i]));
+    if (moving.empty() || best.second >= 0 || keeps_its_place(body.markers[at(best.first)]))
+      out.findings.push_back(std::move(finding));
+    if (best.second < 0) {
+      frame.x.col(best.first).setConstant(kNaN);
+    } else {
+      frame.x.col(best.first).swap(frame.x.col(best.second));
+    }
+  }
+  if (!moving.empty() && !out.findings.empty()) {
+    const auto alone = judge_foundation(body, still, {}, options);
+    if (!alone) return std::unexpected(alone.error());
+    for (auto& finding : out.findings)
+      finding.by_movement = std::ranges::none_of(alone->findings, [&](const FoundationFinding& other) {
+        return other.marker == finding.marker && other.partner == finding.partner;
+      });
+  }
+  return out;
+}
+
+std::string describe(const FoundationFinding& finding, const std::string& recording) {
+  std::string out;
+  if (!finding.partner.empty()) {
+    out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, recording);
+  } else {
+    const Vector3d& shift = finding.shift_m;
+    std::vector<std::string> parts;
+    constexpr const char* kWords[3][2] = {
+        {"back", "forward"}, {"down", "up"}, {"to the left", "to the right"}};
+    for (int a = 0; a < 3; ++a)
+      if (std::abs(shift[a]) >= 0.3 * shift.cwiseAbs().maxCoeff())
+        parts.push_back(
+            fmt::format("{:.0f} mm {}", 1e3 * std::abs(shift[a]), kWords[a][shift[a] > 0.0 ? 1 : 0]));
+    out = fmt::format("{} lies {:.0f} mm (SD {:.0f}) from where it should in {}: {}", finding.marker,
+                      1e3 * shift.norm(), 1e3 * length_sd(shift, finding.shift_sd_m), recording, join(parts));
+  }
+  if (finding.by_movement) out += ", as the movement shows it";
+  if (!finding.rivals.empty()) out += fmt::format(" (or: {})", join(finding.rivals));
+  return out;
+}
+
+}  // namespace kinemark::motion

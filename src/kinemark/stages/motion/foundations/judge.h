@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Is a still recording fit to build on? Every marker and every pair is asked whether it explains what a body
+// cannot be: one marker elsewhere, two exchanged. Theory: docs/theory/foundations.md
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
+
+namespace kinemark::motion {
+
+/// Options of judge_foundation().
+struct FoundationOptions {
+  double least_score = 12.0;    ///< of a finding: twice the log of how much likelier it makes the recording
+  double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
+  double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue
+  double between_sd_m = 0.004;  ///< of a marker between two recordings, per axis
+  int moving_frames = 6;        ///< of each movement, evenly picked
+  int most_findings = 4;        ///< of one recording
+
+  [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
+};
+
+/// A marker that lies elsewhere, or a pair that is exchanged.
+struct FoundationFinding {
+  std::string marker;   ///< as in the recording
+  std::string partner;  ///< exchanged with it; empty: the marker lies elsewhere
+  Eigen::Vector3d shift_m =
+      Eigen::Vector3d::Zero();  ///< seen less expected: forward, up, to the right of the body
+  Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero();  ///< 1 SD of each
+  double score = 0.0;                                    ///< as FoundationOptions::least_score
+  bool by_movement = false;  ///< movements show it; the still recording alone does not: either may be wrong
+  std::vector<std::string> rivals;  ///< other explanations that are nearly as likely, in words
+};
+
+/// What is known of a still recording.
+struct FoundationJudgement {
+  std::vector<FoundationFinding> findings;  ///< likeliest first
+  std::vector<std::string> judged;          ///< markers that were asked
+  std::int64_t frame = -1;                  ///< middle of the stillest part, which was judged; -1: none
+  int movements = 0;                        ///< recordings that it was compared with
+};
+
+/// Judge the stillest part of a recording against a body, and against movements of the same session, in which
+/// markers keep their places on the segments. Markers of the body that the recording lacks take no part;
+/// fewer than six, or on fewer than two segments: nothing is judged. About 0.2 s for 40 markers.
+[[nodiscard]] Result<FoundationJudgement> judge_foundation(
+    const StandingBody& body, const data::Trajectories& still,
+    std::span<const data::Trajectories* const> movements, const FoundationOptions& options = {});
+
+/// "LTOE and LHEE are exchanged in the static trial" or "LKNE lies 52 mm (SD 8) from where it should in the
+/// static trial: 48 mm forward, 20 mm down", with the rivals.
+[[nodiscard]] std::string describe(const FoundationFinding& finding, const std::string& recording);
+
+}  // namespace kinemark::motion

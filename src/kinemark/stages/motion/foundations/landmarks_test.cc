@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/foundations/landmarks.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace kinemark::motion {
+namespace {
+
+struct Named {
+  const char* name;
+  BodyPart part;
+  Side side;
+};
+
+TEST(Landmarks, NamesOfManyLaboratoriesMeanTheSamePlace) {
+  using enum BodyPart;
+  for (const auto& [name, part, side] :
+       {Named{"RASI", pelvis, Side::right}, Named{"R.ASIS", pelvis, Side::right},
+        Named{"r asis", pelvis, Side::right}, Named{"R_IAS", pelvis, Side::right},
+        Named{"ASIS_R", pelvis, Side::right}, Named{"Ann:LASI", pelvis, Side::left},
+        Named{"LLFE", thigh, Side::left}, Named{"RLFC", thigh, Side::right},
+        Named{"L.Knee.Med", thigh, Side::left}, Named{"LMKN", thigh, Side::left},
+        Named{"LTIB", shank, Side::left}, Named{"LLMAL", shank, Side::left}, Named{"RLM", shank, Side::right},
+        Named{"LMED", shank, Side::left}, Named{"RHEE", foot, Side::right}, Named{"RCAL", foot, Side::right},
+        Named{"C7", trunk, Side::middle}, Named{"V.Sacral", pelvis, Side::middle},
+        Named{"L.Wrist.Med", forearm, Side::left}}) {
+    const auto landmark = landmark_of(name);
+    ASSERT_TRUE(landmark) << name;
+    EXPECT_EQ(landmark->part, part) << name;
+    EXPECT_EQ(landmark->side, side) << name;
+  }
+}
+
+TEST(Landmarks, WhatIsComputedOrUnknownIsNone) {
+  for (const char* name :
+       {"LFEO", "LFEL", "RTIA", "PELO", "LHipAngles", "*12", "", "L", "R", "WheelchairRearR", "Probe1"})
+    EXPECT_FALSE(landmark_of(name)) << name;
+}
+
+TEST(Landmarks, MedialAndLateralLieOnBothSidesOfTheJoint) {
+  EXPECT_GT(landmark_of("LKNE")->x_in_part.z(), 0.03);
+  EXPECT_LT(landmark_of("LMKN")->x_in_part.z(), -0.03);
+  EXPECT_GT(landmark_of("RLM")->x_in_part.z(), 0.03);
+  EXPECT_LT(landmark_of("RMMAL")->x_in_part.z(), -0.03);
+}
+
+TEST(Landmarks, TheHeelLiesBehindTheToeAndTheFrontBeforeTheBack) {
+  EXPECT_LT(landmark_of("LHEE")->x_in_part.x(), landmark_of("LTOE")->x_in_part.x() - 0.1);
+  EXPECT_GT(landmark_of("LASI")->x_in_part.x(), landmark_of("LPSI")->x_in_part.x() + 0.1);
+}
+
+TEST(Landmarks, AWandsHeightIsFreeOnEachSide) {
+  const auto wand = landmark_of("LTHI"), bone = landmark_of("LANK");
+  EXPECT_GT(wand->spread.own.y(), 0.04);
+  EXPECT_LT(bone->spread.own.y(), 0.015);
+}
+
+TEST(Landmarks, NamesAreCutIntoSideAndRest) {
+  EXPECT_EQ(split_marker_name("R.Thigh.Upper").stem, split_marker_name("L.Thigh.Upper").stem);
+  EXPECT_EQ(split_marker_name("R.Thigh.Upper").side, Side::right);
+  EXPECT_EQ(split_marker_name("L12").side, Side::left);
+  EXPECT_EQ(split_marker_name("STRN").side, Side::middle);
+}
+
+}  // namespace
+}  // namespace kinemark::motion

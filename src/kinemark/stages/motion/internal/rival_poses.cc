@@ -1,0 +1,432 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/rival_poses.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/math/statistics.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/model/weighted_normal.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLessKnown = 2.0;     // times the variance with all markers: the limb lost what held it
+constexpr double kOpen = 0.25;         // rad^2 or m^2: beyond it a coordinate is not determined anyway
+constexpr double kParallel = 0.95;     // correlation of two directions that lead to the same rivals
+constexpr int kDirections = 8;         // of one frame
+constexpr std::array kWays{0.6, 1.4};  // rad or m along each, both ways
+constexpr double kFarthest = 2.6;      // rad or m, of any coordinate
+constexpr double kDiffers = 0.06;      // rad or m, and ...
+constexpr double kDiffersInSd = 3.0;   // ... so many deviations: another pose
+constexpr double kWorse = 36.0;        // chi-square by which a rival may fit worse
+constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' errors last for many frames
+constexpr std::size_t kMostRivals = 14;
+constexpr double kLeastSd_m = 0.3e-3;  // of a marker
+constexpr int kRoundsOfRivals = 2;
+constexpr std::int64_t kSearchEvery = 3;  // frames; between them rivals are followed
+constexpr double kShutLoopSd_m = 1e-5;
+constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
+constexpr double kLeastStep = 2e-3;  // rad or m
+constexpr double kDoubt = 2e-3;      // probability of rivals from which on a coordinate is not determined
+constexpr double kLeastProbability = 1e-9;
+constexpr double kAlongOpen =
+    0.3;  // rad or m of something open between two poses: both lie on one valley, and ...
+constexpr double kAnywhere =
+    0.05;                        // ... nothing says where on it the body is: the least share of such a rival
+constexpr double kAsGood = 9.0;  // chi-square by which it may fit worse
+
+/// A pose of one frame with what its markers say of it.
+struct Candidate {
+  VectorXd state, variance;  // variance: nv, rad^2 or m^2
+  double chi_square = 0.0;
+  double log_forward = 0.0, log_backward = 0.0;
+  double probability = 1.0;
+};
+
+class Rivals {
+ public:
+  Rivals(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
+         const MarkerVariances& variances, const SolvedFrames& solved)
+      : problem_(problem),
+        markers_(markers),
+        solved_(solved),
+        solver_(problem, options),
+        w_(problem.model),
+        y_(3, problem.model.marker_count()),
+        weight_(problem.model.marker_count()),
+        information_(problem.model.marker_count()),
+        all_(problem.model.marker_count()),
+        of_frame_(at(problem.frames)) {
+    for (Eigen::Index m = 0; m < all_.size(); ++m) {
+      const int body = problem.model.markers()[at(m)].body;
+      const double v = variances.own[m] + (body >= 0 ? variances.common[body] : 0.0);
+      all_[m] = 1.0 / std::max(v, kLeastSd_m * kLeastSd_m);
+    }
+    find_used();
+    find_steps();
+  }
+
+  void find() {
+    find_lacking();
+    const std::int64_t F = problem_.frames;
+    for (std::int64_t f = 0; f < F; ++f) {
+      visit(f);
+      auto& here = of_frame_[at(f)];
+      here.push_back(candidate(solved_.states.col(f)));
+      if (lacks_[at(f)] == 0) continue;
+      if (f % kSearchEvery == 0) find_directions(here.front());
+      if (f > 0) follow(f - 1, here);
+      if (f % kSearchEvery == 0) search(here);
+    }
+    for (std::int64_t f = F - 2; f >= 0; --f) {
+      if (lacks_[at(f)] == 0) continue;
+      visit(f);
+      follow(f + 1, of_frame_[at(f)]);
+    }
+    for (auto& here : of_frame_) drop_worse(here);
+  }
+
+  /// Probabilities of all candidates: markers of each frame, and how far the body would have gone.
+  void weigh() {
+    const std::int64_t F = problem_.frames;
+    for (std::int64_t f = 0; f < F; ++f) {
+      auto& here = of_frame_[at(f)];
+      double best = HUGE_VAL;
+      for (const Candidate& c : here) best = std::min(best, c.chi_square);
+      for (Candidate& c : here) {
+        c.log_forward = -kTemper * (c.chi_square - best);
+        if (f > 0) c.log_forward += reach(of_frame_[at(f - 1)], c, true);
+      }
+      level(here, true);
+    }
+    for (std::int64_t f = F - 2; f >= 0; --f) {
+      auto& behind = of_frame_[at(f + 1)];
+      double best = HUGE_VAL;
+      for (const Candidate& c : behind) best = std::min(best, c.chi_square);
+      for (Candidate& c : of_frame_[at(f)]) c.log_backward = reach(behind, c, false, best);
+      level(of_frame_[at(f)], false);
+    }
+    for (auto& here : of_frame_) {
+      double most = -HUGE_VAL, sum = 0.0;
+      for (const Candidate& c : here) most = std::max(most, c.log_forward + c.log_backward);
+      for (Candidate& c : here) sum += c.probability = std::exp(c.log_forward + c.log_backward - most);
+      for (Candidate& c : here) c.probability /= sum;
+    }
+  }
+
+  /// Between the two poses lies something that no marker fixes: continuity does not choose between them.
+  bool on_one_valley(const Candidate& taken, const Candidate& rival) {
+    if (rival.chi_square > taken.chi_square + kAsGood) return false;
+    model::difference(problem_.model, taken.state, rival.state, move_);
+    for (Eigen::Index i = 0; i < move_.size(); ++i)
+      if (!problem_.fixed_speed[at(i)] && taken.variance[i] > kOpen && std::abs(move_[i]) > kAlongOpen)
+        return true;
+    return false;
+  }
+
+  [[nodiscard]] std::vector<Candidate>& of(std::int64_t f) { return of_frame_[at(f)]; }
+
+ private:
+  /// Frames that lack a marker that others have.
+  void find_lacking() {
+    lacks_.assign(at(problem_.frames), 0);
+    for (std::int64_t f = 0; f < problem_.frames; ++f) {
+      problem_.observe(markers_, f, y_, weight_);
+      bool some = false, missing = false;
+      for (Eigen::Index m = 0; m < weight_.size(); ++m) {
+        some = some || weight_[m] > 0.0;
+        missing = missing || (weight_[m] == 0.0 && used_[at(m)] != 0);
+      }
+      lacks_[at(f)] = some && missing ? 1 : 0;
+    }
+  }
+
+  void find_used() {
+    used_.assign(at(problem_.model.marker_count()), 0);
+    for (std::int64_t f = 0; f < problem_.frames; ++f)
+      for (std::size_t m = 0; m < used_.size(); ++m)
+        if (markers_.present(problem_.first_frame + f, problem_.data_marker[m])) used_[m] = 1;
+  }
+
+  /// How far each speed goes in a frame.
+  void find_steps() {
+    const auto& model = problem_.model;
+    const std::int64_t F = problem_.frames, stride = std::max<std::int64_t>(1, F / 400);
+    VectorXd move(model.speed_count());
+    std::vector<std::vector<double>> steps(at(model.speed_count()));
+    for (std::int64_t f = 0; f + 1 < F; f += stride) {
+      model::difference(model, solved_.states.col(f), solved_.states.col(f + 1), move);
+      for (Eigen::Index i = 0; i < move.size(); ++i) steps[at(i)].push_back(std::abs(move[i]));
+    }
+    step_.setConstant(model.speed_count(), kLeastStep);
+    for (Eigen::Index i = 0; i < step_.size(); ++i)
+      if (!steps[at(i)].empty()) step_[i] = std::max(kLeastStep, math::quantile(steps[at(i)], kStepShare));
+  }
+
+  void visit(std::int64_t f) {
+    frame_ = f;
+    problem_.observe(markers_, f, y_, weight_);
+    for (Eigen::Index m = 0; m < weight_.size(); ++m) information_[m] = weight_[m] > 0.0 ? all_[m] : 0.0;
+  }
+
+  /// Covariance of the speeds by markers of these weights, in the pose last visited.
+  void invert(const VectorXd& information, MatrixXd& K) {
+    const auto& model = problem_.model;
+    model::marker_normal_matrix(model, w_, information, H_);
+    if (!model.point_constraints().empty()) {
+      model::point_constraint_jacobian(model, w_, C_);
+      H_.noalias() += C_.transpose() * C_ / (kShutLoopSd_m * kShutLoopSd_m);
+    }
+    for (Eigen::Index i = 0; i < H_.rows(); ++i) {
+      if (!problem_.fixed_speed[at(i)]) {
+        H_(i, i) += 1e-2;  // nothing is vaguer than 10 rad or m
+        continue;
+      }
+      H_.row(i).setZero();
+      H_.col(i).setZero();
+      H_(i, i) = 1e12;
+    }
+    llt_.compute(H_);
+    K.setIdentity(H_.rows(), H_.cols());
+    llt_.solveInPlace(K);
+  }
+
+  Candidate candidate(const VectorXd& state) {
+    Candidate c{.state = state, .variance = {}};
+    model::kinematics(problem_.model, w_, state);
+    invert(information_, K_);
+    c.variance = K_.diagonal();
+    for (Eigen::Index m = 0; m < weight_.size(); ++m)
+      if (information_[m] > 0.0)
+        c.chi_square += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
+    return c;
+  }
+
+  /// Ways along which the body may go where the markers of this frame fix a speed less well than all would;
+  /// K_ is that of `now`.
+  void find_directions(const Candidate& now) {
+    model::kinematics(problem_.model, w_, now.state);
+    invert(all_, whole_);
+    std::vector<std::pair<double, Eigen::Index>> found;
+    for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
+      const double ratio = now.variance[i] / whole_(i, i);
+      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown) found.emplace_back(-ratio, i);
+    }
+    std::ranges::sort(found);
+    std::vector<Eigen::Index> out;
+    for (const auto& [ratio, i] : found) {
+      const bool parallel = std::ranges::any_of(out, [&](Eigen::Index k) {
+        return std::abs(K_(i, k)) > kParallel * std::sqrt(K_(i, i) * K_(k, k));
+      });
+      if (!parallel) out.push_back(i);
+      if (std::ssize(out) == kDirections) break;
+    }
+    directions_.clear();
+    for (const auto i : out) {
+      VectorXd v = K_.col(i) / K_(i, i);
+      const double longest = v.cwiseAbs().maxCoeff();
+      if (longest > 2.0) v *= 2.0 / longest;
+      directions_.push_back(std::move(v));
+    }
+  }
+
+  /// The poses of the frame beside, solved in this one.
+  void follow(std::int64_t beside, std::vector<Candidate>& here) {
+    const auto& there = of_frame_[at(beside)];
+    for (std::size_t k = 0; k < std::min(there.size(), kMostRivals); ++k) {
+      if (k == 0 && beside < frame_ && there.size() == 1) {
+        model::difference(problem_.model, there[k].state, here.front().state, move_);
+        if ((move_.array().abs() < 4.0 * step_.array()).all()) continue;  // it was solved from there
+      }
+      take(there[k].state, here);
+    }
+  }
+
+  /// Poses on the ways along which the markers that are missing held the body.
+  void search(std::vector<Candidate>& here) {
+    const VectorXd begin = here.front().state;
+    for (const VectorXd& direction : directions_)
+      for (const double way : kWays)
+        for (const double sign : {-1.0, 1.0}) {
+          if (here.size() >= kMostRivals) return;
+          move_ = sign * way * direction;
+          const double longest = move_.cwiseAbs().maxCoeff();
+          if (longest > kFarthest) continue;
+          start_ = begin;
+          model::integrate(problem_.model, start_, move_);
+          for (const auto& c : problem_.model.coordinates())
+            if (c.speed_idx >= 0)
+              start_[c.state_idx] =
+                  std::clamp(start_[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
+          take(start_, here);
+        }
+  }
+
+  /// Solve from a pose and keep what is found where it is another pose and fits about as well.
+  void take(const VectorXd& from, std::vector<Candidate>& here) {
+    if (here.size() >= kMostRivals) return;
+    x_ = from;
+    const auto outcome = solver_.solve(y_, weight_, frame_, x_);
+    if (!outcome.converged || !x_.allFinite()) return;
+    double chi_square = 0.0;
+    solver_.square_cost(y_, weight_, frame_, x_);
+    for (Eigen::Index m = 0; m < weight_.size(); ++m)
+      if (information_[m] > 0.0) chi_square += information_[m] * solver_.residual().col(m).squaredNorm();
+    double best = HUGE_VAL;
+    for (const Candidate& c : here) best = std::min(best, c.chi_square);
+    if (chi_square > best + kWorse) return;
+    Candidate c = candidate(x_);
+    for (const Candidate& other : here)
+      if (!differ(other, c)) return;
+    here.push_back(std::move(c));
+  }
+
+  /// Another pose in something that one of them fixes.
+  bool differ(const Candidate& a, const Candidate& b) {
+    model::difference(problem_.model, a.state, b.state, move_);
+    for (Eigen::Index i = 0; i < move_.size(); ++i) {
+      if (problem_.fixed_speed[at(i)] || std::min(a.variance[i], b.variance[i]) > kOpen) continue;
+      const double sd = std::sqrt(std::min(a.variance[i], b.variance[i]));
+      if (std::abs(move_[i]) > std::max(kDiffers, kDiffersInSd * sd)) return true;
+    }
+    return false;
+  }
+
+  static void drop_worse(std::vector<Candidate>& here) {
+    double best = HUGE_VAL;
+    for (const Candidate& c : here) best = std::min(best, c.chi_square);
+    // The pose that was taken stays first while it is any good.
+    std::erase_if(here, [&](const Candidate& c) { return c.chi_square > best + kWorse; });
+  }
+
+  /// Log of the sum over the candidates beside of their weight and of the way from or to them.
+  double reach(const std::vector<Candidate>& beside, const Candidate& c, bool forward, double best = 0.0) {
+    double most = -HUGE_VAL;
+    logs_.clear();
+    for (const Candidate& b : beside) {
+      const double weight = forward ? b.log_forward : b.log_backward - kTemper * (b.chi_square - best);
+      logs_.push_back(weight + way(b, c));
+      most = std::max(most, logs_.back());
+    }
+    double sum = 0.0;
+    for (const double l : logs_) sum += std::exp(l - most);
+    return most + std::log(sum);
+  }
+
+  double way(const Candidate& a, const Candidate& b) {
+    model::difference(problem_.model, a.state, b.state, move_);
+    double log = 0.0;
+    for (Eigen::Index i = 0; i < move_.size(); ++i) {
+      if (problem_.fixed_speed[at(i)]) continue;
+      const double s2 = 4.0 * step_[i] * step_[i] + a.variance[i] + b.variance[i];
+      log -= std::log1p(move_[i] * move_[i] / s2);
+    }
+    return log;
+  }
+
+  static void level(std::vector<Candidate>& here, bool forward) {
+    double most = -HUGE_VAL;
+    for (const Candidate& c : here) most = std::max(most, forward ? c.log_forward : c.log_backward);
+    for (Candidate& c : here) (forward ? c.log_forward : c.log_backward) -= most;
+  }
+
+  const Problem& problem_;
+  const data::Trajectories& markers_;
+  const SolvedFrames& solved_;
+  FrameSolver solver_;
+  model::Workspace w_;
+  Eigen::Matrix3Xd y_;
+  VectorXd weight_, information_, all_, step_, x_, start_, move_;
+  MatrixXd H_, K_, whole_, C_;
+  Eigen::LLT<MatrixXd> llt_;
+  std::int64_t frame_ = 0;
+  std::vector<std::uint8_t> used_, lacks_;
+  std::vector<VectorXd> directions_;
+  std::vector<std::vector<Candidate>> of_frame_;
+  std::vector<double> logs_;
+};
+
+}  // namespace
+
+bool lacks_markers(const Problem& problem, const data::Trajectories& markers) {
+  std::vector<std::int64_t> seen(problem.data_marker.size(), 0);
+  for (std::int64_t f = 0; f < problem.frames; ++f)
+    for (std::size_t m = 0; m < seen.size(); ++m)
+      seen[m] += markers.present(problem.first_frame + f, problem.data_marker[m]);
+  return std::ranges::any_of(seen, [&](std::int64_t n) { return n > 0 && n < problem.frames; });
+}
+
+std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
+                                           const data::Trajectories& markers,
+                                           const MarkerVariances& variances, FrameWalk& walk,
+                                           SolvedFrames& solved, std::vector<std::uint8_t>& changed) {
+  changed.assign(at(problem.frames), 0);
+  std::vector<RivalPose> left;
+  bool again = true;
+  // A frame may have the wrong pose in two limbs, and its rivals the right one in one of them.
+  for (int round = 0; round < kRoundsOfRivals && again; ++round) {
+    again = false;
+    left.clear();
+    Rivals rivals(problem, options, markers, variances, solved);
+    rivals.find();
+    rivals.weigh();
+    for (std::int64_t f = 0; f < problem.frames; ++f) {
+      auto& here = rivals.of(f);
+      const auto best = static_cast<std::size_t>(std::ranges::max_element(here, {}, &Candidate::probability) -
+                                                 here.begin());
+      if (here[best].state != solved.states.col(f)) {
+        changed[at(f)] = 1;
+        again = true;
+        walk.put(markers, f, here[best].state, solved);
+      }
+      for (std::size_t k = 0; k < here.size(); ++k) {
+        if (k == best) continue;
+        if (rivals.on_one_valley(here[best], here[k]))
+          here[k].probability = std::max(here[k].probability, kAnywhere);
+        if (here[k].probability > kLeastProbability)
+          left.push_back({.frame = f, .state = std::move(here[k].state), .probability = here[k].probability});
+      }
+    }
+  }
+  return left;
+}
+
+void doubt_rivals(const Problem& problem, const std::vector<RivalPose>& rivals, data::JointMotion& motion) {
+  const int n = problem.model.coordinate_count();
+  VectorXd taken(n), rival(n), doubt(n);
+  for (std::size_t r = 0; r < rivals.size();) {
+    const std::int64_t f = rivals[r].frame;
+    taken = Eigen::Map<const VectorXd>(motion.q.data() + motion.index(f, 0), n);
+    doubt.setZero();
+    for (; r < rivals.size() && rivals[r].frame == f; ++r) {
+      model::coordinates_from_state(problem.model, rivals[r].state, taken, rival);
+      for (int c = 0; c < n; ++c) {
+        const auto i = motion.index(f, c);
+        if (motion.determined[i] == 0 || !(motion.q_sd[i] > 0.0)) continue;
+        const double apart = std::abs(rival[c] - taken[c]);
+        if (apart < std::max(0.5 * kDiffers, 2.0 * motion.q_sd[i])) continue;
+        doubt[c] += rivals[r].probability;
+        motion.q_sd[i] = std::hypot(motion.q_sd[i], std::sqrt(rivals[r].probability) * apart);
+      }
+    }
+    for (int c = 0; c < n; ++c) {
+      if (!(doubt[c] > kDoubt)) continue;
+      const auto i = motion.index(f, c);
+      motion.determined[i] = 0;
+      motion.q_sd[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+}  // namespace kinemark::motion::internal

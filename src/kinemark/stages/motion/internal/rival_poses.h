@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Where few markers are seen, more than one pose fits them: a mirror pose. All of them are followed in time;
+// the likeliest is taken, and what the others leave open is told. Theory: docs/theory/error-bars.md
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/stages/motion/internal/error_bars.h"
+#include "kinemark/stages/motion/internal/frame_walk.h"
+
+namespace kinemark::motion::internal {
+
+/// A pose that fits a frame about as well as the one that was taken.
+struct RivalPose {
+  std::int64_t frame = 0;
+  Eigen::VectorXd state;
+  double probability = 0.0;  ///< by its markers and by the frames before and behind
+};
+
+/// Some frame lacks a marker that others have: only then there may be rivals.
+[[nodiscard]] bool lacks_markers(const Problem& problem, const data::Trajectories& markers);
+
+/// Look for rivals in all frames that lack a marker, and put the likeliest pose of each frame into `solved`;
+/// frames whose pose is another one then are solved as `markers` have them.
+///
+/// @param walk       that solved them; its starts and losses are used
+/// @param variances  of the markers' errors
+/// @param changed    becomes 1 (F) where a frame got another pose
+/// @return           the rivals that are left, by frame. Costs some 20 solutions of a frame for each frame in
+///                   which a coordinate is less well known than with all markers, nothing for others.
+[[nodiscard]] std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
+                                                         const data::Trajectories& markers,
+                                                         const MarkerVariances& variances, FrameWalk& walk,
+                                                         SolvedFrames& solved,
+                                                         std::vector<std::uint8_t>& changed);
+
+/// Where a rival differs in a coordinate by more than its deviation: that is wider by the rival's share, and
+/// the coordinate is not determined where the rival is not very improbable.
+void doubt_rivals(const Problem& problem, const std::vector<RivalPose>& rivals, data::JointMotion& motion);
+
+}  // namespace kinemark::motion::internal
