@@ -75,8 +75,8 @@ struct SkeletonSegment {
 
 /// Markers that slide on their segments with a joint's posture: what was looked for and found.
 struct SkinAccount {
-  SkinVerdict verdict = SkinVerdict::untested;
-  std::int64_t movements = 0;  ///< of the joint in this recording
+  SkinVerdict verdict = SkinVerdict::untested;  ///< what may be said
+  std::int64_t movements = 0;                   ///< of the joint in this recording
   std::int64_t alike = 0;     ///< movements whose shape the others predict, on the segment that shows it more
   double p_value = kNaN;      ///< of the shape, over movements; NaN: fewer than four
   double explained = kNaN;    ///< share of the shape's variance in a movement that the others predict
@@ -110,7 +110,7 @@ struct SkeletonJoint {
   /// How much of the accuracy is knowledge that the recording did not bring: variance of the place over what
   /// the prior for skin alone says, 0 to 1; 0 where noise outweighs skin. NaN when unknown.
   double prior_share = kNaN;
-  SkinAccount skin;
+  SkinAccount skin;  ///< of the markers of its two segments
   /// The number is mostly prior knowledge.
   [[nodiscard]] bool prior_dominated() const { return prior_share > 0.5; }
   double range_of_motion_rad = 0.0;  ///< largest rotation of child against parent that was seen

@@ -24,7 +24,7 @@ struct Prediction {
 
 /// What the movements of a recording show.
 struct SkinEvidence {
-  std::int64_t movements = 0;
+  std::int64_t movements = 0;  ///< to and fro, of 11 frames or more
   Prediction shape;        ///< of the segment whose shape follows more surely; p for both segments together
   Prediction gap;          ///< of the gap between the two places of the joint
   double gap_rms_m = 0.0;  ///< of the gap that the posture predicts, m

@@ -39,17 +39,17 @@ enum class MarkerSite : std::uint8_t {
 
 /// What the name of a marker says.
 struct MarkerPlace {
-  BodyPart part = BodyPart::head;  ///< of a marker over a joint: the part above it
-  BodySide side = BodySide::none;
-  MarkerSite site = MarkerSite::segment;
-  std::string_view set;  ///< the marker set that has the name, as a person calls it
+  BodyPart part = BodyPart::head;         ///< of a marker over a joint: the part above it
+  BodySide side = BodySide::none;         ///< none for head, trunk and pelvis
+  MarkerSite site = MarkerSite::segment;  ///< where it sits on the part
+  std::string_view set;                   ///< the marker set that has the name, as a person calls it
 };
 
 /// A row of the table: names of one set that lie on one part.
 struct MarkerSetRow {
-  std::string_view set;
-  BodyPart part;
-  MarkerSite site;
+  std::string_view set;    ///< as a person calls it
+  BodyPart part;           ///< on which all of them lie
+  MarkerSite site;         ///< of all of them
   bool sided;              ///< the names follow L or R
   std::string_view names;  ///< between blanks; # stands for one digit or two
 };

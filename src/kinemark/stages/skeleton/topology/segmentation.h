@@ -45,8 +45,8 @@ struct JudgedJoint {
   std::string name;  ///< "hip_l"; from the data "segment1-segment2", or by its first markers
   std::string parent_name, child_name;  ///< of the segments; empty where they are in no layout
   std::vector<int> parent, child;       ///< markers
-  bool known = false;
-  bool hinge = false;
+  bool known = false;                   ///< its place may be used; false: `reason` says why not
+  bool hinge = false;                   ///< turns about one axis; false: ball, or nothing could be measured
   double gap_m = 0.0, turn_rad = 0.0, spread_m = 0.0;  ///< NaN where nothing could be measured
   double weight = 0.0, rival_weight = 0.0;  ///< shares of the rivals that have it, that have another instead
   std::vector<RivalJoint> rivals;           ///< other clusters that place it, or another joint near it
@@ -58,7 +58,7 @@ struct JudgedJoint {
 
 /// A marker whose distances contradict the segment that its name says.
 struct MarkerAside {
-  int marker = 0;
+  int marker = 0;              ///< its number
   std::string segment;         ///< that its name says
   double distance_sd_m = 0.0;  ///< median over the others there
 };
