@@ -10,6 +10,9 @@
 namespace kinemark::data {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
+
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Four frames of two markers; the first was smoothed, the second was not. Frame 1 was filled, frame 2
@@ -111,13 +114,40 @@ TEST(Filtering, TellsWhatIsKnown) {
   t.filters[1] = {.method = "gcv", .order = 3, .cutoff_hz = 9.0, .noise_sd_m = kNone};
   EXPECT_THAT(describe_filters(t), ::testing::StartsWith("2 markers were smoothed by gcv or kalman (order 3 "
                                                          "to 5; -3 dB at 6.4 to 9 Hz;"));
-  EXPECT_THAT(describe_filters(t), ::testing::HasSubstr("kept of 1 of them"));
+  EXPECT_THAT(describe_filters(t), HasSubstr("the samples from before are kept of 1 of them"));
+  EXPECT_THAT(describe_filters(t), Not(HasSubstr("the samples from before are kept beside them")));
   t.unfiltered_in_world.clear();
-  EXPECT_THAT(describe_filters(t), ::testing::HasSubstr("the samples from before are not there"));
+  EXPECT_THAT(describe_filters(t), HasSubstr("the samples from before are not there"));
+  EXPECT_THAT(describe_filters(t), Not(HasSubstr("the samples from before are kept of")));
   EXPECT_THAT(note_on_noise(t), ::testing::EndsWith("deviations that rest on it, are too small"));
   t.filters.clear();
   EXPECT_EQ(describe_filters(t), "");
   EXPECT_EQ(note_on_noise(t), "");
+}
+
+TEST(Filtering, SaysOnlyWhatIsThere) {
+  auto t = half_smoothed();
+  EXPECT_THAT(describe_filters(t), Not(HasSubstr("the samples from before are not there")));
+  EXPECT_THAT(describe_filters(t), Not(HasSubstr("the samples from before are kept of")));
+  t.filters[0].method = "none";
+  EXPECT_THAT(note_on_noise(t),
+              Not(HasSubstr("noise that is found in the smoothed samples, and deviations that rest")));
+  EXPECT_EQ(note_on_noise(t), "") << "none is no filter";
+  t.filters[0] = {.method = "butterworth", .order = 0, .cutoff_hz = kNone, .noise_sd_m = kNone};
+  t.unfiltered_in_world.clear();
+  EXPECT_EQ(describe_filters(t),
+            "1 of 2 markers was smoothed by butterworth; the samples from before are not there")
+      << "no number that is not known";
+}
+
+TEST(Filtering, AMarkerThatWasNeverSeenKeepsNothingBack) {
+  auto t = half_smoothed();
+  t.filters[1] = t.filters[0];
+  for (std::int64_t f = 0; f < t.frames(); ++f) t.set_missing(f, 1);
+  EXPECT_FALSE(keeps_unfiltered(t, 1));
+  EXPECT_TRUE(restore_unfiltered(t));
+  EXPECT_EQ(t.x(0, 0).x(), 0.5);
+  EXPECT_FALSE(t.present(0, 1));
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ namespace kinemark::pipeline {
 namespace {
 
 using data::SampleState;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 class RunClean : public ::testing::Test {
@@ -258,10 +260,63 @@ TEST_F(RunClean, OneWithoutThemIsSmoothedTwiceAndThatIsSaid) {
   j.input = at("once.csv");
   const auto outcome = run_clean(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->report.run.warnings, ::testing::Contains(HasSubstr("so that it is smoothed twice")));
+  EXPECT_THAT(outcome->report.run.warnings,
+              Contains(HasSubstr(
+                  ", so that it is smoothed twice: noise found here is what the first filter left, and "
+                  "less than that of the measurement")));
   const auto t = io::read_markers(at("twice.csv")).value().markers;
   EXPECT_EQ(t.filters[0].method, "kalman, kalman");
   EXPECT_TRUE(t.unfiltered_in_world.empty()) << "its samples were smoothed";
+}
+
+TEST_F(RunClean, SaysOfEarlierFiltersOnlyWhatIsSo) {
+  const auto raw = run_clean(job("once.nwb"));
+  ASSERT_TRUE(raw);
+  const auto& of_raw = raw->report.run.warnings;
+  EXPECT_THAT(of_raw, Not(Contains(HasSubstr(": smoothed anew from those"))));
+  EXPECT_THAT(of_raw, Not(Contains(HasSubstr("so that it is smoothed twice: noise found here is what"))));
+  auto again = job("twice.nwb");
+  again.input = at("once.nwb");
+  // The smoother left covariances, which are those of smoothed samples.
+  EXPECT_THAT(run_clean(again)->report.run.warnings,
+              Contains(HasSubstr(": smoothed anew from those, whose own covariances are not known")));
+  ASSERT_TRUE(run_clean(job("once.c3d")));
+  auto from_c3d = job("from_c3d.csv");
+  from_c3d.input = at("once.c3d");
+  const auto without = run_clean(from_c3d)->report.run.warnings;
+  EXPECT_THAT(without, Contains(HasSubstr("smoothed anew from those")));
+  EXPECT_THAT(without, Not(Contains(HasSubstr(", whose own covariances are not known"))))
+      << "a C3D holds none";
+  auto left = job("left.nwb");
+  left.input = at("once.nwb");
+  left.filter.method = trajectory::FilterMethod::none;
+  const auto as_it_is = run_clean(left);
+  ASSERT_TRUE(as_it_is);
+  EXPECT_THAT(as_it_is->report.run.warnings,
+              Contains(::testing::EndsWith("the samples from before are kept beside them")));
+}
+
+TEST_F(RunClean, ASwapThatIsNotReliedOnIsSaidWhereThereIsOne) {
+  const auto done_of = [this](const char* input) {
+    auto j = job(std::string(input) + "_out.csv");
+    j.input = at(input);
+    j.gaps.method = trajectory::GapMethod::automatic;
+    const auto outcome = run_clean(j);
+    std::string out;
+    if (outcome)
+      for (const auto& defect : outcome->report.account.defects) out += defect.done + "\n";
+    return out;
+  };
+  EXPECT_THAT(done_of("in.c3d"), Not(HasSubstr("not relied on when filling; left as it is")));
+  auto exchanged = recording();
+  auto& t = exchanged.markers;
+  for (std::int64_t f = 130; f < 170; ++f) {
+    const Eigen::Vector3d other = t.x(f, 0);
+    t.x(f, 0) = t.x(f, 1);
+    t.x(f, 1) = other;
+  }
+  ASSERT_TRUE(io::write_markers(at("exchanged.c3d"), exchanged, false));
+  EXPECT_THAT(done_of("exchanged.c3d"), HasSubstr("not relied on when filling; left as it is"));
 }
 
 TEST_F(RunClean, ATrcNotesTheirAbsence) {

@@ -16,6 +16,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kRate = 100.0;
 
@@ -106,7 +107,7 @@ TEST(MergeTrials, ASampleThatBothHoldMustBeTheSame) {
       refusal({a, b}),
       "a.c3d and b.c3d cannot be merged: 'A' lies 2.0 mm apart in frame 4; leave it out of one of them");
   b.markers.set_missing(1, 0);
-  EXPECT_TRUE(merge_trials({a, b}));
+  EXPECT_THAT(refusal({a, b}), Not(HasSubstr("; leave it out of one of them")));
   a.markers.set_missing(3, 0, data::SampleState::rejected);
   EXPECT_FALSE(merge_trials({a, b}).value().markers.present(3, 0));
 }
@@ -114,12 +115,17 @@ TEST(MergeTrials, ASampleThatBothHoldMustBeTheSame) {
 TEST(MergeTrials, FilesOfOtherRecordingsAreRefused) {
   auto a = part("a", 1, 4, {"A"}), b = part("b", 5, 6, {"A"});
   b.markers.time.rate_hz = 120.0;
-  EXPECT_THAT(refusal({a, b}), HasSubstr("100 and 120 frames per second"));
+  EXPECT_THAT(refusal({a, b}), HasSubstr("100 and 120 frames per second; need one rate"));
   b = part("b", 5, 6, {"A"});
   b.markers.time.t0_s = 0.0;
   EXPECT_THAT(refusal({a, b}), HasSubstr("frame 1 is at 0.0000 and at -0.0400 s"));
   EXPECT_THAT(refusal({a, part("b", 1000, 1003, {"A"})}),
               HasSubstr("1003 frames from the first to the last, of which 8"));
+  // Nothing of that where the files belong together.
+  const auto together = refusal({a, part("b", 30, 33, {"A"})});
+  EXPECT_EQ(together, "");
+  EXPECT_THAT(together, Not(HasSubstr("frames per second; need one rate")));
+  EXPECT_THAT(together, Not(HasSubstr("frames from the first to the last, of which")));
 }
 
 TEST(MergeTrials, AnalogSamplesThatFollowEachOtherAreJoined) {
@@ -132,6 +138,8 @@ TEST(MergeTrials, AnalogSamplesThatFollowEachOtherAreJoined) {
   for (std::int64_t s = 0; s < 12; ++s) EXPECT_EQ(t.analog.values[at(s)], static_cast<double>(2 + s));
   EXPECT_EQ(t.force_plates.size(), 1U);
   EXPECT_THAT(t.warnings, IsEmpty());
+  EXPECT_THAT(t.warnings,
+              Not(Contains(HasSubstr("left out: the files do not hold the same ones over all frames"))));
 }
 
 TEST(MergeTrials, AnalogSamplesThatDoNotFitAreLeftOutAndSaid) {
@@ -142,7 +150,9 @@ TEST(MergeTrials, AnalogSamplesThatDoNotFitAreLeftOutAndSaid) {
   for (const auto& other : {b, c, part("d", 4, 6, {"A"})}) {
     const auto t = merge_trials({a, other}).value();
     EXPECT_THAT(t.analog.names, IsEmpty());
-    EXPECT_THAT(t.warnings, Contains(HasSubstr("1 analog channel and 0 force plates left out")));
+    EXPECT_THAT(t.warnings,
+                Contains(HasSubstr("1 analog channel and 0 force plates left out: the files do not hold "
+                                   "the same ones over all frames")));
     EXPECT_TRUE(t.validate());
   }
 }
@@ -171,9 +181,13 @@ TEST(MergeTrials, ChannelsAndEventsAreThoseOfAll) {
   EXPECT_EQ(t.events[0].label, "Foot Off");
   EXPECT_THAT(t.warnings, ElementsAre("a: odd", "1 group of parameters of b left out; those of a are kept"));
   EXPECT_TRUE(t.validate());
+  b.foreign.clear();
+  EXPECT_THAT(merge_trials({a, b})->warnings, Not(Contains(HasSubstr("b left out; those of a are kept"))));
   b.channels = angle;
+  EXPECT_THAT(refusal({a, b}), Not(HasSubstr("' is of another kind or unit; leave it out")));
   b.channels.units = {"rad"};
-  EXPECT_THAT(refusal({a, b}), HasSubstr("channel 'LKnee' is of another kind or unit"));
+  EXPECT_THAT(refusal({a, b}),
+              HasSubstr("channel 'LKnee' is of another kind or unit; leave it out of one of them"));
 }
 
 /// The same, smoothed, with the samples from before.
@@ -202,7 +216,9 @@ TEST(MergeTrials, FiltersAndSamplesFromBeforeComeAlong) {
 TEST(MergeTrials, OneMarkerThroughTwoFiltersIsRefused) {
   const auto a = smoothed(part("a", 1, 5, {"A"}), 6.0);
   EXPECT_THAT(refusal({a, smoothed(part("b", 6, 9, {"A"}), 7.0)}),
-              HasSubstr("'A' went through different filters"));
+              HasSubstr("'A' went through different filters; leave it out of one of them"));
+  EXPECT_THAT(refusal({a, smoothed(part("b", 6, 9, {"A"}), 6.0)}),
+              Not(HasSubstr("' went through different filters")));
   EXPECT_THAT(refusal({a, part("b", 6, 9, {"A"})}), HasSubstr("different filters"));
   EXPECT_THAT(refusal({part("b", 6, 9, {"A"}), a}), HasSubstr("different filters"));
 }

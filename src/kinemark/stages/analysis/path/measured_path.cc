@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/noise_sentences.h"
 #include "kinemark/stages/analysis/path/stated_measure.h"
 
 namespace kinemark::analysis {
@@ -65,7 +66,35 @@ SeriesMatrix raw_path(const Recording& recording, const SeriesMatrix& smooth) {
 
 }  // namespace
 
-std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajectories& markers,
+std::vector<std::string> not_measured_sentences(std::span<const NotMeasured> markers) {
+  std::vector<std::string> out;
+  const auto named = [&](NotMeasuredWhy why) {
+    std::vector<std::string> names;
+    for (const auto& marker : markers)
+      if (marker.why == why) names.push_back(marker.subject);
+    return names;
+  };
+  if (const auto names = named(NotMeasuredWhy::too_few_samples); !names.empty()) {
+    std::int64_t least = kLeastSamples, most = 0;
+    for (const auto& marker : markers)
+      if (marker.why == NotMeasuredWhy::too_few_samples)
+        least = std::min(least, marker.samples), most = std::max(most, marker.samples);
+    out.push_back(fmt::format(
+        "{} {} measured in {} frames; need {} at least", listed(names), names.size() == 1 ? "was" : "were",
+        least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most), kLeastSamples));
+  }
+  if (const auto names = named(NotMeasuredWhy::unknown_noise); !names.empty())
+    out.push_back(fmt::format("the noise of {} is not known: no seven frames in a row differ; state it",
+                              listed(names)));
+  if (const auto names = named(NotMeasuredWhy::too_slow); !names.empty())
+    out.push_back(
+        fmt::format("{:g} frames a second are too few to measure movement", markers.front().rate_hz));
+  if (const auto names = named(NotMeasuredWhy::no_smoother); !names.empty())
+    out.push_back(fmt::format("no smoother fits the samples of {}", listed(names)));
+  return out;
+}
+
+std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajectories& markers,
                                                               std::int64_t marker,
                                                               const PathMeasureOptions& options) {
   MeasuredPath out;
@@ -90,9 +119,11 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
     last = f;
     ++count;
   }
-  if (count < kLeastSamples)
+  const auto not_measured = [&](NotMeasuredWhy why) {
     return std::unexpected(
-        fmt::format("{} was measured in {} frames; need {} at least", out.name_, count, kLeastSamples));
+        NotMeasured{.subject = out.name_, .why = why, .samples = count, .rate_hz = markers.time.rate_hz});
+  };
+  if (count < kLeastSamples) return not_measured(NotMeasuredWhy::too_few_samples);
   auto& recording = out.recording_;
   recording.rate_hz = markers.time.rate_hz;
   recording.x = SeriesMatrix::Zero(last - first + 1, 3);
@@ -117,9 +148,7 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
                                 .draws = std::max<std::int64_t>(kLeastDraws, options.refits),
                                 .seed = options.seed,
                                 .stream = mix64(static_cast<std::uint64_t>(marker) + 1)});
-  if (!noise)
-    return std::unexpected(
-        fmt::format("the noise of {} is not known: no seven frames in a row differ; state it", out.name_));
+  if (!noise) return not_measured(NotMeasuredWhy::unknown_noise);
   out.noise_ = std::move(*noise);
   out.noise_.subject = out.name_;
   out.noise_.outliers = std::ranges::count(outliers, true);
@@ -128,9 +157,7 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
       ColouredNoise{.model = out.noise_.model, .draws = out.noise_.draws});
   const double lowest = kLowestCutOff_hz / recording.rate_hz;
   constexpr double kHighest = 0.45;
-  if (!(lowest < kHighest))
-    return std::unexpected(
-        fmt::format("{:g} frames a second are too few to measure movement", recording.rate_hz));
+  if (!(lowest < kHighest)) return not_measured(NotMeasuredWhy::too_slow);
   const SeriesMatrix in_noise = (recording.x.rowwise() - recording.x.row(0)) / recording.noise_sd_m;
   auto unit = out.noise_.model;
   unit.variance /= recording.noise_sd_m * recording.noise_sd_m;
@@ -138,7 +165,7 @@ std::expected<MeasuredPath, std::string> MeasuredPath::create(const data::Trajec
   const bool white = unit.kind == math::NoiseKind::white;
   const auto choice = math::choose_smoothing(
       in_noise, recording.seen, {.lowest = lowest, .highest = kHighest, .noise = white ? nullptr : &unit});
-  if (!choice) return std::unexpected(fmt::format("no smoother fits the samples of {}", out.name_));
+  if (!choice) return not_measured(NotMeasuredWhy::no_smoother);
   recording.choice = *choice;
   out.less_ = smoothed(recording, kLessSmooth);
   if (options.refits > 0) out.least_ = smoothed(recording, kLeastSmooth);
@@ -240,8 +267,8 @@ struct MeasuredPath::Refits {
         if (const double d = deviations[order[k]]; std::isfinite(d)) sum += d, squares += d * d, size += 1.0;
       return size < 2.0 ? kNaN : std::sqrt(std::max(0.0, squares / size - sum * sum / size / size));
     };
-    const double least = spread(0), most = spread(order.size() - third);
-    return least > 0.0 ? most / least : 1.0;
+    const double calm = spread(0), loud = spread(order.size() - third);
+    return calm > 0.0 ? loud / calm : 1.0;
   }
   bool any(bool (*taken)(Pivot)) const {
     return std::ranges::any_of(definitions, [taken](const auto* d) { return taken(d->pivot); });

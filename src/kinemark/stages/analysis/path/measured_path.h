@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <expected>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,32 @@
 
 namespace kinemark::analysis {
 
+/// Why a marker is not measured.
+enum class NotMeasuredWhy : std::uint8_t {
+  too_few_samples,  ///< less than a smoother can be chosen by
+  unknown_noise,    ///< neither found nor stated
+  too_slow,         ///< a frame rate below what movement needs
+  no_smoother,      ///< none fits the samples
+};
+
+/// A marker that is not measured.
+struct NotMeasured {
+  std::string subject;                                   ///< marker
+  NotMeasuredWhy why = NotMeasuredWhy::too_few_samples;  ///< what is lacking
+  std::int64_t samples = 0;                              ///< that were measured
+  double rate_hz = 0.0;                                  ///< of the recording
+};
+
+/// Sentences on markers that are not measured, those that lack the same together: most recordings of models
+/// have points by the dozen without a sample.
+[[nodiscard]] std::vector<std::string> not_measured_sentences(std::span<const NotMeasured> markers);
+
 /// A marker from its first to its last measured sample. Failures are sentences for people, which the caller
 /// puts beside the measures of others.
 class MeasuredPath {
  public:
   /// Fails where too few samples were measured or no smoother fits them.
-  [[nodiscard]] static std::expected<MeasuredPath, std::string> create(const data::Trajectories& markers,
+  [[nodiscard]] static std::expected<MeasuredPath, NotMeasured> create(const data::Trajectories& markers,
                                                                        std::int64_t marker,
                                                                        const PathMeasureOptions& options);
 

@@ -16,6 +16,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/measured_path.h"
+#include "kinemark/stages/analysis/path/noise_sentences.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -41,13 +42,17 @@ Status check_regions(const TimeBase& time, const std::vector<data::Region>& regi
   return {};
 }
 
-// What one marker gives: its measures, and sentences about what it does not give.
-PathMeasures measure_marker(const data::Trajectories& markers, std::int64_t marker,
-                            const PathMeasureOptions& options) {
-  PathMeasures out;
+// What one marker gives: its measures, and why it gives none.
+struct MarkerMeasures : PathMeasures {
+  std::optional<NotMeasured> not_measured;
+};
+
+MarkerMeasures measure_marker(const data::Trajectories& markers, std::int64_t marker,
+                              const PathMeasureOptions& options) {
+  MarkerMeasures out;
   auto path = MeasuredPath::create(markers, marker, options);
   if (!path) {
-    out.warnings.push_back(path.error());
+    out.not_measured = path.error();
     return out;
   }
   out.noises.push_back(path->noise());
@@ -114,13 +119,17 @@ Result<PathMeasures> measure_paths(const data::Trajectories& markers, const Path
   if (!(markers.time.rate_hz > 0.0))
     return fail(Code::bad_input, "the recording has no frame rate; measures of movement need one");
   if (auto s = check_regions(markers.time, options.regions); !s) return std::unexpected(s.error());
-  std::vector<PathMeasures> each(at(markers.markers()));
+  std::vector<MarkerMeasures> each(at(markers.markers()));
   parallel_for(markers.markers(), 1, options.threads, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t m = begin; m < end; ++m) each[at(m)] = measure_marker(markers, m, options);
   });
   PathMeasures out;
   for (auto& one : each) std::ranges::move(one.noises, std::back_inserter(out.noises));
   out.warnings = noise_sentences(out.noises);
+  std::vector<NotMeasured> not_measured;
+  for (const auto& one : each)
+    if (one.not_measured) not_measured.push_back(*one.not_measured);
+  std::ranges::move(not_measured_sentences(not_measured), std::back_inserter(out.warnings));
   for (auto& one : each) {
     std::ranges::move(one.measures, std::back_inserter(out.measures));
     std::ranges::move(one.curves, std::back_inserter(out.curves));

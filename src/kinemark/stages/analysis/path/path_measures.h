@@ -45,7 +45,7 @@ struct PathMeasures {
                                     ///< those above, behind the others of their stretch
   std::vector<PathNoise> noises;    ///< of the markers that are measured
   std::vector<std::string>
-      warnings;  ///< noise_sentences(), then markers and regions that could not be measured
+      warnings;  ///< noise_sentences(), not_measured_sentences(), then stretches that could not be measured
 };
 
 /// Measure the paths of all markers (docs/theory/measures.md).

@@ -150,14 +150,16 @@ const math::NoiseModel kQuintic{.kind = math::NoiseKind::filtered,
                                 .variance = 2.5e-7,
                                 .half = 0.08};
 
-TEST(MeasurePaths, OfAFilteredRecordingKnowThatItWasFiltered) {
+TEST(MeasurePaths, OfAFilteredRecordingHaveIntervalsOfTheNoiseBefore) {
   const auto found =
       measure_paths(ellipses_with(kQuintic, 2), {.measures = {"path_length", "peak_acceleration", "tremor"}});
   ASSERT_TRUE(found);
   ASSERT_EQ(found->noises.size(), 1u);
   EXPECT_TRUE(found->noises[0].filtered());
   ASSERT_FALSE(found->warnings.empty());
-  EXPECT_NE(found->warnings[0].find("P was low-passed at about"), std::string::npos) << found->warnings[0];
+  EXPECT_NE(found->warnings[0].find("P: the noise is not white, its spectrum falls as behind a low-pass at"),
+            std::string::npos)
+      << found->warnings[0];
   // The perimeter by a fine sum; what the eye takes for noise, the rounding, would give a thousandth of this
   // width.
   double perimeter = 0.0;
@@ -170,7 +172,7 @@ TEST(MeasurePaths, OfAFilteredRecordingKnowThatItWasFiltered) {
   EXPECT_GT(path.interval.high - path.interval.low, 2e-4);
   const auto& tremor = find(*found, "tremor");
   EXPECT_EQ(tremor.interval.kind, IntervalKind::at_least);
-  EXPECT_NE(tremor.remark.find("low-passed at"), std::string::npos);
+  EXPECT_NE(tremor.remark.find("falls as behind a low-pass at"), std::string::npos);
 }
 
 TEST(MeasurePaths, SamplesFromBeforeAFilterAreWhatIsMeasured) {
@@ -227,8 +229,8 @@ TEST(MeasurePaths, WhatCannotBeMeasuredIsReportedAndTheOthersAre) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measures.size(), 1u);
   ASSERT_EQ(found->warnings.size(), 2u);
-  EXPECT_EQ(found->warnings[0], "P in region 'blink': 3 frames without the edges of 80 ms; need 5 at least");
-  EXPECT_EQ(found->warnings[1], "SELDOM was measured in 29 frames; need 30 at least");
+  EXPECT_EQ(found->warnings[0], "SELDOM was measured in 29 frames; need 30 at least");
+  EXPECT_EQ(found->warnings[1], "P in region 'blink': 3 frames without the edges of 80 ms; need 5 at least");
 }
 
 TEST(MeasurePaths, RefuseWhatMakesNoSense) {

@@ -2,14 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/path/path_noise.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/noise_fit.h"
@@ -25,10 +20,9 @@ constexpr double kOutlier = 5.5;        // robust deviations of the residual ove
 constexpr double kMostOutliers = 0.06;  // of the samples
 constexpr double kOtherSide = 0.25;  // of an outlier's residual, that its neighbours have on the other side
 constexpr double kSlowLow_hz = 0.2, kSlowHigh_hz = 2.0;
-constexpr double kSlowUnknown = 2.5;                        // 90 % over 10 % of the power
-constexpr double kDisagrees = 1.3;                          // stated over found, or the other way round
-constexpr double kRoundingLow = 0.8, kRoundingHigh = 1.25;  // of the deviation of rounding
-constexpr double kCorrelated = 0.2;                         // from which a correlation is worth a word
+constexpr double kSlowUnknown = 2.5;    // 90 % over 10 % of the power
+constexpr double kDisagrees = 1.3;      // stated over found, or the other way round
+constexpr double kRoundingHigh = 1.25;  // of the deviation of rounding
 
 double share_of(std::vector<double> values, double share) {
   std::ranges::sort(values);
@@ -87,60 +81,6 @@ void take_stated(double stated, PathNoise& noise) {
 void assume_white(double sd, std::int64_t draws, PathNoise& noise) {
   noise.model = {.variance = sd * sd};
   noise.draws.assign(at(draws), noise.model);
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  if (names.size() == 1) return names.front();
-  std::string out = fmt::format("{} markers ({}", names.size(), names.front());
-  for (std::size_t i = 1; i < std::min<std::size_t>(3, names.size()); ++i) out += ", " + names[i];
-  return out + (names.size() > 3 ? ", ...)" : ")");
-}
-
-// Markers that share a sentence, and the middle of a number over them.
-struct Group {
-  std::vector<const PathNoise*> members;
-  [[nodiscard]] std::string names() const {
-    std::vector<std::string> out;
-    for (const auto* member : members) out.push_back(member->subject);
-    return listed(out);
-  }
-  [[nodiscard]] bool one() const { return members.size() == 1; }
-  [[nodiscard]] double middle(const std::function<double(const PathNoise&)>& number) const {
-    std::vector<double> values;
-    for (const auto* member : members)
-      if (const double value = number(*member); std::isfinite(value)) values.push_back(value);
-    return values.empty() ? kNaN : share_of(values, 0.5);
-  }
-};
-
-Group group_of(std::span<const PathNoise> markers, const std::function<bool(const PathNoise&)>& belongs) {
-  Group out;
-  for (const auto& marker : markers)
-    if (belongs(marker)) out.members.push_back(&marker);
-  return out;
-}
-
-std::string range_sentence(const Group& group) {
-  return fmt::format(
-      "{}: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm): no interval of "
-      "extents, "
-      "largest distance, boxes and plane. State it (--noise, from a static trial of the same session)",
-      group.names(), 1e3 * group.middle([](const PathNoise& n) { return n.slow_sd_m.low; }),
-      1e3 * group.middle([](const PathNoise& n) { return n.slow_sd_m.high; }));
-}
-
-std::string filter_sentence(const Group& group) {
-  const auto& first = *group.members.front();
-  return fmt::format(
-      "{} {} low-passed at about {:.1f} Hz (-3 dB; {}; 95 %: {:.1f} to {:.1f}) before {} came here; noise "
-      "before that "
-      "{:.2g} mm; what the movement had above is lost",
-      group.names(), group.one() ? "was" : "were",
-      group.middle([](const PathNoise& n) { return n.cutoff_hz.middle; }),
-      math::name_of(first.model.form, first.model.order),
-      group.middle([](const PathNoise& n) { return n.cutoff_hz.low; }),
-      group.middle([](const PathNoise& n) { return n.cutoff_hz.high; }), group.one() ? "it" : "they",
-      1e3 * group.middle([](const PathNoise& n) { return n.sd_m(); }));
 }
 
 }  // namespace
@@ -293,62 +233,6 @@ std::optional<PathNoise> find_path_noise(const SeriesMatrix& x, const std::vecto
   else if (rounded)
     out.source = NoiseSource::rounding;
   find_ranges(out);
-  return out;
-}
-
-std::vector<std::string> noise_sentences(std::span<const PathNoise> markers) {
-  std::vector<std::string> out;
-  std::vector<std::pair<math::LowPass, int>> forms;
-  for (const auto& marker : markers)
-    if (marker.filtered()) forms.emplace_back(marker.model.form, marker.model.order);
-  std::ranges::sort(forms);
-  forms.erase(std::unique(forms.begin(), forms.end()), forms.end());
-  for (const auto& [form, order] : forms)
-    out.push_back(filter_sentence(group_of(markers, [&](const PathNoise& n) {
-      return n.filtered() && n.model.form == form && n.model.order == order;
-    })));
-  const auto within = group_of(markers, [](const PathNoise& n) { return n.filtered_within_movement(); });
-  if (!within.members.empty())
-    out.push_back(
-        fmt::format("{}: low-passed within the movement's band: how much it took away is not in the data, no "
-                    "interval of peaks and jerk",
-                    within.names()));
-  const auto correlated =
-      group_of(markers, [](const PathNoise& n) { return n.model.correlation > kCorrelated; });
-  if (!correlated.members.empty())
-    out.push_back(fmt::format("{}: noise of {:.2g} mm, correlated over {:.2g} s (AR {:.2g})",
-                              correlated.names(),
-                              1e3 * correlated.middle([](const PathNoise& n) { return n.sd_m(); }),
-                              correlated.middle([](const PathNoise& n) {
-                                return -1.0 / std::log(std::min(n.model.correlation, 0.9999)) / n.rate_hz;
-                              }),
-                              correlated.middle([](const PathNoise& n) { return n.model.correlation; })));
-  const auto slow =
-      group_of(markers, [](const PathNoise& n) { return !n.unusable() && n.slow_is_unknown(); });
-  if (!slow.members.empty()) out.push_back(range_sentence(slow));
-  const auto none = group_of(markers, [](const PathNoise& n) { return n.source == NoiseSource::no_model; });
-  if (!none.members.empty())
-    out.push_back(
-        fmt::format("{}: the noise above the movement fits no model (spikes, changing noise, another "
-                    "filter): no interval",
-                    none.names()));
-  const auto rounding =
-      group_of(markers, [](const PathNoise& n) { return n.source == NoiseSource::rounding; });
-  if (!rounding.members.empty()) {
-    const double step = 1e3 * rounding.middle([](const PathNoise& n) { return n.rounding_step_m; });
-    out.push_back(
-        fmt::format("{}: the noise is below the rounding of the file ({:.2g} mm): no interval from the "
-                    "noise; rounding gives "
-                    "+-{:.2g} mm a sample",
-                    rounding.names(), step, 0.5 * step));
-  }
-  for (const auto& marker : markers) {
-    const double ratio = marker.found_sd_m / marker.stated_sd_m;
-    if (marker.stated_sd_m > 0.0 && (ratio > kDisagrees || ratio < 1.0 / kDisagrees))
-      out.push_back(
-          fmt::format("the noise of {} is {:.3g} mm by its samples, not the {:.3g} mm that were stated",
-                      marker.subject, 1e3 * marker.found_sd_m, 1e3 * marker.stated_sd_m));
-  }
   return out;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The noise of one marker's samples: its colour, what is not known of it, and how to say so.
+// The noise of one marker's samples: its colour, and what is not known of it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -89,9 +88,5 @@ struct NoiseKnown {
 [[nodiscard]] std::optional<PathNoise> find_path_noise(const math::SeriesMatrix& x,
                                                        const std::vector<bool>& seen, double rate_hz,
                                                        const NoiseKnown& known);
-
-/// What readers must know of the noise of markers, markers that say the same together; of white noise that
-/// was found and nothing contradicts there is nothing to say.
-[[nodiscard]] std::vector<std::string> noise_sentences(std::span<const PathNoise> markers);
 
 }  // namespace kinemark::analysis

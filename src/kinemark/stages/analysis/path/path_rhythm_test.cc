@@ -16,6 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::kTurn;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kWay_s = 0.7, kRest_s = 0.6;
@@ -180,6 +181,43 @@ TEST(PathRhythm, MeasuresOfItAloneNeedNoOthers) {
   const auto wrong = measure_paths(reaches(), {.measures = {"cycle_durations"}});
   ASSERT_FALSE(wrong);
   EXPECT_THAT(wrong.error().message, HasSubstr("nearest: cycle_duration"));
+}
+
+TEST(PathRhythm, MethodsSayByWhatEventsWereFound) {
+  for (const auto& measure : rhythm_of(reaches()).measures) {
+    if (!measure.id.starts_with("repetition")) continue;
+    EXPECT_THAT(measure.method, StartsWith("5 % of the peak speed, 59 refits, smoothed to "));
+    EXPECT_THAT(measure.method, Not(HasSubstr("crossings of the mean")));
+  }
+  const auto markers = testing::recording_of(testing::sampled(800, 100.0, wavering), 100.0, 1e-3, 2);
+  for (const auto& measure : rhythm_of(markers).measures) {
+    if (!measure.id.starts_with("cycle")) continue;
+    EXPECT_THAT(measure.method, StartsWith("crossings of the mean, 59 refits, smoothed to "));
+    EXPECT_THAT(measure.method, Not(HasSubstr("5 % of the peak speed")));
+  }
+}
+
+TEST(PathRhythm, AFallingLikenessAndUnevenCyclesSaySo) {
+  // Ways of 1.3 Hz whose phase wanders: like itself after a while, but not enough.
+  const auto wander = [](double t) -> Eigen::Vector3d {
+    const double angle =
+        kTurn * (1.3 * t + 0.45 * std::sin(kTurn * 0.23 * t) + 0.3 * std::sin(kTurn * 0.61 * t));
+    return {0.2 * std::cos(angle), 0.1 * std::sin(angle), 0.1 * std::sin(kTurn * 0.37 * t)};
+  };
+  const auto unlike = rhythm_of(testing::recording_of(testing::sampled(700, 100.0, wander), 100.0, 5e-4, 1));
+  EXPECT_THAT(unlike.verdict, HasSubstr("s, where it is most like itself, its velocities correlate by "));
+  const auto even =
+      rhythm_of(testing::recording_of(testing::sampled(500, 100.0, testing::ellipse), 100.0, 5e-4, 1));
+  EXPECT_TRUE(even.periodic);
+  EXPECT_THAT(even.verdict, Not(HasSubstr("where it is most like itself, its velocities correlate by")));
+  EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: its cycles differ by ")));
+  EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: it does not come back to what it did")));
+}
+
+TEST(PathRhythm, MovementBelowTheNoiseHasNoEvents) {
+  const auto still = rhythm_of(testing::recording_of(SeriesMatrix::Zero(300, 3), 100.0, 1e-3, 1));
+  EXPECT_THAT(still.verdict, HasSubstr("moves by less than half the noise: no events"));
+  EXPECT_THAT(rhythm_of(reaches()).verdict, Not(HasSubstr("the noise: no events")));
 }
 
 TEST(PathRhythm, DeviationsCoverTheTruth) {

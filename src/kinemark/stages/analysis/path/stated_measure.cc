@@ -74,7 +74,9 @@ std::string no_interval(const PathDefinition& definition, const StretchSummary& 
         "state it",
         1e3 * stretch.slow_low_m, 1e3 * stretch.slow_high_m);
   if (stretch.filtered_within && is_peak(definition))
-    return "no interval: low-passed within the movement's band, how much that took away is not in the data";
+    return "no interval: the spectrum falls within the movement's band as behind a low-pass, how much that "
+           "took away is "
+           "not in the data";
   return {};
 }
 
@@ -105,7 +107,9 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
     interval.low = std::isnan(interval.low) ? 0.0 : interval.low;
     interval.high = kNaN;
     measure.remark.clear();
-    remark(measure, fmt::format("low-passed at {:.2g} Hz: what it had above is lost", stretch.filtered_hz));
+    remark(measure,
+           fmt::format("its spectrum falls as behind a low-pass at {:.2g} Hz: what it had above may be lost",
+                       stretch.filtered_hz));
   }
   if (interval.kind == data::IntervalKind::two_sided && is_size(definition) &&
       0.5 * (interval.high - interval.low) > kTooWide * std::abs(measure.value))

@@ -63,18 +63,20 @@ TEST_F(StatedMeasure, LengthsAcrossARestAreAtMost) {
   frame_.share_at_rest = 0.4;
   const auto m = tell("path_length", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
-  EXPECT_TRUE(says(m, "40 % of the stretch are at rest"));
+  EXPECT_TRUE(says(m, "40 % of the stretch are at rest, where noise can only lengthen"));
   EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
   frame_.share_at_rest = 0.01;
-  EXPECT_FALSE(says(tell("path_length", 1.0, 0.02, 0.05), "at rest"));
+  EXPECT_FALSE(says(tell("path_length", 1.0, 0.02, 0.05), "% of the stretch are at rest, where noise"));
 }
 
 TEST_F(StatedMeasure, PeaksOfAConstantSpeedAreAtMost) {
-  EXPECT_EQ(tell("peak_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  const auto varied = tell("peak_speed", 1.0, 0.02, 0.05);
+  EXPECT_EQ(varied.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(varied, "the speed hardly changes, so that its largest value is the noise's"));
   frame_.steady = true;
   const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
-  EXPECT_TRUE(says(m, "hardly changes"));
+  EXPECT_TRUE(says(m, "the speed hardly changes, so that its largest value is the noise's"));
   EXPECT_EQ(tell("mean_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
 }
 
@@ -92,20 +94,22 @@ TEST_F(StatedMeasure, NoIntervalBelowTheNoiseButForTremor) {
   stretch_.below_noise = 0.5;
   const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
-  EXPECT_TRUE(says(m, "below half the noise of 1 mm"));
+  EXPECT_TRUE(says(m, "no interval: the movement about its slow trend is below half the noise of 1 mm"));
   EXPECT_NE(tell("tremor", 2e-3, 1e-6, 0.2e-6).interval.kind, data::IntervalKind::none);
   stretch_.below_noise = 0.0;
-  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.02, 0.05), "below half the noise"));
+  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.02, 0.05), "the movement about its slow trend is below"));
 }
 
 TEST_F(StatedMeasure, NoIntervalAcrossALongGap) {
   stretch_.longest_gap_s = 0.5;
   const auto m = tell("peak_speed", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
-  EXPECT_TRUE(says(m, "gap of 0.5 s"));
+  EXPECT_TRUE(says(m, "no interval: what happened in a gap of 0.5 s is not known"));
   EXPECT_NEAR(m.value, 0.98, 1e-12);
   stretch_.longest_gap_s = 0.1;
-  EXPECT_EQ(tell("peak_speed", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  const auto across = tell("peak_speed", 1.0, 0.02, 0.05);
+  EXPECT_EQ(across.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(across, "no interval: what happened in a gap of"));
 }
 
 TEST_F(StatedMeasure, NoIntervalThatNobodyAskedFor) {
@@ -115,12 +119,18 @@ TEST_F(StatedMeasure, NoIntervalThatNobodyAskedFor) {
   EXPECT_EQ(m.interval.kind, data::IntervalKind::none);
   EXPECT_TRUE(says(m, "no interval was asked for"));
   EXPECT_EQ(m.method, "order 4, 7.5 Hz");
+  const auto raw = state_measure(definition("tremor"), stretch_, frame_, {.estimate = 0.4});
+  EXPECT_EQ(raw.method, "unsmoothed");
+  EXPECT_FALSE(raw.method.contains("refits of noise"));
+  stretch_.refits = 99;
+  EXPECT_FALSE(says(tell("mean_speed", 0.4, 0.0, 0.1), "no interval was asked for"));
+  EXPECT_EQ(tell("tremor", 0.4, 0.0, 0.1).method, "unsmoothed, 99 refits of noise");
 }
 
 TEST_F(StatedMeasure, TooWideIntervalsSupportNoClaim) {
   EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.6), "too wide to support a claim"));
-  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.0, 0.4), "too wide"));
-  EXPECT_FALSE(says(tell("onset", 0.1, 0.0, 0.6), "too wide"));  // an instant has no size
+  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.0, 0.4), "the interval is too wide to support a claim"));
+  EXPECT_FALSE(says(tell("onset", 0.1, 0.0, 0.6), "the interval is too wide"));  // an instant has no size
 }
 
 TEST_F(StatedMeasure, ApproximateIntervalsAreMarked) {
@@ -154,13 +164,18 @@ TEST_F(StatedMeasure, ValuesThatDependOnTheSmoothingSaySo) {
 }
 
 TEST_F(StatedMeasure, OnlyTheUpperEndWhereTheLowerFails) {
-  EXPECT_EQ(tell("box_height", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
+  const auto height = tell("box_height", 1.0, 0.1, 0.1);
+  EXPECT_EQ(height.interval.kind, data::IntervalKind::at_most);
+  EXPECT_EQ(height.remark, "noise can only lengthen it");
+  EXPECT_FALSE(says(tell("box_length", 1.0, 0.1, 0.1), "noise can only lengthen it"));
   EXPECT_EQ(tell("extent_thick", 1.0, 0.1, 0.1).interval.kind, data::IntervalKind::at_most);
-  EXPECT_EQ(tell("ldlj", -5.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  const auto on = tell("ldlj", -5.0, 0.0, 0.1);
+  EXPECT_EQ(on.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(on, "a start has jerk that no filter passes"));
   frame_.discrete = true;
   const auto m = tell("ldlj", -5.0, 0.0, 0.1);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
-  EXPECT_TRUE(says(m, "jerk that no filter passes"));
+  EXPECT_TRUE(says(m, "a start has jerk that no filter passes"));
 }
 
 TEST_F(StatedMeasure, SizesAreNotBelowZero) {
@@ -171,18 +186,38 @@ TEST_F(StatedMeasure, SizesAreNotBelowZero) {
 }
 
 TEST_F(StatedMeasure, WhatNeedsAChangingSpeedSaysSo) {
-  EXPECT_TRUE(std::isfinite(tell("power_law_exponent", 0.33, 0.0, 0.1).value));
+  const auto changing = tell("power_law_exponent", 0.33, 0.0, 0.1);
+  EXPECT_TRUE(std::isfinite(changing.value));
+  EXPECT_FALSE(says(changing, "the speed hardly changes"));
   frame_.steady = true;
-  EXPECT_TRUE(says(tell("power_law_exponent", 0.33, 0.0, 0.1), "hardly changes"));
+  EXPECT_EQ(tell("power_law_exponent", 0.33, 0.0, 0.1).remark, "the speed hardly changes");
   EXPECT_TRUE(std::isnan(tell("ldlj_speed", -5.0, 0.0, 0.1).value));
 }
 
 TEST_F(StatedMeasure, CountsAreWholeNumbers) { EXPECT_EQ(tell("submovements", 3.0, 0.2, 0.4).value, 3.0); }
 
 TEST_F(StatedMeasure, WhatIsNotDeterminedSaysWhy) {
-  EXPECT_TRUE(says(tell("onset", kNaN, 0.0, 0.1), "does not begin and end at rest"));
-  EXPECT_TRUE(says(tell("cycle_time", kNaN, 0.0, 0.1), "does not repeat"));
-  EXPECT_TRUE(says(tell("peak_speed", kNaN, 0.0, 0.1), "too little movement"));
+  EXPECT_EQ(tell("onset", kNaN, 0.0, 0.1).remark, "the stretch does not begin and end at rest");
+  EXPECT_EQ(tell("cycle_time", kNaN, 0.0, 0.1).remark, "the movement does not repeat");
+  EXPECT_EQ(tell("ellipse_major", kNaN, 0.0, 0.1).remark, "the movement does not come back to where it was");
+  EXPECT_EQ(tell("peak_speed", kNaN, 0.0, 0.1).remark, "too little movement");
+  EXPECT_FALSE(says(tell("onset", 0.4, 0.0, 0.1), "the stretch does not begin and end at rest"));
+  EXPECT_FALSE(says(tell("cycle_time", 0.4, 0.0, 0.1), "the movement does not repeat"));
+  EXPECT_FALSE(says(tell("ellipse_major", 0.4, 0.0, 0.1), "the movement does not come back to where it was"));
+}
+
+TEST_F(StatedMeasure, NoIntervalWhereRefitsDoNotDetermineIt) {
+  auto deviations = around(0.0, 0.1);
+  const auto of = [&] {
+    return state_measure(definition("cycle_time"), stretch_, frame_,
+                         {.estimate = 1.0, .deviations = deviations});
+  };
+  EXPECT_EQ(of().interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(of(), "no interval: too many of the refits do not determine it"));
+  for (std::size_t k = 0; k < 40; ++k) deviations[k] = kNaN;
+  EXPECT_EQ(of().interval.kind, data::IntervalKind::none);
+  EXPECT_EQ(of().remark, "no interval: too many of the refits do not determine it");
+  EXPECT_EQ(of().value, 1.0);
 }
 
 TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
@@ -195,13 +230,17 @@ TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
 }
 
 TEST_F(StatedMeasure, SlowNoiseWithdrawsOnlyWhatRestsOnIt) {
-  EXPECT_EQ(tell("extent_long", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  const auto known = tell("extent_long", 1.0, 0.0, 0.1);
+  EXPECT_EQ(known.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(known, "the noise below 2 Hz cannot be told from movement"));
   stretch_.slow_noise_unknown = true;
   stretch_.slow_low_m = 1e-4, stretch_.slow_high_m = 9e-4;
   for (const char* id : {"extent_long", "extent_wide", "largest_distance", "plane_sd", "box_length"}) {
     const auto none = tell(id, 1.0, 0.0, 0.1);
     EXPECT_EQ(none.interval.kind, data::IntervalKind::none) << id;
-    EXPECT_TRUE(says(none, "between 0.1 and 0.9 mm")) << none.remark;
+    EXPECT_EQ(
+        none.remark,
+        "no interval: the noise below 2 Hz cannot be told from movement (between 0.1 and 0.9 mm); state it");
   }
   for (const char* id : {"path_length", "peak_speed", "cycle_time"})
     EXPECT_NE(tell(id, 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::none) << id;
@@ -215,10 +254,13 @@ TEST_F(StatedMeasure, NoiseThatIsNotKnownLeavesNoInterval) {
 }
 
 TEST_F(StatedMeasure, AFilterWithinTheMovementTakesPeaksAndJerk) {
+  const char* within = "no interval: the spectrum falls within the movement's band as behind a low-pass";
+  EXPECT_FALSE(says(tell("peak_speed", 1.0, 0.0, 0.1), "the spectrum falls within the movement's band"));
   EXPECT_EQ(tell("peak_speed", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
   stretch_.filtered_within = true;
-  EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.1), "within the movement's band"));
-  EXPECT_TRUE(says(tell("rms_jerk", 1.0, 0.0, 0.1), "within the movement's band"));
+  EXPECT_TRUE(says(tell("peak_speed", 1.0, 0.0, 0.1), within));
+  EXPECT_TRUE(
+      says(tell("rms_jerk", 1.0, 0.0, 0.1), "no interval: the spectrum falls within the movement's band"));
   EXPECT_EQ(tell("path_length", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
 }
 
@@ -226,11 +268,13 @@ TEST_F(StatedMeasure, WhatAFilterTookOfABandMayHaveBeenMore) {
   const auto whole = tell("tremor", 1.0, 0.0, 0.1);
   EXPECT_EQ(whole.interval.kind, data::IntervalKind::two_sided);
   stretch_.filtered_hz = 14.0;
-  EXPECT_EQ(tell("tremor", 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::two_sided);
+  const auto above = tell("tremor", 1.0, 0.0, 0.1);
+  EXPECT_EQ(above.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(above, "its spectrum falls as behind a low-pass at"));
   stretch_.filtered_hz = 6.0;
   const auto part = tell("tremor", 1.0, 0.0, 0.1);
   EXPECT_EQ(part.interval.kind, data::IntervalKind::at_least);
-  EXPECT_TRUE(says(part, "low-passed at 6 Hz"));
+  EXPECT_EQ(part.remark, "its spectrum falls as behind a low-pass at 6 Hz: what it had above may be lost");
 }
 
 TEST_F(StatedMeasure, DoubtAboutTheNoiseIsSaidWhereItDecides) {
@@ -250,11 +294,13 @@ TEST_F(StatedMeasure, QuickMovementBelowTheNoiseSaysHowMuch) {
 }
 
 TEST_F(StatedMeasure, MovementsPathsAreUpperBoundsOnlyBetweenRests) {
-  EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
+  const auto on = tell("movement_path", 1.0, 0.02, 0.05);
+  EXPECT_EQ(on.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_FALSE(says(on, "before and behind a movement noise can only lengthen it"));
   frame_.discrete = true;
   const auto path = tell("movement_path", 1.0, 0.02, 0.05);
   EXPECT_EQ(path.interval.kind, data::IntervalKind::at_most);
-  EXPECT_TRUE(says(path, "noise can only lengthen it"));
+  EXPECT_EQ(path.remark, "before and behind a movement noise can only lengthen it");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using data::SampleState;
 using Eigen::Vector3d;
 
-constexpr std::int64_t kFrames = 2000;
+constexpr std::int64_t kThrowFrames = 2000;
 constexpr double kLate_s = 0.004;  ///< light of the first LED after its frame
 
 /// A throw: x(t) = p + v t + a t^2 / 2, so that the path between frame and light is exact.
@@ -31,7 +31,7 @@ struct Recording {
 /// Two LEDs; the second was never smoothed. Noise of 0.3, 0.3 and 0.9 mm on the axes of the first.
 Recording recording() {
   Recording r;
-  const TimeBase time{.rate_hz = 1000.0, .frames = kFrames};
+  const TimeBase time{.rate_hz = 1000.0, .frames = kThrowFrames};
   r.start = r.smoothed = data::Trajectories::all_missing({"hand", "dark"}, time);
   r.start.sample_offset_s = {kLate_s, 0.0};
   for (auto* rates : {&r.rates.velocity, &r.rates.acceleration})
@@ -39,7 +39,7 @@ Recording recording() {
   r.rates.filters = {{.method = "kalman", .order = 4, .cutoff_hz = 9.0, .noise_sd_m = std::nan("")},
                      {.method = "none", .order = 0, .cutoff_hz = std::nan(""), .noise_sd_m = std::nan("")}};
   Random noise(4, 0);
-  for (std::int64_t f = 0; f < kFrames; ++f) {
+  for (std::int64_t f = 0; f < kThrowFrames; ++f) {
     const double t = time.time_s(f);
     const std::size_t i = r.start.index(f, 0);
     r.start.x(f, 0) = truth(t + kLate_s) +
@@ -66,7 +66,7 @@ TEST(HandOnStart, FramesAreMovedToTheirOwnTime) {
   auto r = recording();
   hand_on_start(r.start, r.rates, r.smoothed);
   ASSERT_TRUE(r.smoothed.validate()) << r.smoothed.validate().error().message;
-  for (std::int64_t f = 20; f < kFrames; ++f) {
+  for (std::int64_t f = 20; f < kThrowFrames; ++f) {
     const double t = r.smoothed.time.time_s(f);
     const Vector3d noise = r.start.x(f, 0) - truth(t + kLate_s);
     EXPECT_LT((before(r.smoothed, f) - truth(t) - noise).norm(), 1e-12) << f;
@@ -102,7 +102,7 @@ TEST(HandOnStart, AnLedThatWasNotSmoothedHasNoneOfIt) {
 
 TEST(HandOnStart, AFewFramesTellNoNoise) {
   auto r = recording();
-  for (std::int64_t f = 5; f < kFrames; ++f) r.start.set_missing(f, 0);
+  for (std::int64_t f = 5; f < kThrowFrames; ++f) r.start.set_missing(f, 0);
   hand_on_start(r.start, r.rates, r.smoothed);
   EXPECT_TRUE(std::isnan(r.smoothed.filters[0].noise_sd_m));
   EXPECT_TRUE(data::keeps_unfiltered(r.smoothed, 0));

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "kinemark/pipeline/clean/internal/clean_account.h"
+
+namespace kinemark::pipeline::internal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// What the account says of an option; "none" where it has no such.
+std::string option_of(const CleanJob& job, const std::string& name) {
+  const auto run = describe_run(job, {});
+  const auto found = std::ranges::find(run.options, name, [](const auto& option) { return option.first; });
+  return found == run.options.end() ? "none" : found->second;
+}
+
+TEST(CleanAccount, WhatIsFoundFromTheDataSaysSo) {
+  CleanJob job;
+  job.input = "walk.c3d";
+  for (const char* name : {"order", "cut-off", "marker noise"})
+    EXPECT_EQ(option_of(job, name), "found from the data") << name;
+  job.filter.order = 4;
+  job.filter.cutoff_hz = 6.5;
+  job.filter.noise_sd_m = 3e-4;
+  EXPECT_EQ(option_of(job, "order"), "4");
+  EXPECT_EQ(option_of(job, "cut-off"), "6.5 Hz");
+  EXPECT_EQ(option_of(job, "marker noise"), "0.3 mm");
+  for (const char* name : {"order", "cut-off", "marker noise"})
+    EXPECT_THAT(option_of(job, name), Not(HasSubstr("found from the data"))) << name;
+}
+
+TEST(CleanAccount, TheRuleOfACutOffIsThatOfButterworthAlone) {
+  CleanJob job;
+  EXPECT_EQ(option_of(job, "cut-off of both passes together"), "none");
+  job.filter.method = trajectory::FilterMethod::butterworth;
+  EXPECT_EQ(option_of(job, "cut-off of both passes together"), "yes");
+  job.filter.correct_cutoff = false;
+  EXPECT_EQ(option_of(job, "cut-off of both passes together"), "no");
+}
+
+TEST(CleanAccount, SamplesThatTheRecorderMadeAreHandledAsAsked) {
+  const auto done = [](RecorderMade made, int factor) {
+    data::UpsamplingAccount account;
+    account.recording.factor = factor;
+    settle_upsampling(made, account);
+    EXPECT_EQ(account.handled, factor > 1 && made != RecorderMade::keep);
+    return account.done;
+  };
+  EXPECT_EQ(done(RecorderMade::keep, 2), "left as they are");
+  EXPECT_EQ(done(RecorderMade::mark, 2), "marked as upsampled");
+  EXPECT_THAT(done(RecorderMade::mark, 2), Not(HasSubstr("left as they are")));
+  EXPECT_EQ(done(RecorderMade::missing, 3), "removed");
+  EXPECT_EQ(done(RecorderMade::decimate, 3), "removed, and the rate brought down");
+  EXPECT_THAT(done(RecorderMade::missing, 3), Not(HasSubstr("removed, and the rate brought down")));
+  EXPECT_EQ(done(RecorderMade::mark, 1), "") << "none were made";
+}
+
+TEST(CleanAccount, ExchangedLabelsAndSpikesAreHandledWhereThatWasAsked) {
+  const auto done = [](const CleanJob& job, data::FindingKind kind, double confidence) {
+    const auto settled = settle_defects(job, {{.kind = kind, .confidence = confidence}});
+    EXPECT_EQ(settled.front().handled, settled.front().done != "left as it is");
+    return settled.front().done;
+  };
+  CleanJob job;
+  job.exchange_back = false;
+  EXPECT_EQ(done(job, data::FindingKind::spike, 0.99), "left as it is");
+  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.99), "left as it is");
+  job.reject_defects = true;
+  EXPECT_THAT(done(job, data::FindingKind::spike, 0.99), Not(HasSubstr("left as it is")));
+  EXPECT_EQ(done(job, data::FindingKind::spike, 0.5 * kRejectConfidence), "left as it is");
+  EXPECT_EQ(done(job, data::FindingKind::clock_jump, 0.99), "left as it is") << "no sample of it is wrong";
+  job.exchange_back = true;
+  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.99), "exchanged back");
+  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.5 * kRejectConfidence), "left as it is");
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline::internal
