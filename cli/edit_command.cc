@@ -109,8 +109,9 @@ std::string list_text(const pipeline::EditOutcome& outcome) {
 void print_edit_outcome(const CommonOptions& common, const pipeline::EditOutcome& outcome, bool list) {
   for (const auto& note : outcome.warnings) say(common, fmt::format("note: {}", note));
   const auto depth = outcome.list.depth();
-  if (!list && !outcome.written.empty())
-    say(common, fmt::format("{}: {}", outcome.journal.string(), describe(outcome.list.edits.back())));
+  const auto& edits = outcome.list.edits;
+  for (auto i = edits.size() - outcome.appended; i < edits.size() && !list; ++i)
+    say(common, fmt::format("{}: {}", outcome.journal.string(), describe(edits[i])));
   say(common, fmt::format("{} in force, {} undone that can be redone",
                           counted(static_cast<std::int64_t>(depth.undo), "edit"), depth.redo));
   if (common.json)

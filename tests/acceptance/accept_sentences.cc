@@ -207,7 +207,7 @@ void defects(std::uint64_t seed, int draws) {
     }
     const auto exchanged = trajectory::screen(t).value();
     swap.planted +=
-        said(exchanged, time, FindingKind::label_swap, "carry each other's label", name(a), name(b));
+        said(exchanged, time, FindingKind::label_swap, "exchanged back they continue", name(a), name(b));
 
     t = clean.markers;
     for (auto f = first; f < first + 10; ++f) {
@@ -230,7 +230,7 @@ void defects(std::uint64_t seed, int draws) {
     slip.planted += said(skeleton::find_slips(t, clean.layout).value(), time, FindingKind::marker_slip,
                          "moved", name(m), segment.name);
   }
-  print("carry each other's label", swap, 0.95, 0.0);
+  print("are exchanged in ...: exchanged back they continue their paths ... times better", swap, 0.95, 0.0);
   print("jumps to the path of ... and back to its own", visit, 0.95, 0.0);
   print("moved on its segment", slip, 0.95, 0.0);
 }

@@ -31,6 +31,8 @@ export interface Summary {
   rejected_samples: number;
   rejected_fraction: number | null;
   rejected: RejectedStretch[];
+  /** Labels exchanged back; `frames` as in edits, "1-127/3". Not there in older pages. */
+  exchanged?: { marker: string; other: string; frames: string; count: number; apart_mm: number | null }[];
   findings: Finding[];
   gates: Gate[];
   coordinates: CoordinateSummary[];
@@ -78,6 +80,8 @@ export interface CoordinateSummary {
   unit: "deg" | "m";
   locked: boolean;
   determined_frames: number;
+  /** In which no visible marker fixes it; null: not known. Not there in older pages. */
+  open_frames?: number | null;
   min: number | null;
   max: number | null;
   median_sd: number | null;

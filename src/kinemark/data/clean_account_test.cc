@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/data/clean_account.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace kinemark::data {
@@ -46,6 +47,36 @@ TEST(CleanAccount, RefusesMarkersThatAreNotThereAndFramesThatRunBack) {
   })) << "a defect is of samples";
   EXPECT_TRUE(refused([](CleanAccount& a) { a.markers.resize(3); }));
   EXPECT_TRUE(refused([](CleanAccount& a) { a.upsampling.markers.resize(1); }));
+}
+
+TEST(CleanAccount, SaysWhatDoesNotFitAndNothingElse) {
+  using testing::AnyOf;
+  using testing::HasSubstr;
+  using testing::Not;
+  const auto message = [](auto change) {
+    CleanAccount account = account_of_two();
+    change(account);
+    const auto status = account.validate();
+    return status ? std::string() : status.error().message;
+  };
+  const auto upsampling = message([](CleanAccount& a) { a.upsampling.markers.resize(1); }),
+             smoothed = message([](CleanAccount& a) { a.markers.resize(3); }),
+             stranger = message([](CleanAccount& a) { a.defects[0].finding.partner = "C"; }),
+             far = message([](CleanAccount& a) { a.gaps[0].marker = 2; }),
+             whole = message([](CleanAccount&) {});
+  EXPECT_EQ(upsampling, "account of cleaning: upsampling tells of 1 markers; there are 2");
+  EXPECT_THAT(upsampling,
+              Not(AnyOf(HasSubstr("markers were smoothed; there are"), HasSubstr("' has no frames"),
+                        HasSubstr("' is of no marker here"), HasSubstr("a gap of marker"))));
+  EXPECT_EQ(smoothed, "account of cleaning: 3 markers were smoothed; there are 2");
+  EXPECT_THAT(smoothed, Not(HasSubstr("upsampling tells of")));
+  EXPECT_EQ(stranger, "account of cleaning: a defect of 'A' and 'C' is of no marker here");
+  EXPECT_EQ(far, "account of cleaning: a gap of marker 2 in frames 5 to 9 does not fit 2 markers");
+  EXPECT_EQ(message([](CleanAccount& a) {
+              a.defects[1].finding.first_frame = a.defects[1].finding.last_frame = -1;
+            }),
+            "account of cleaning: a defect of '' has no frames");
+  EXPECT_EQ(whole, "");
 }
 
 TEST(CleanAccount, NamesMarkersAndNobodyForAll) {

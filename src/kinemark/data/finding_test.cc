@@ -9,8 +9,10 @@
 namespace kinemark::data {
 namespace {
 
+using testing::AnyOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr TimeBase kTime{.rate_hz = 100.0, .t0_s = 1.0, .frames = 500};
 constexpr auto kLast = FindingKind::outlier;
@@ -64,6 +66,43 @@ TEST(Finding, SaysWhoWhatHowLargeAndWhen) {
             "the smoother did not settle in 40 iterations over the recording");
   EXPECT_EQ(text({.kind = FindingKind::flagged, .size = 7}), "7 of 500 frames are flagged");
   EXPECT_EQ(text({.kind = FindingKind::clock_jump, .size = 3}), "the clock jumps by 3 frames");
+}
+
+TEST(Finding, AKindSaysNothingOfTheOthers) {
+  const auto spike =
+      text({.kind = FindingKind::spike, .subject = "A", .first_frame = 20, .last_frame = 20, .size = 0.012});
+  EXPECT_EQ(spike, "marker 'A' leaves its path by 12.0 mm in frame 20 (1.2 s)");
+  EXPECT_THAT(spike,
+              Not(AnyOf(HasSubstr("from where the model and the frames beside have it"),
+                        HasSubstr("was left out in"), HasSubstr("in frames"),
+                        HasSubstr("exactly at the origin"), HasSubstr("one value digit by digit"),
+                        HasSubstr("the frame before digit by digit"), HasSubstr("and back to its own"),
+                        HasSubstr("in the second half than in the first: did its markers slip together?"),
+                        HasSubstr("are not explained by rigid segments and noise"),
+                        HasSubstr("' rests at a limit of its range in"),
+                        HasSubstr("iterations over the recording"), HasSubstr("carry each other's label"))));
+  EXPECT_EQ(text({.kind = FindingKind::unexplained, .size = 12}),
+            "12 of 500 frames are not explained by rigid segments and noise");
+  EXPECT_EQ(text({.kind = FindingKind::unexplained}),
+            "some frames are not explained by rigid segments and noise");
+}
+
+TEST(Finding, AnExchangeInListedFramesSaysTheirPattern) {
+  Finding swap{.kind = FindingKind::label_swap, .subject = "A", .partner = "B", .size = 0.04};
+  for (std::int64_t f = 1; f < 128; f += 3) swap.frames.push_back(f);
+  swap.first_frame = 1;
+  swap.last_frame = 127;
+  EXPECT_TRUE(swap.validate());
+  EXPECT_EQ(swap.frame_count(), 43);
+  const auto words = text(swap);
+  EXPECT_EQ(
+      words,
+      "markers 'A' and 'B' are exchanged in 43 frames: every third frame from 1 to 127 (1.01 to 2.27 s) "
+      "while 40.0 mm apart");
+  EXPECT_THAT(words, Not(HasSubstr("carry each other's label"))) << "not in all frames from 1 to 127";
+  swap.frames.clear();
+  EXPECT_EQ(swap.frame_count(), 127);
+  EXPECT_EQ((Finding{.kind = FindingKind::label_swap, .subject = "A", .partner = "B"}.frame_count()), 0);
 }
 
 TEST(Finding, WithoutASubjectItIsAboutAllMarkers) {
@@ -130,11 +169,29 @@ TEST(Finding, ValidateRefusesWhatCannotBe) {
   EXPECT_EQ(message({.kind = FindingKind::spike, .subject = "A", .first_frame = 3, .last_frame = 3}), "");
   EXPECT_THAT(message({.first_frame = 3, .last_frame = 2}), HasSubstr("from frame 3 to 2"));
   EXPECT_THAT(message({.first_frame = 3}), HasSubstr("need both in order, or none"));
-  EXPECT_THAT(message({.kind = FindingKind::label_swap, .subject = "A"}), HasSubstr("need two markers"));
+  EXPECT_THAT(message({.kind = FindingKind::label_swap, .subject = "A"}),
+              HasSubstr("names '' as the other marker; need two markers"));
   EXPECT_THAT(message({.kind = FindingKind::label_swap, .subject = "A", .partner = "A"}),
               HasSubstr("two markers"));
   EXPECT_THAT(message({.size_sd = -1.0}), HasSubstr("negative standard deviation"));
-  EXPECT_THAT(message({.confidence = 1.1}), HasSubstr("confidence of 1.1; need 0 to 1"));
+  EXPECT_THAT(message({.confidence = 1.1}), HasSubstr("has a confidence of 1.1; need 0 to 1"));
+  Finding listed{.kind = FindingKind::spike, .subject = "A", .first_frame = 3, .last_frame = 9};
+  for (const std::vector<std::int64_t>& frames :
+       {std::vector<std::int64_t>{3, 5, 5, 9}, {3, 7, 5, 9}, {4, 9}, {3, 8}}) {
+    listed.frames = frames;
+    EXPECT_THAT(message(listed), HasSubstr("lists frames that are not in order from its first to its last"));
+  }
+  listed.frames = {3, 4, 9};
+  EXPECT_EQ(message(listed), "");
+}
+
+TEST(Finding, EachFaultIsNamedAndNoOther) {
+  const auto negative = Finding{.size_sd = -1.0}.validate().error().message;
+  EXPECT_THAT(
+      negative,
+      Not(AnyOf(HasSubstr("; need both in order, or none"),
+                HasSubstr("' as the other marker; need two markers"), HasSubstr("has a confidence of"),
+                HasSubstr("lists frames that are not in order from its first to its last"))));
 }
 
 TEST(Finding, OutliersOfOneMarkerAreOneSentence) {

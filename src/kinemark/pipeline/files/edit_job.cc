@@ -154,6 +154,7 @@ Result<EditOutcome> run_edit(const EditJob& job) {
     auto list = append_edit(outcome.journal, *recording, before + i, std::move(more[i]), job.force);
     if (!list) return std::unexpected(list.error());
     outcome.list = std::move(*list);
+    ++outcome.appended;
   }
   in_force = outcome.list.edits_in_force();
   if (in_force) outcome.in_force = std::move(*in_force);

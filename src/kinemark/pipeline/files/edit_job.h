@@ -36,6 +36,7 @@ struct EditOutcome : JobOutcome {
   std::vector<data::Region> regions;  ///< that they name
   std::string digest;                 ///< of what is in force, io::digest_of()
   std::filesystem::path journal;      ///< which file it is; not there before the first edit
+  std::size_t appended = 0;           ///< operations that this run added, the last of the list
 };
 
 /// Append an edit, after it was tried with those before it: what cannot be applied is refused and the journal

@@ -23,6 +23,7 @@ using data::EditKind;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class EditJobTest : public ::testing::Test {
  protected:
@@ -113,6 +114,65 @@ TEST_F(EditJobTest, WhatCannotBeDoneIsRefusedAndNothingWritten) {
   EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "LKNE"})).message, HasSubstr("has no sample"));
   EXPECT_THAT(refused(job({.kind = EditKind::cut, .marker = "RKNE"}, "5000")).message,
               HasSubstr("frame 5000 is not there"));
+}
+
+TEST_F(EditJobTest, ExchangesThatAreSureAreAppendedOnceAndCanBeUndone) {
+  auto spoilt = trajectory::testing::moving_trial();
+  const auto clean = spoilt.markers.x_in_world;
+  for (std::int64_t f = 100; f < 120; ++f) {
+    const Eigen::Vector3d x = spoilt.markers.x(f, 0);
+    spoilt.markers.x(f, 0) = spoilt.markers.x(f, 2);
+    spoilt.markers.x(f, 2) = x;
+  }
+  ASSERT_TRUE(io::write_markers(job_.input, spoilt, true));
+  auto search = job({.kind = EditKind::swap, .made = "2026-11-24T09:30:00Z", .author = "me"});
+  search.exchanges = true;
+  const auto found = good(search);
+  EXPECT_THAT(found.warnings, Not(Contains(HasSubstr("no two markers surely carry each other's label"))));
+  EXPECT_THAT(found.written, ElementsAre(journal_));
+  ASSERT_EQ(found.in_force.size(), 1U);
+  const auto& edit = found.in_force.front();
+  EXPECT_EQ(edit.kind, EditKind::swap);
+  EXPECT_EQ(edit.marker, "S:LASI");
+  EXPECT_EQ(edit.other, "S:SACR");
+  EXPECT_EQ(edit.first_frame, 601);
+  EXPECT_EQ(edit.last_frame, 620);
+  EXPECT_EQ(edit.author, "me");
+  EXPECT_EQ(edit.made, "2026-11-24T09:30:00Z");
+  const auto again = good(search);
+  EXPECT_THAT(again.warnings,
+              Contains(HasSubstr("no two markers surely carry each other's label: nothing was "
+                                 "appended")));
+  EXPECT_EQ(found.appended, 1U);
+  EXPECT_EQ(again.appended, 0U);
+  EXPECT_EQ(again.list.edits.size(), 1U) << "with the first in force nothing is left to exchange";
+  EXPECT_TRUE(good(job({.kind = EditKind::undo})).in_force.empty());
+  EXPECT_EQ(good(search).in_force.size(), 1U) << "refused once, it can be asked for again";
+}
+
+TEST_F(EditJobTest, OfACleanRecordingNoExchangeIsAppended) {
+  auto search = job_;
+  search.exchanges = true;
+  const auto out = good(search);
+  EXPECT_THAT(out.warnings, Contains(HasSubstr("nothing was appended")));
+  EXPECT_TRUE(out.written.empty());
+  EXPECT_FALSE(std::filesystem::exists(journal_));
+}
+
+TEST_F(EditJobTest, ExchangesThatFlickerAreOneEditOfListedFrames) {
+  auto spoilt = trajectory::testing::moving_trial();
+  for (std::int64_t f = 62; f < 140; f += 3) {
+    const Eigen::Vector3d x = spoilt.markers.x(f, 3);
+    spoilt.markers.x(f, 3) = spoilt.markers.x(f, 4);
+    spoilt.markers.x(f, 4) = x;
+  }
+  ASSERT_TRUE(io::write_markers(job_.input, spoilt, true));
+  auto search = job_;
+  search.exchanges = true;
+  const auto out = good(search);
+  ASSERT_EQ(out.in_force.size(), 1U);
+  EXPECT_EQ(out.in_force[0].frames, "563-638/3");
+  EXPECT_FALSE(out.in_force[0].first_frame);
 }
 
 TEST_F(EditJobTest, UndoAndRedoAreOperations) {

@@ -8,16 +8,27 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/io/text/trc.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 using RunIk = testing::RecordedTest<IkJob>;
+
+std::string sentence_of_gate(const IkOutcome& outcome, std::string_view name) {
+  for (const auto& gate : outcome.gates)
+    if (gate.name == name) return gate.sentence;
+  return {};
+}
 
 TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
   const auto outcome = run_ik(job("Q.mot"));
@@ -100,6 +111,48 @@ TEST_F(RunIk, AMissedGateStillWritesAndEndsWithOne) {
   std::string reported;
   for (const auto& notice : outcome.summary.notices) reported += notice.text;
   EXPECT_THAT(reported, HasSubstr("at most 0.0 mm is accepted"));
+  const auto frames = sentence_of_gate(outcome, "frames_off"),
+             mean = sentence_of_gate(outcome, "mean_marker_offset");
+  EXPECT_THAT(frames,
+              HasSubstr(" frames the RMS distance between measured and model markers is above 0.0 mm"));
+  EXPECT_THAT(frames, Not(HasSubstr("The mean of all marker errors is")));
+  EXPECT_THAT(mean, HasSubstr("The mean of all marker errors is"));
+  EXPECT_THAT(mean,
+              Not(AnyOf(HasSubstr(" frames the RMS distance between measured and model markers is above"),
+                        HasSubstr("mm. Check that recording and model share origin, axes and unit."))));
+}
+
+TEST_F(RunIk, ARecordingElsewhereIsSaidToBeSoWithTheShiftThatMendsIt) {
+  auto trial = io::read_markers(at("in/markers.c3d")).value();
+  for (std::size_t i = 0; i < trial.markers.x_in_world.size(); i += 3) trial.markers.x_in_world[i] += 0.8;
+  ASSERT_TRUE(io::write_trc(at("away.trc"), trial, {}));
+  auto away = job("away.mot");
+  away.markers = at("away.trc");
+  auto bound = io::read_osim(at("in/model.osim")).value();
+  for (auto& coordinate : bound.coordinates)
+    if (!coordinate.is_rotation) coordinate.locked = true;
+  ASSERT_TRUE(io::write_osim(at("bound.osim"), bound));
+  away.model = at("bound.osim");
+  const auto outcome = run_ik(away).value();
+  EXPECT_EQ(outcome.exit_status(), 1);
+  const auto mean = sentence_of_gate(outcome, "mean_marker_offset");
+  EXPECT_THAT(mean, HasSubstr("mm. Check that recording and model share origin, axes and unit."));
+  EXPECT_THAT(mean, Not(HasSubstr("The mean of all marker errors is")));
+}
+
+TEST_F(RunIk, WhereTheNoiseIsFromIsInTheOptions) {
+  const auto noise_of = [](const IkOutcome& outcome) {
+    for (const auto& [name, value] : outcome.summary.run.options)
+      if (name == "marker noise") return value;
+    return std::string();
+  };
+  const auto estimated = noise_of(run_ik(job("estimated.mot")).value());
+  auto with_noise = job("given.mot");
+  with_noise.options.marker_noise_sd_m = 0.002;
+  const auto given = noise_of(run_ik(with_noise).value());
+  EXPECT_EQ(estimated, "estimated from the residuals, per marker and segment");
+  EXPECT_EQ(given, "0.002 m per axis, given");
+  EXPECT_THAT(given, Not(HasSubstr("estimated from the residuals, per marker and segment")));
 }
 
 TEST_F(RunIk, ExclusionsCarryTheirReason) {

@@ -8,6 +8,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "support/scratch.h"
@@ -15,9 +16,11 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST(MotionRun, AsksForTheFirstFileThatIsNotNamed) {
   MotionJob job;
@@ -114,6 +117,64 @@ data::JointMotion one_angle() {
   motion.marker_error.assign({0.003, 0.004, 0.0, 0.0, 0.0, 0.0});
   motion.status.assign(2, data::FrameStatus::converged);
   return motion;
+}
+
+TEST(MotionRun, EachGateSaysWhatItCounted) {
+  auto motion = one_angle();
+  motion.marker_state = {data::SampleState::rejected, data::SampleState::measured};
+  report::IkRun run;
+  internal::add_left_out_gate(run, motion);
+  internal::add_marker_gates(run, {}, 0.0, "no offset", 0.061);
+  ASSERT_EQ(run.gates.size(), 3U);
+  const auto &left_out = run.gates[0].sentence, &rms = run.gates[2].sentence;
+  EXPECT_EQ(left_out, "1 of 2 samples were left out; at most 5 % are accepted.");
+  EXPECT_EQ(rms,
+            "The RMS distance between measured and model markers is 61.0 mm; at most 50.0 mm is accepted.");
+  EXPECT_THAT(left_out, Not(HasSubstr("The RMS distance between measured and model markers is")));
+  EXPECT_THAT(rms, Not(AnyOf(HasSubstr("samples were left out; at most"), HasSubstr("% are accepted."))));
+  motion.marker_state.clear();
+  report::IkRun not_judged;
+  internal::add_left_out_gate(not_judged, motion);
+  EXPECT_THAT(not_judged.gates, IsEmpty());
+}
+
+TEST(MotionRun, MarkersOfAPageAreThoseThatWereSolved) {
+  auto recorded =
+      data::Trajectories::all_missing({"S:A", "x", "S:B"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 6});
+  for (std::int64_t f = 0; f < 6; ++f)
+    for (std::int64_t m = 0; m < 3; ++m) {
+      recorded.x(f, m) = Eigen::Vector3d(static_cast<double>(f), static_cast<double>(m), 0.5);
+      recorded.state[recorded.index(f, m)] = data::SampleState::measured;
+    }
+  recorded.set_missing(3, 2);
+  auto motion = one_angle();
+  motion.markers = {"A", "B"};
+  motion.time = {.rate_hz = 100.0, .t0_s = 0.01, .frames = 4};
+  motion.marker_state.assign(8, data::SampleState::measured);
+  motion.marker_state[6] = data::SampleState::rejected;
+  const data::Finding swap{.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B"};
+  auto listed = swap, stretch = swap;
+  listed.frames = {0, 2};
+  listed.first_frame = 0, listed.last_frame = 2;
+  stretch.first_frame = 0, stretch.last_frame = 1;
+  data::MarkerFit fit{.markers = {{.name = "A", .name_in_data = "S:A"}, {.name = "B", .name_in_data = "S:B"}},
+                      .findings = {listed}};
+  fit.first_frame = 1;
+  const auto markers = internal::solved_markers(recorded, fit, motion);
+  EXPECT_EQ(markers.names, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(markers.frames(), 4);
+  EXPECT_EQ(markers.x(0, 0).y(), 2.0) << "frame 1 of the recording, B's label";
+  EXPECT_EQ(markers.x(0, 1).y(), 0.0);
+  EXPECT_EQ(markers.x(1, 0).y(), 0.0) << "as recorded";
+  EXPECT_FALSE(markers.present(2, 0)) << "B was not seen there, and A carried its label";
+  EXPECT_EQ(markers.x(2, 1).y(), 0.0);
+  EXPECT_EQ(markers.state[markers.index(3, 0)], data::SampleState::rejected);
+  fit.findings = {stretch};
+  const auto other = internal::solved_markers(recorded, fit, motion);
+  EXPECT_EQ(other.x(1, 0).y(), 2.0);
+  EXPECT_EQ(other.x(3, 1).y(), 2.0) << "behind the stretch";
+  fit.findings[0].partner = "nobody";
+  EXPECT_EQ(internal::solved_markers(recorded, fit, motion).x(0, 0).y(), 0.0) << "no such marker";
 }
 
 TEST(MotionRun, JudgingFillsTheOutcomeFromTheRun) {

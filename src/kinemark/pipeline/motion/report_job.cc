@@ -24,6 +24,7 @@
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
 
@@ -57,6 +58,16 @@ RotationNames rotations(const Json& json) {
   return names;
 }
 
+/// Frames in which no marker fixes a coordinate, as written by summary_json(); none in earlier versions.
+void read_open_frames(const Json& json, data::JointMotion& motion) {
+  std::vector<std::int64_t> open;
+  for (const auto& coordinate : json.value("coordinates", Json::array()))
+    if (const auto frames = coordinate.find("open_frames");
+        frames != coordinate.end() && frames->is_number_integer())
+      open.push_back(frames->get<std::int64_t>());
+  if (std::ssize(open) == motion.size()) motion.open_frames = std::move(open);
+}
+
 /// The edits of a run applied to its recording once more; false where their journal is another by now.
 bool edit_again(const report::IkRun& run, const fs::path& recording, data::Trial& trial) {
   const auto was = std::ranges::find(run.inputs, "edits", &data::InputFile::role);
@@ -85,7 +96,9 @@ std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointM
     for (const auto& name : motion.markers) from.push_back(recorded.find(name));
     if (std::ranges::find(from, -1) != from.end()) return std::nullopt;
     auto states = select_markers(recorded, from, motion.markers, first, motion.time);
+    internal::exchange_as_found(run.fit, states);
     for (const auto& left_out : run.fit.findings) {
+      if (left_out.kind != data::FindingKind::outlier) continue;
       const auto marker = states.find(left_out.subject);
       const auto last = std::min(left_out.last_frame, states.frames() - 1);
       for (auto f = left_out.first_frame; marker >= 0 && f >= 0 && f <= last; ++f)
@@ -187,6 +200,7 @@ Result<Page> solved_page(const fs::path& solved, std::span<const fs::path> geome
   if (!motion) return fail_at(base.string(), motion.error());
   if (const auto first = json->find("first_frame"); first != json->end() && first->is_number_integer())
     motion->time.first_number = first->get<std::int64_t>();
+  read_open_frames(*json, *motion);
   motion->tau = torques_from(beside(base, "_tau.sto"), *motion, set_of(*json));
   if (!motion->tau.empty())
     motion->tau_sd = torques_from(beside(base, "_tau_sd.sto"), *motion, set_of(*json));

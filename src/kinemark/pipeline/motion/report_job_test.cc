@@ -75,6 +75,37 @@ TEST_F(RunReport, AReportMadeLaterListsTheSameSamplesLeftOut) {
   EXPECT_EQ(once["series"]["gaps"], later["series"]["gaps"]) << "the map shows what was left out";
 }
 
+TEST_F(RunReport, LabelsExchangedBackAreThePagesOfTheCleanRecording) {
+  auto trial = read_marker_input({.path = at("in/markers.c3d")}).value().trial;
+  ASSERT_TRUE(io::write_trc(at("whole.trc"), trial, {}));
+  std::int64_t one = 0, other = 1, count = 0;
+  while ((trial.markers.x(0, one) - trial.markers.x(0, other)).norm() < 0.1) ++other;
+  for (std::int64_t f = 1; f < trial.markers.frames(); f += 3) {
+    if (!trial.markers.present(f, one) || !trial.markers.present(f, other)) continue;
+    const Eigen::Vector3d x = trial.markers.x(f, one);
+    trial.markers.x(f, one) = trial.markers.x(f, other);
+    trial.markers.x(f, other) = x;
+    ++count;
+  }
+  ASSERT_TRUE(io::write_trc(at("exchanged.trc"), trial, {}));
+  for (const auto* name : {"whole", "exchanged"}) {
+    auto with_page = job(std::string(name) + ".mot", std::string(name) + ".trc");
+    with_page.report = at(std::string(name) + "_once.html");
+    ASSERT_TRUE(run_ik(with_page));
+    ASSERT_TRUE(page(at(std::string(name) + ".mot"), at(std::string(name) + "_later.html")));
+  }
+  const auto whole = data_of(at("whole_once.html")), once = data_of(at("exchanged_once.html")),
+             later = data_of(at("exchanged_later.html"));
+  EXPECT_EQ(whole["summary"]["exchanged"].size(), 0U);
+  ASSERT_EQ(once["summary"]["exchanged"].size(), 1U);
+  EXPECT_EQ(once["summary"]["exchanged"][0]["count"], count);
+  EXPECT_EQ(once["summary"]["rejected_samples"], 0);
+  for (const char* key : {"exchanged", "coordinates", "markers", "findings"})
+    EXPECT_EQ(once["summary"][key], later["summary"][key]) << key;
+  EXPECT_EQ(once["scene"]["markers"], later["scene"]["markers"]);
+  EXPECT_EQ(once["scene"]["markers"], whole["scene"]["markers"]) << "markers are drawn where they were";
+}
+
 TEST_F(RunReport, AReportOfMissingOrForeignFilesIsOneSentence) {
   EXPECT_EQ(page(at("nothing.mot"), at("n.html")).error().code, Code::io);
   ASSERT_TRUE(io::write_text(at("X_report.json"), "{ not json", false));

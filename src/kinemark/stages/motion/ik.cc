@@ -15,6 +15,7 @@
 #include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 #include "kinemark/stages/motion/internal/judged_frames.h"
+#include "kinemark/stages/motion/internal/loose_bodies.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/rival_poses.h"
@@ -119,20 +120,22 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   const auto start = std::chrono::steady_clock::now();
   auto judged = internal::solve_and_judge(*problem, options, markers, progress);
   if (!judged) return fail(Code::cancelled, "inverse kinematics was stopped");
-  result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   auto& solved = judged->solved;
   const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
-  const bool lacking = internal::lacks_markers(*problem, kept);
+  const auto loose = internal::find_loose_frames(*problem, kept);
+  const bool rivalled = std::ranges::any_of(loose, [](std::int64_t pattern) { return pattern >= 0; });
   MarkerVariances variances;
-  if (lacking || options.error_bars) variances = find_variances(*problem, options, kept, solved.states);
   std::vector<internal::RivalPose> rivals;
-  if (lacking) {
+  if (rivalled) {
+    variances = find_variances(*problem, options, kept, solved.states);
     internal::FrameWalk walk(*problem, options, progress);
     std::vector<std::uint8_t> changed;
-    rivals = internal::choose_among_rivals(*problem, options, kept, variances, walk, solved, changed);
+    rivals = internal::choose_among_rivals(*problem, options, kept, loose, variances, walk, solved, changed);
     if (std::ranges::count(changed, std::uint8_t{1}) > 0)
       variances = find_variances(*problem, options, kept, solved.states);
   }
+  result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.error_bars && !rivalled) variances = find_variances(*problem, options, kept, solved.states);
   take_frames(solved, result);
   fill_coordinates(*problem, solved.states, motion);
   add_task_costs(*problem, result);

@@ -22,7 +22,8 @@ struct IkResult {
   data::MarkerFit fit;          ///< markers used and left out, and how well they fit
   double cost = 0.0;            ///< sum over frames of the cost in IkOptions (square loss), m^2
   std::int64_t iterations = 0;  ///< of all frames together
-  double solve_seconds = 0.0;   ///< wall time of the frame loop alone, without error bars
+  double solve_seconds =
+      0.0;  ///< wall time of the poses, judged and compared with rivals, without error bars
 };
 
 /// Solve every frame of the time range.

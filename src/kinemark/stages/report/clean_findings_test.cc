@@ -12,8 +12,10 @@ namespace kinemark::report {
 namespace {
 
 using internal::example_clean;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 /// Ten seconds at 100 Hz with nothing to complain about.
@@ -72,8 +74,9 @@ TEST(CleanFindings, AFailedGateIsSaidInItsOwnWords) {
   r.run.exit_status = 1;
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_EQ(clean_findings(r)[0].text, "Failed.");
+  EXPECT_THAT(clean_findings(r)[0].text, Not(HasSubstr("The run ended with exit status")));
   r.run.gates.clear();
-  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("exit status 1"));
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("The run ended with exit status 1."));
 }
 
 TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
@@ -82,9 +85,11 @@ TEST(CleanFindings, ADefectIsSeriousWhenItIsCertainAndWasLeft) {
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   r.account.defects[0].handled = false;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
+  EXPECT_THAT(clean_findings(r)[0].text, Not(HasSubstr("Not certain: somebody should look")));
+  EXPECT_THAT(clean_findings(r)[0].text, Not(HasSubstr("Defects of the kind \""))) << "one in its own words";
   r.account.defects[0].finding.confidence = 0.6;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
-  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain"));
+  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("Not certain: somebody should look."));
   EXPECT_DOUBLE_EQ(clean_findings(r)[0].time_s, 0.1);
   r.account.defects[0].finding.confidence = kNaN;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
@@ -100,8 +105,9 @@ TEST(CleanFindings, ThousandsOfSpikesAreOneLine) {
        .handled = true});
   const auto findings = clean_findings(r);
   ASSERT_THAT(findings, SizeIs(2));
-  EXPECT_THAT(findings[0].text,
-              HasSubstr("\"spike\" in 3000 places (A and B). The first: A leaves its path."));
+  EXPECT_THAT(
+      findings[0].text,
+      HasSubstr("Defects of the kind \"spike\" in 3000 places (A and B). The first: A leaves its path."));
   EXPECT_THAT(findings[0].text, HasSubstr("What was done: rejected."));
   EXPECT_THAT(findings[1].text, HasSubstr("All markers are exactly at the origin in frame 5 (0.05 s). What"));
 }
@@ -115,7 +121,8 @@ TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
   recorder.done = "nothing";
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::attention);
-  EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 of 4 samples"));
+  EXPECT_THAT(clean_findings(r)[0].text,
+              HasSubstr("The recorder interpolated this recording: 1 of 4 samples was measured."));
   recorder.handled = true;
   EXPECT_EQ(clean_findings(r)[0].level, Verdict::good);
   recorder.recording.factor = 1;
@@ -123,6 +130,7 @@ TEST(CleanFindings, MadeSamplesAreSeriousUntilTheyAreTakenOut) {
   recorder.markers[kB].factor = 2;
   ASSERT_THAT(clean_findings(r), SizeIs(1));
   EXPECT_THAT(clean_findings(r)[0].text, HasSubstr("1 marker (B)"));
+  EXPECT_THAT(clean_findings(r)[0].text, Not(HasSubstr("The recorder interpolated this recording")));
 }
 
 TEST(CleanFindings, UncertainFillsAreReportedMarkerByMarkerWithTheWorst) {
@@ -144,6 +152,7 @@ TEST(CleanFindings, UncertainFillsAreReportedMarkerByMarkerWithTheWorst) {
       findings[0].text,
       "2 gaps of B were filled with a standard deviation above 10 mm; the largest is 19.0 mm, in a gap of "
       "0.3 s.");
+  EXPECT_THAT(findings[0].text, Not(HasSubstr("left open"))) << "they were filled";
   EXPECT_DOUBLE_EQ(findings[0].time_s, 1.2);
 }
 
@@ -198,6 +207,67 @@ TEST(CleanFindings, ACutOffThatWasGivenIsNotJudged) {
   r.account.markers[1].used.cutoff_hz = 45.0;
   r.account.markers[1].criterion_name = "";
   EXPECT_THAT(clean_findings(r), IsEmpty());
+}
+
+TEST(CleanFindings, EachMarkerHasItsOwnTroubleAndNoOther) {
+  const auto said = [](auto change) {
+    CleanReport r = faultless();
+    change(r.account.markers[1]);
+    const auto findings = clean_findings(r);
+    EXPECT_THAT(findings, SizeIs(1));
+    return findings.empty() ? std::string() : findings[0].text;
+  };
+  const auto low = said([](data::MarkerAccount& m) { m.white_p = 1e-4, m.white_departure = 0.3; }),
+             high = said([](data::MarkerAccount& m) { m.white_p = 1e-4, m.white_departure = -0.3; }),
+             upper = said([](data::MarkerAccount& m) { m.used.cutoff_hz = 45.0; }),
+             variances = said([](data::MarkerAccount& m) { m.bad_variances = 1; });
+  EXPECT_THAT(low,
+              HasSubstr("more than a tenth of the noise power lies too low in frequency. The filter took "
+                        "away more than noise, or the noise is not white: the error bars are too small."));
+  EXPECT_THAT(low, Not(AnyOf(HasSubstr("lies too high in frequency. The error bars are too large"),
+                             HasSubstr("the cut-off found is at the upper end of its range"),
+                             HasSubstr("some variances were not positive and finite"))));
+  EXPECT_THAT(high,
+              HasSubstr("more than a tenth of the noise power lies too high in frequency. The error bars "
+                        "are too large."));
+  EXPECT_THAT(high, Not(HasSubstr("The filter took away more than noise, or the noise is not white")));
+  EXPECT_THAT(upper,
+              HasSubstr("the cut-off found is at the upper end of its range. Next to no noise was there "
+                        "to take away; data that were filtered before look like this."));
+  EXPECT_THAT(upper, Not(HasSubstr("the cut-off found is at the lower end of its range")));
+  EXPECT_THAT(variances,
+              HasSubstr("some variances were not positive and finite; the marker's median was taken "
+                        "instead."));
+}
+
+TEST(CleanFindings, AFilledGapIsNotCalledOpen) {
+  CleanReport r = faultless();
+  data::GapAccount filled = gap(kB, 100, 149), open = gap(kC, 0, 9);
+  filled.filled = true;
+  filled.max_sd_m = 0.020;
+  r.account.gaps = {filled};
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_THAT(clean_findings(r)[0].text, Not(HasSubstr("left open (0.5 s in all, in B); the longest lasts")));
+  r.account.gaps = {open};
+  ASSERT_THAT(clean_findings(r), SizeIs(1));
+  EXPECT_EQ(clean_findings(r)[0].text,
+            "1 gap was left open (0.1 s in all, in C); the longest lasts 0.1 s in C.");
+}
+
+TEST(CleanFindings, DefectsThatEndedOtherwiseAreNotOneLine) {
+  CleanReport r = faultless();
+  r.account.defects = {rejected_spike("A", 10, 0.95, "A leaves its path"),
+                       rejected_spike("B", 20, 0.95, "B leaves its path"),
+                       rejected_spike("C", 30, 0.95, "C leaves its path"),
+                       rejected_spike("C", 40, 0.5, "C may leave its path")};
+  r.account.defects[2].done = "";
+  r.account.defects[2].handled = false;
+  const auto findings = clean_findings(r);
+  ASSERT_THAT(findings, SizeIs(3));
+  EXPECT_EQ(findings[0].text, "C leaves its path.") << "serious: it is certain, and nothing was done";
+  EXPECT_THAT(findings[1].text, HasSubstr("Defects of the kind \"spike\" in 2 places (A and B)."));
+  EXPECT_EQ(findings[2].text,
+            "C may leave its path. Not certain: somebody should look. What was done: rejected.");
 }
 
 TEST(CleanFindings, ManyNamesAreCut) {

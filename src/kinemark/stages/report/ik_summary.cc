@@ -67,6 +67,7 @@ CoordinateSummary summarize_coordinate(const IkRun& run, const JointMotion& moti
   CoordinateSummary s{.name = motion.coordinates[j], .is_rotation = motion.is_rotation[j]};
   s.keeps_radians = !motion.keeps_radians.empty() && motion.keeps_radians[j];
   s.locked = std::ranges::find(run.locked_coordinates, s.name) != run.locked_coordinates.end();
+  if (!motion.open_frames.empty()) s.open_frames = motion.open_frames[j];
   if (const auto at = std::ranges::find(run.limits, s.name, &CoordinateLimits::coordinate);
       at != run.limits.end() && !s.locked) {
     s.limit_min = at->min;

@@ -55,6 +55,7 @@ struct CoordinateSummary {
   bool keeps_radians = false;                 ///< MOT and STO files hold it in rad
   bool locked = false;                        ///< the model holds it
   std::int64_t determined_frames = 0;         ///< frames in which the markers fix it
+  std::int64_t open_frames = -1;              ///< frames in which no visible marker fixes it; -1: not known
   double min = kNaN;                          ///< rad or m, over determined frames
   double max = kNaN;                          ///< rad or m, over determined frames
   double median_sd = kNaN;                    ///< rad or m, over determined frames

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kinemark/core/units.h"
+#include "kinemark/data/frame_list.h"
 #include "kinemark/stages/report/ik_summary.h"
 #include "kinemark/stages/report/internal/json_parts.h"
 
@@ -41,6 +42,7 @@ Json coordinates_json(const IkSummary& s) {
                    {"unit_in_tables", c.is_rotation ? (c.keeps_radians ? "rad" : "deg") : "m"},
                    {"locked", c.locked},
                    {"determined_frames", c.determined_frames},
+                   {"open_frames", c.open_frames < 0 ? Json() : Json(c.open_frames)},
                    {"min", coordinate_value(c, c.min)},
                    {"max", coordinate_value(c, c.max)},
                    {"median_sd", coordinate_value(c, c.median_sd)},
@@ -81,6 +83,23 @@ Json rejected_json(const IkSummary& s) {
   return out;
 }
 
+/// Every two markers whose labels were exchanged back, and in which frames of the motion.
+Json exchanged_json(const IkSummary& s) {
+  Json out = Json::array();
+  for (const data::Finding& f : s.run.fit.findings) {
+    if (f.kind != data::FindingKind::label_swap) continue;
+    std::vector<std::int64_t> frames = f.frames;
+    for (auto frame = f.first_frame; f.frames.empty() && frame <= f.last_frame; ++frame)
+      frames.push_back(frame);
+    out.push_back({{"marker", f.subject},
+                   {"other", f.partner},
+                   {"frames", data::format_frame_list(frames)},
+                   {"count", frames.size()},
+                   {"apart_mm", millimetres(f.size)}});
+  }
+  return out;
+}
+
 Json worst_frames_json(const IkSummary& s) {
   Json out = Json::array();
   for (const WorstFrame& w : s.worst_frames)
@@ -117,6 +136,21 @@ std::vector<data::Finding> read_rejected(const Json& json) {
                         .size = metres(r, "distance_mm"),
                         .detail = r.at("why")});
   return findings;
+}
+
+/// What exchanged_json() wrote; reports of earlier versions have none.
+void add_exchanged(const Json& json, std::vector<data::Finding>& findings) {
+  for (const Json& e : json.value("exchanged", Json::array())) {
+    auto frames = data::parse_frame_list(e.at("frames").get<std::string>());
+    if (!frames || frames->empty()) continue;
+    findings.push_back({.kind = data::FindingKind::label_swap,
+                        .subject = e.at("marker"),
+                        .partner = e.at("other"),
+                        .first_frame = frames->front(),
+                        .last_frame = frames->back(),
+                        .frames = std::move(*frames),
+                        .size = metres(e, "apart_mm")});
+  }
 }
 
 /// Whether it is locked, and its limits; reports of earlier versions have none.
@@ -162,6 +196,7 @@ IkRun read_run(const Json& json) {
     }
   }
   run.fit.findings = read_rejected(json);
+  add_exchanged(json, run.fit.findings);
   for (const Json& c : json.at("coordinates")) add_coordinate(c, run);
   if (const Json mass = json.value("mass_kg", Json()); mass.is_number()) mass.get_to(run.mass_kg);
   json.at("warnings").get_to(run.warnings);
@@ -197,6 +232,7 @@ nlohmann::ordered_json summary_json(const IkSummary& s) {
           {"rejected_samples", s.rejected_samples},
           {"rejected_fraction", number(s.rejected_fraction, 6)},
           {"rejected", rejected_json(s)},
+          {"exchanged", exchanged_json(s)},
           {"findings", findings_json(s.notices)},
           {"gates", gates_json(run.gates)},
           {"mass_kg", number(run.mass_kg, 3)},

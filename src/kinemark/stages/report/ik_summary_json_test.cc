@@ -58,7 +58,7 @@ TEST(SummaryJson, UnknownNumbersAreNull) {
 TEST(SummaryJson, EveryKeyIsDescribedInOrderOfImportance) {
   const Json json = summary_json(example_summary());
   EXPECT_EQ(json.begin().key(), "schema");
-  EXPECT_EQ(json.size(), 33U) << "a new key belongs into README.md and viewer/src/types.ts too";
+  EXPECT_EQ(json.size(), 34U) << "a new key belongs into README.md and viewer/src/types.ts too";
 }
 
 TEST(RunFromJson, LimitsAndMassComeBackAndMayBeMissing) {
@@ -127,6 +127,48 @@ TEST(RunFromJson, KeepsWhatWasLeftOut) {
   const auto run = run_from_json(first);
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(summary_json(summarize(*run, t.motion, &t.markers).value()), first);
+}
+
+TEST(RunFromJson, KeepsWhatWasExchangedBack) {
+  auto t = internal::example_trial(200);
+  data::Finding swap{.kind = data::FindingKind::label_swap,
+                     .subject = t.run.fit.markers[3].name,
+                     .partner = t.run.fit.markers[5].name,
+                     .first_frame = 1,
+                     .last_frame = 127,
+                     .size = 0.0431};
+  auto third = swap;
+  for (std::int64_t f = 1; f < 128; f += 3) third.frames.push_back(f);
+  t.run.fit.findings = {third, swap};
+  const Json first = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  ASSERT_EQ(first["exchanged"].size(), 2U);
+  EXPECT_EQ(first["exchanged"][0]["frames"], "1-127/3");
+  EXPECT_EQ(first["exchanged"][0]["count"], 43);
+  EXPECT_EQ(first["exchanged"][0]["apart_mm"], 43.1);
+  EXPECT_EQ(first["exchanged"][1]["frames"], "1-127");
+  EXPECT_EQ(first["exchanged"][1]["count"], 127);
+  EXPECT_EQ(first["rejected"].size(), 0U) << "nothing was left out";
+  const auto run = run_from_json(first);
+  ASSERT_TRUE(run) << run.error().message;
+  ASSERT_EQ(run->fit.findings.size(), 2U);
+  EXPECT_EQ(run->fit.findings[0].frames, third.frames);
+  EXPECT_EQ(run->fit.findings[1].frame_count(), 127);
+  EXPECT_EQ(summary_json(summarize(*run, t.motion, &t.markers).value()), first);
+  Json old = first;
+  old.erase("exchanged");
+  EXPECT_TRUE(run_from_json(old)->fit.findings.empty()) << "reports of earlier versions have none";
+}
+
+TEST(SummaryJson, OpenFramesAreNullWhereTheyAreNotKnown) {
+  auto t = internal::example_trial(200);
+  t.motion.open_frames.clear();
+  EXPECT_TRUE(summary_json(summarize(t.run, t.motion, &t.markers).value())["coordinates"][0]["open_frames"]
+                  .is_null());
+  t.motion.open_frames.assign(t.motion.coordinates.size(), 0);
+  t.motion.open_frames[1] = 17;
+  const Json json = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  EXPECT_EQ(json["coordinates"][0]["open_frames"], 0);
+  EXPECT_EQ(json["coordinates"][1]["open_frames"], 17);
 }
 
 TEST(RunFromJson, NothingLeftOutIsNotTheSameAsNotJudged) {

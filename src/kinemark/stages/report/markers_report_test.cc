@@ -10,8 +10,10 @@ namespace kinemark::report {
 namespace {
 
 using data::SampleState;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 /// Whole; half there; never there; made in parts; not named.
@@ -49,6 +51,32 @@ TEST(MarkersReport, FoldsWhatStandsOutByKindTheSeriousFirst) {
   EXPECT_EQ(groups[1].items[0].text,
             "half: missing in 50 of 100 frames (50.0 %), 1 gap, the longest 1.000 s from 1.400 s");
   EXPECT_DOUBLE_EQ(groups[1].items[0].time_s, 1.4);
+}
+
+TEST(MarkersReport, TwoOfAKindAreOneGroup) {
+  data::Trial trial;
+  auto& t = trial.markers = data::Trajectories::all_missing(
+      {"half", "half too", "never", "nor this", "made", "made too", "out", "out too", "*9", "*10"},
+      {.rate_hz = 50.0, .t0_s = 0.0, .frames = 100});
+  for (std::int64_t f = 0; f < 100; ++f)
+    for (const std::int64_t m : {0, 1, 4, 5, 6, 7, 8, 9}) {
+      if (m < 2 && f >= 20 && f < 70) continue;
+      t.x(f, m).setConstant(0.01 * static_cast<double>(f));
+      t.state[t.index(f, m)] =
+          (m == 4 || m == 5) && f < 10 ? SampleState::model_filled : SampleState::measured;
+    }
+  for (const std::int64_t m : {6, 7}) t.set_missing(50, m, SampleState::rejected);
+  trial.warnings = {"the header lies", "so does its end"};
+  EXPECT_THAT(
+      titles(markers_notices({.recording = &trial})),
+      ::testing::ElementsAre("2 markers in no frame", "2 markers missing in more than a fifth of the frames",
+                             "2 markers partly missing", "2 markers with rejected samples",
+                             "2 markers with samples that were made", "2 points that nobody named",
+                             "2 remarks about the file"));
+  t.set_missing(50, 7);
+  const auto groups = markers_notices({.recording = &trial});
+  EXPECT_EQ(groups[3].title, "1 marker with rejected samples");
+  EXPECT_EQ(groups[3].items[0].text, "out: rejected in 1 of 100 frames (1.0 %)");
 }
 
 TEST(MarkersReport, OfAWholeRecordingSaysNothing) {
@@ -107,7 +135,11 @@ TEST(MarkersReport, TellsTheCyclesOfEachFoot) {
 TEST(MarkersReport, AnUnknownRateIsAFinding) {
   const auto trial = five_markers();
   const auto groups = markers_notices({.recording = &trial, .rate_known = false});
-  EXPECT_THAT(groups.front().items.front().text, HasSubstr("--rate"));
+  EXPECT_EQ(groups.front().title, "1 frame rate that is not known");
+  EXPECT_EQ(groups.front().items.front().text,
+            "The file tells no frame rate: frames are counted at 1 Hz. Give one with --rate.");
+  EXPECT_THAT(titles(markers_notices({.recording = &trial})),
+              Not(Contains("1 frame rate that is not known")));
 }
 
 TEST(MarkersReport, HostileNamesStayText) {
@@ -125,7 +157,7 @@ TEST(MarkersReport, OfNothingIsAPageThatSaysSo) {
   trial.markers = data::Trajectories::all_missing({}, {.rate_hz = 1.0, .t0_s = 0.0, .frames = 0});
   const auto groups = markers_notices({.recording = &trial});
   ASSERT_THAT(groups, SizeIs(1));
-  EXPECT_THAT(groups[0].items[0].text, HasSubstr("0 markers and 0 frames"));
+  EXPECT_THAT(groups[0].items[0].text, HasSubstr("The file holds 0 markers and 0 frames."));
   EXPECT_THAT(markers_report_html({.recording = &trial}), HasSubstr("kinemark.markers_report"));
 }
 

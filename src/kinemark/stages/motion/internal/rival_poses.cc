@@ -34,7 +34,8 @@ constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' erro
 constexpr std::size_t kMostRivals = 14;
 constexpr double kLeastSd_m = 0.3e-3;  // of a marker
 constexpr int kRoundsOfRivals = 2;
-constexpr std::int64_t kSearchEvery = 3;  // frames; between them rivals are followed
+constexpr std::int64_t kSearchEvery = 3;   // frames; between them rivals are followed
+constexpr std::int64_t kSearchAlike = 12;  // frames, while the same markers are seen
 constexpr double kShutLoopSd_m = 1e-5;
 constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
 constexpr double kLeastStep = 2e-3;  // rad or m
@@ -57,9 +58,10 @@ struct Candidate {
 class Rivals {
  public:
   Rivals(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-         const MarkerVariances& variances, const SolvedFrames& solved)
+         const std::vector<std::int64_t>& loose, const MarkerVariances& variances, const SolvedFrames& solved)
       : problem_(problem),
         markers_(markers),
+        loose_(loose),
         solved_(solved),
         solver_(problem, options),
         w_(problem.model),
@@ -73,24 +75,33 @@ class Rivals {
       const double v = variances.own[m] + (body >= 0 ? variances.common[body] : 0.0);
       all_[m] = 1.0 / std::max(v, kLeastSd_m * kLeastSd_m);
     }
-    find_used();
     find_steps();
   }
 
   void find() {
-    find_lacking();
     const std::int64_t F = problem_.frames;
+    std::int64_t searched = -1, pattern = -1;
     for (std::int64_t f = 0; f < F; ++f) {
+      const bool begins = !is_loose(f - 1);
+      if (!is_loose(f) && begins && !is_loose(f + 1)) continue;
       visit(f);
       auto& here = of_frame_[at(f)];
       here.push_back(candidate(solved_.states.col(f)));
-      if (lacks_[at(f)] == 0) continue;
-      if (f % kSearchEvery == 0) find_directions(here.front());
+      if (!is_loose(f)) continue;
+      if (begins) {  // a single frame between good ones is decided by those
+        searched = f - kSearchEvery + 1;
+        pattern = -1;
+      }
+      const bool search_now = f - searched >= (loose_[at(f)] == pattern ? kSearchAlike : kSearchEvery);
+      if (search_now) find_directions(here.front());
       if (f > 0) follow(f - 1, here);
-      if (f % kSearchEvery == 0) search(here);
+      if (!search_now) continue;
+      search(here);
+      searched = f;
+      pattern = loose_[at(f)];
     }
     for (std::int64_t f = F - 2; f >= 0; --f) {
-      if (lacks_[at(f)] == 0) continue;
+      if (!is_loose(f)) continue;
       visit(f);
       follow(f + 1, of_frame_[at(f)]);
     }
@@ -106,18 +117,20 @@ class Rivals {
       for (const Candidate& c : here) best = std::min(best, c.chi_square);
       for (Candidate& c : here) {
         c.log_forward = -kTemper * (c.chi_square - best);
-        if (f > 0) c.log_forward += reach(of_frame_[at(f - 1)], c, true);
+        if (f > 0 && !of_frame_[at(f - 1)].empty()) c.log_forward += reach(of_frame_[at(f - 1)], c, true);
       }
       level(here, true);
     }
     for (std::int64_t f = F - 2; f >= 0; --f) {
       auto& behind = of_frame_[at(f + 1)];
+      if (behind.empty()) continue;
       double best = HUGE_VAL;
       for (const Candidate& c : behind) best = std::min(best, c.chi_square);
       for (Candidate& c : of_frame_[at(f)]) c.log_backward = reach(behind, c, false, best);
       level(of_frame_[at(f)], false);
     }
     for (auto& here : of_frame_) {
+      if (here.empty()) continue;
       double most = -HUGE_VAL, sum = 0.0;
       for (const Candidate& c : here) most = std::max(most, c.log_forward + c.log_backward);
       for (Candidate& c : here) sum += c.probability = std::exp(c.log_forward + c.log_backward - most);
@@ -138,25 +151,8 @@ class Rivals {
   [[nodiscard]] std::vector<Candidate>& of(std::int64_t f) { return of_frame_[at(f)]; }
 
  private:
-  /// Frames that lack a marker that others have.
-  void find_lacking() {
-    lacks_.assign(at(problem_.frames), 0);
-    for (std::int64_t f = 0; f < problem_.frames; ++f) {
-      problem_.observe(markers_, f, y_, weight_);
-      bool some = false, missing = false;
-      for (Eigen::Index m = 0; m < weight_.size(); ++m) {
-        some = some || weight_[m] > 0.0;
-        missing = missing || (weight_[m] == 0.0 && used_[at(m)] != 0);
-      }
-      lacks_[at(f)] = some && missing ? 1 : 0;
-    }
-  }
-
-  void find_used() {
-    used_.assign(at(problem_.model.marker_count()), 0);
-    for (std::int64_t f = 0; f < problem_.frames; ++f)
-      for (std::size_t m = 0; m < used_.size(); ++m)
-        if (markers_.present(problem_.first_frame + f, problem_.data_marker[m])) used_[m] = 1;
+  [[nodiscard]] bool is_loose(std::int64_t f) const {
+    return f >= 0 && f < problem_.frames && loose_[at(f)] >= 0;
   }
 
   /// How far each speed goes in a frame.
@@ -343,6 +339,7 @@ class Rivals {
 
   const Problem& problem_;
   const data::Trajectories& markers_;
+  const std::vector<std::int64_t>& loose_;
   const SolvedFrames& solved_;
   FrameSolver solver_;
   model::Workspace w_;
@@ -351,7 +348,6 @@ class Rivals {
   MatrixXd H_, K_, whole_, C_;
   Eigen::LLT<MatrixXd> llt_;
   std::int64_t frame_ = 0;
-  std::vector<std::uint8_t> used_, lacks_;
   std::vector<VectorXd> directions_;
   std::vector<std::vector<Candidate>> of_frame_;
   std::vector<double> logs_;
@@ -359,16 +355,9 @@ class Rivals {
 
 }  // namespace
 
-bool lacks_markers(const Problem& problem, const data::Trajectories& markers) {
-  std::vector<std::int64_t> seen(problem.data_marker.size(), 0);
-  for (std::int64_t f = 0; f < problem.frames; ++f)
-    for (std::size_t m = 0; m < seen.size(); ++m)
-      seen[m] += markers.present(problem.first_frame + f, problem.data_marker[m]);
-  return std::ranges::any_of(seen, [&](std::int64_t n) { return n > 0 && n < problem.frames; });
-}
-
 std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
                                            const data::Trajectories& markers,
+                                           const std::vector<std::int64_t>& loose,
                                            const MarkerVariances& variances, FrameWalk& walk,
                                            SolvedFrames& solved, std::vector<std::uint8_t>& changed) {
   changed.assign(at(problem.frames), 0);
@@ -378,11 +367,12 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
   for (int round = 0; round < kRoundsOfRivals && again; ++round) {
     again = false;
     left.clear();
-    Rivals rivals(problem, options, markers, variances, solved);
+    Rivals rivals(problem, options, markers, loose, variances, solved);
     rivals.find();
     rivals.weigh();
     for (std::int64_t f = 0; f < problem.frames; ++f) {
       auto& here = rivals.of(f);
+      if (here.empty()) continue;
       const auto best = static_cast<std::size_t>(std::ranges::max_element(here, {}, &Candidate::probability) -
                                                  here.begin());
       if (here[best].state != solved.states.col(f)) {

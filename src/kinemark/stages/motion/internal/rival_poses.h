@@ -20,19 +20,19 @@ struct RivalPose {
   double probability = 0.0;  ///< by its markers and by the frames before and behind
 };
 
-/// Some frame lacks a marker that others have: only then there may be rivals.
-[[nodiscard]] bool lacks_markers(const Problem& problem, const data::Trajectories& markers);
-
-/// Look for rivals in all frames that lack a marker, and put the likeliest pose of each frame into `solved`;
+/// Look for rivals in all frames with a loose body, and put the likeliest pose of each frame into `solved`;
 /// frames whose pose is another one then are solved as `markers` have them.
 ///
+/// @param loose      F, of find_loose_frames()
 /// @param walk       that solved them; its starts and losses are used
 /// @param variances  of the markers' errors
 /// @param changed    becomes 1 (F) where a frame got another pose
-/// @return           the rivals that are left, by frame. Costs some 20 solutions of a frame for each frame in
-///                   which a coordinate is less well known than with all markers, nothing for others.
+/// @return           the rivals that are left, by frame. Costs up to 32 solutions of a frame in every third
+/// to
+///                   twelfth frame that has a loose body, nothing in others.
 [[nodiscard]] std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
                                                          const data::Trajectories& markers,
+                                                         const std::vector<std::int64_t>& loose,
                                                          const MarkerVariances& variances, FrameWalk& walk,
                                                          SolvedFrames& solved,
                                                          std::vector<std::uint8_t>& changed);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Exchanged labels and visits: whatever was exchanged is found, frame by frame, and nothing else.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +17,9 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 using data::Trajectories;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Swap {
   std::int64_t one = 0, other = 0, first = 0, last = 0;
@@ -111,7 +115,8 @@ TEST(Swaps, TheOtherSideOfTheBodyTellsWhichHalfIsWrong) {
       for (std::int64_t m = 0; m < 6; ++m) {
         const double s = t.time.time_s(f), side = m < 3 ? 1.0 : -1.0;
         const Eigen::Vector3d sites[] = {{0, 0, 0}, {0.20, 0.0, 0}, {0.17, 0.07 * side, 0}};
-        t.x(f, m) = sites[m % 3] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s + m / 3), 0.2 * side, 0.0);
+        t.x(f, m) =
+            sites[m % 3] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s + (m < 3 ? 0.0 : 1.0)), 0.2 * side, 0.0);
         for (double& x : t.x(f, m)) x += 0.0003 * random.gaussian();
         t.state[t.index(f, m)] = data::SampleState::measured;
       }
@@ -247,6 +252,44 @@ TEST(Swaps, AJumpToWhereNobodyIsIsNoVisit) {
   Trajectories t = testing::walker({.frames = 200});
   for (std::int64_t f = 60; f < 70; ++f) t.x(f, 5) += Eigen::Vector3d(0.0, 0.0, 3.0);
   EXPECT_TRUE(swaps_in(t).empty());
+}
+
+TEST(Swaps, WhatIsSaidOfTheSideFollowsFromWhatIsKnownOfIt) {
+  const auto words = [](const Swap& planted) {
+    Trajectories t = testing::walker({.frames = 200});
+    exchange(t, planted);
+    const Defects found = swaps_in(t);
+    EXPECT_EQ(found.size(), 1U);
+    return found.empty() ? std::string() : found.front().description;
+  };
+  const auto last_tenth = words({2, 4, 170, 199});
+  EXPECT_THAT(last_tenth, HasSubstr("; which side is right cannot be decided by the paths, the far fewer "
+                                    "frames are named"));
+  EXPECT_THAT(last_tenth, Not(HasSubstr("which of these and the other frames are right cannot be decided")));
+  const auto last_half = words({2, 4, 110, 199});
+  EXPECT_THAT(last_half, HasSubstr("; which of these and the other frames are right cannot be decided, the "
+                                   "fewer are named"));
+  EXPECT_THAT(last_half, Not(HasSubstr("which side is right cannot be decided by the paths")));
+  const auto middle = words({2, 4, 60, 80});
+  EXPECT_THAT(middle, HasSubstr("are exchanged in frames 60 to 80 (0.6 to 0.8 s): exchanged back they "
+                                "continue their paths"));
+  EXPECT_THAT(middle, Not(AnyOf(HasSubstr("which side is right cannot be decided by the paths"),
+                                HasSubstr("which of these and the other frames are right"),
+                                HasSubstr("mm from it) and back to its own"))))
+      << "both ends were seen";
+}
+
+TEST(Swaps, AVisitIsNoExchangeAndSaysHowNearItWas) {
+  Trajectories t = testing::walker({.frames = 200});
+  for (std::int64_t f = 60; f < 66; ++f) {
+    t.x(f, 5) = t.x(f, 2);
+    t.set_missing(f, 2);
+  }
+  const Defects found = swaps_in(t);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].description, HasSubstr("mm from it) and back to its own"));
+  EXPECT_THAT(found[0].description, HasSubstr("in frames 60 to 65 (0.6 to 0.65 s)"));
+  EXPECT_THAT(found[0].description, Not(HasSubstr(": exchanged back they continue their paths")));
 }
 
 TEST(Swaps, NothingIsFoundWhereThereIsNothing) {
