@@ -119,6 +119,57 @@ class Joints(CommandTest):
         self.assertLess(self.rms_mm("centres.csv")[0], 1.5)
         self.assertTrue((self.folder / "centres_skeleton.json").is_file())
 
+    def test_names_of_a_known_set_are_the_segments(self):
+        text = self.folder.joinpath("arm.csv").read_text()
+        for old, new in (("u", "RUA"), ("f", "RFA")):
+            for k in range(4):
+                text = text.replace(f",{old}{k},", f",{new}{k + 1},")
+        self.write("named.csv", text)
+        ran = self.good("joints", "named.csv", "-o", "out", "--json")
+        self.assertIn("Segments from the markers' names (ISB); 1 of 1 joints are known.", ran.err)
+        self.assertNotIn("Not determined", ran.err)
+        self.assertNotIn("their names are of no known set", ran.err)
+        printed = json.loads(ran.out)
+        self.assertEqual(printed["segmentation"]["from"], "names")
+        self.assertEqual([joint["name"] for joint in printed["joints"]], ["elbow_r"])
+        self.assertNotIn("topology", printed)
+        self.assertIn('name = "upper_arm_r"', (self.folder / "out/segments.toml").read_text())
+        self.assertLess(self.rms_mm("out/centres.csv")[0], 1.5)
+
+    def test_markers_that_a_model_made_are_left_out(self):
+        lines = self.folder.joinpath("arm.csv").read_text().splitlines()
+        made = [f"{f},{f / 60},RKJC,{x},{y},{z},measured" for f, (x, y, z) in enumerate(self.elbows)]
+        self.write("more.csv", "\n".join(lines + made) + "\n")
+        ran = self.good("joints", "more.csv", "--method", "score", "--json")
+        self.assertIn("Points that a model made of markers, by their names, were left out: RKJC.", ran.err)
+        printed = json.loads(ran.out)
+        self.assertEqual(printed["segmentation"]["model_outputs"], ["RKJC"])
+        self.assertNotIn("RKJC", [marker["name"] for marker in printed["topology"]["markers"]])
+        self.assertNotIn("Points that a model made", self.good("joints", "arm.csv", "--method", "score").err)
+
+    def test_two_markers_are_no_body(self):
+        self.write("few.csv", arm(lose=lambda f, name: name[1] in "23")[0])
+        for method in ("articulated", "score"):
+            ran = self.good("joints", "few.csv", "--method", method, "-o", method, status=1)
+            self.assertIn("No joint is determined. Name the segments of the body in a file (--segments)", ran.err)
+            self.assertNotIn("centre known to", ran.err)
+            self.assertEqual([path.name for path in (self.folder / method).iterdir()], ["skeleton.json"])
+            skeleton = json.loads((self.folder / method / "skeleton.json").read_text())
+            self.assertEqual(skeleton["joints"], [])
+            self.assertEqual(skeleton["segmentation"]["known"], [])
+
+    def test_a_joint_that_is_not_determined_has_its_reason(self):
+        text = arm(lose=lambda f, name: name in ("f2", "f3"))[0]
+        for old, new in (("u", "RUA"), ("f", "RFA")):
+            for k in range(4):
+                text = text.replace(f",{old}{k},", f",{new}{k + 1},")
+        self.write("few.csv", text)
+        ran = self.good("joints", "few.csv", "-o", "out", "--report", "page.html", status=1)
+        words = "Not determined: joint 'elbow_r' between upper_arm_r [RUA1, RUA2, RUA3, RUA4] and forearm_r [RFA1, RFA2]: "
+        self.assertIn(words + "forearm_r has 2 markers (RFA1, RFA2), and a pose needs three that are not in a line.", ran.err)
+        data = json.loads(report_data((self.folder / "page.html").read_text()))
+        self.assertEqual(data["result"]["segmentation"]["not_determined"][0]["name"], "elbow_r")
+
     def test_a_marker_that_slips_is_named(self):
         self.write("slip.csv", arm(frames=300, slip=0.015)[0])
         ran = self.good("joints", "slip.csv", "--segments", "segments.toml", "--method", "score")

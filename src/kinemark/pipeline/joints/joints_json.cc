@@ -133,7 +133,7 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
 Json topology_json(const JointsOutcome& outcome) {
   const auto& topology = *outcome.topology;
   Json out;
-  const auto& outputs = outcome.segmentation->model_outputs;
+  const auto outputs = outcome.segmentation ? outcome.segmentation->model_outputs : std::vector<int>();
   for (std::size_t m = 0; m < topology.markers.size(); ++m)
     if (std::ranges::find(outputs, static_cast<int>(m)) == outputs.end())
       out["markers"].push_back({{"name", outcome.skeleton.markers[m]},

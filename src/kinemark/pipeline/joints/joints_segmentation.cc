@@ -23,6 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMarkersNamed = 8;
+constexpr double kLeastSpreadSaid_m = 0.05e-3;  ///< less is 0.0 mm
 constexpr skeleton::SegmentationOptions kRules;
 
 std::vector<std::string> names_of(const std::vector<int>& which, const std::vector<std::string>& names) {
@@ -100,6 +101,7 @@ void add_spread(data::Skeleton& skeleton, std::size_t j, double spread_m) {
   for (auto& length : skeleton.lengths)
     if (at(length.joint_a) == j || at(length.joint_b) == j)
       length.sd_m = std::hypot(length.sd_m, std::sqrt(variance));
+  if (spread_m < kLeastSpreadSaid_m) return;
   joint.description += fmt::format(
       "; rivals of its segmentation place it {:.1f} mm away (RMS), which widens this to {:.1f} mm and is in "
       "the SD",
@@ -147,20 +149,18 @@ std::vector<std::string> words_of(const JointsOutcome& outcome) {
     return join_names(names_of(which, names), kMarkersNamed);
   };
   if (!found.model_outputs.empty())
-    out.push_back(
-        fmt::format("{} points are what a model made of markers, by their names, and were left out: {}.",
-                    found.model_outputs.size(), list(found.model_outputs)));
+    out.push_back(fmt::format("Points that a model made of markers, by their names, were left out: {}.",
+                              list(found.model_outputs)));
   for (const auto& aside : found.aside)
     out.push_back(
         fmt::format("Marker '{}' was put aside: its name says {}, but its distances to the markers there "
                     "vary by {:.0f} mm (median SD).",
                     names[at(aside.marker)], aside.segment, 1e3 * aside.distance_sd_m));
   if (!found.over_joints.empty())
-    out.push_back(fmt::format("{} markers over or beside joints are on neither side: {}.",
-                              found.over_joints.size(), list(found.over_joints)));
+    out.push_back(fmt::format("On neither side of a joint, as they lie over it or beside it: {}.",
+                              list(found.over_joints)));
   if (!found.unplaced.empty())
-    out.push_back(fmt::format("{} markers are on no segment of a joint: {}.", found.unplaced.size(),
-                              list(found.unplaced)));
+    out.push_back(fmt::format("On no segment of a joint that was looked for: {}.", list(found.unplaced)));
   return out;
 }
 

@@ -81,6 +81,58 @@ TEST(DescribeJoint, PriorKnowledgeIsNotPassedOffAsData) {
   }
 }
 
+bool says(const data::SkeletonJoint& joint, const char* words, const Eigen::Vector3d& sd_rad = kAround) {
+  return describe_joint(joint, sd_rad).find(words) != std::string::npos;
+}
+
+TEST(DescribeJoint, ABallThatIsKnownHasNoOtherSentence) {
+  const auto known = ball(1.0, {0.001, 0.0005, 0.002});
+  EXPECT_FALSE(says(known, "axis direction known to"));
+  EXPECT_FALSE(says(known, "axis direction not known"));
+  EXPECT_FALSE(says(known, ", position along it not"));
+  EXPECT_FALSE(says(known, ": the motion was too small", {0.08, 0.07, 0.05}));
+  EXPECT_FALSE(says(known, ": the motion was one arc only (SD", {0.4, 0.09, 0.05}));
+  EXPECT_FALSE(says(known, "mm across one direction, to"));
+  EXPECT_FALSE(says(known, "mm in one direction only, to"));
+  EXPECT_FALSE(says(known, "; another part of the trial repeats it to"));
+  EXPECT_FALSE(says(known, "motion not seen as an angle"));
+  EXPECT_FALSE(says(known, ": the joint hardly moves, neither centre nor axis can be known"));
+  EXPECT_FALSE(says(known, "; prior-dominated: most of this is what is known of skin"));
+}
+
+TEST(DescribeJoint, WhatIsOpenIsSaidOfThatAlone) {
+  const auto line = ball(1.0, {0.001, 0.05, 0.002}), plane = ball(0.5, {0.001, 0.05, 0.1});
+  EXPECT_TRUE(says(line, "across one direction, to 50.0 mm along it"));
+  EXPECT_FALSE(says(line, "in one direction only, to"));
+  EXPECT_TRUE(says(plane, "in one direction only, to 100.0 mm in the others"));
+  EXPECT_FALSE(says(plane, "across one direction, to"));
+  EXPECT_FALSE(says(line, ": the motion was too small", {0.11, 0.07, 0.05}));
+  EXPECT_TRUE(says(line, ": the motion was too small", {0.09, 0.07, 0.05}));
+}
+
+TEST(DescribeJoint, TheShareOfThePriorOfAHingeNamesWhatLeavesNoTrace) {
+  data::SkeletonJoint hinge = ball(1.0, {0.09, 0.001, 0.001});
+  hinge.kind = data::JointKind::hinge;
+  hinge.axis_in_parent = Eigen::Vector3d::UnitX();
+  hinge.axis_sd_rad = 0.035;
+  hinge.prior_share = 0.8;
+  EXPECT_TRUE(
+      says(hinge, "; prior-dominated: most of this is what is known of skin, not what this recording shows"));
+  EXPECT_TRUE(says(hinge, "(1 mm of sliding per rad moves the axis by 1 mm and leaves no trace)"));
+  hinge.prior_share = 0.2;
+  EXPECT_FALSE(says(hinge, "(1 mm of sliding per rad moves the axis by 1 mm and leaves no trace)"));
+  data::SkeletonJoint joint = ball(1.0, {0.001, 0.0005, 0.009});
+  joint.prior_share = 0.8;
+  EXPECT_FALSE(says(joint, "(1 mm of sliding per rad moves the axis by 1 mm")) << "a ball is not a line";
+}
+
+TEST(DescribeJoint, AChildsCovarianceStandsInWhereTheParentsIsNotKnown) {
+  data::SkeletonJoint joint = ball(1.0, {0.001, 0.001, 0.001});
+  joint.covariance_in_parent.setConstant(std::numeric_limits<double>::quiet_NaN());
+  joint.covariance_in_child = Eigen::Vector3d(1e-6, 4e-6, 9e-6).asDiagonal();
+  EXPECT_EQ(describe_joint(joint, kAround), "57 deg of motion: centre known to 3.0 mm");
+}
+
 TEST(DescribeJoint, AStillJointAndAnUnknownOneSaySo) {
   EXPECT_EQ(describe_joint(ball(0.01, {0.3, 0.3, 0.3}), kAround),
             "1 deg of motion: the joint hardly moves, neither centre nor axis can be known");

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <utility>
 
 #include "kinemark/stages/skeleton/functional/score.h"
 #include "kinemark/stages/skeleton/functional/testing/joint_setup.h"
@@ -26,6 +27,10 @@ struct Fitted {
                         swings.hinge ? data::JointKind::hinge : data::JointKind::ball)),
         slide(measure_skin_slide(setup.samples, setup.parent, setup.child, setup.task.motion, score, prior)) {
   }
+
+  /// Error of the expected place, and covariance about the place of least squares.
+  [[nodiscard]] Eigen::Vector3d expected_error() const { return error() + slide.shift.tail<3>(); }
+  [[nodiscard]] Matrix6 about() const { return slide.covariance + slide.shift * slide.shift.transpose(); }
 
   /// Error of least squares in the child's axes; for a hinge across the axis.
   [[nodiscard]] Eigen::Vector3d error() const {
@@ -53,70 +58,90 @@ TEST(SkinSlide, IsNotLookedForInFewFramesOrInExactOnes) {
 
 TEST(SkinSlide, RigidMarkersHaveTheErrorOfNoise) {
   for (const bool hinge : {false, true}) {
-    double squares = 0.0, stated = 0.0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    double squares = 0.0, stated = 0.0, least = 0.0, wider = 0.0;
+    int by_noise = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       const Fitted fitted({.hinge = hinge, .noise_sd_m = 0.001, .seed = seed});
       ASSERT_TRUE(fitted.slide.known);
       EXPECT_GT(fitted.slide.none, 0.3) << seed;
-      EXPECT_EQ(fitted.slide.prior_share, 0.0) << seed;
-      squares += fitted.error().squaredNorm();
+      by_noise += fitted.slide.prior_share == 0.0;
+      squares += fitted.expected_error().squaredNorm();
       stated += fitted.slide.covariance.bottomRightCorner<3, 3>().trace();
+      least += fitted.error().squaredNorm();
+      wider += fitted.about().bottomRightCorner<3, 3>().trace();
     }
+    EXPECT_GE(by_noise, 7) << hinge << ": where the markers hide no slide of a size that matters";
     EXPECT_GT(std::sqrt(stated / squares), 0.7) << hinge;
-    EXPECT_LT(std::sqrt(stated / squares), 1.5) << hinge;
+    EXPECT_LT(std::sqrt(stated / squares), 1.6) << hinge;
+    EXPECT_GT(std::sqrt(wider / least), 0.7) << hinge;
+    EXPECT_LT(std::sqrt(wider / least), 2.2) << hinge;
   }
 }
 
 TEST(SkinSlide, SlidingMarkersHaveTheErrorOfSlides) {
   for (const bool hinge : {false, true}) {
     double by_slide = 0.0, by_scatter = 0.0, n = 0.0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       const Fitted fitted({.hinge = hinge, .own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
       EXPECT_LT(fitted.slide.none, 1e-6) << seed;
       EXPECT_GT(fitted.slide.own_child_m, 4.0 * fitted.slide.own_parent_m) << seed;
       const Eigen::Vector3d error = fitted.error();
-      const Matrix6 about = fitted.slide.covariance + fitted.slide.shift * fitted.slide.shift.transpose();
-      by_slide += error.squaredNorm() / about.bottomRightCorner<3, 3>().trace();
+      by_slide += error.squaredNorm() / fitted.about().bottomRightCorner<3, 3>().trace();
       by_scatter += error.squaredNorm() / fitted.score.scatter.bottomRightCorner<3, 3>().trace();
       n += 1.0;
     }
-    // How well it covers is asked of limbs, in tests/acceptance/accept_joints_skin.cc.
+    // How well it covers is asked of limbs, in tests/acceptance/accept_skin.cc.
     EXPECT_LT(by_slide / n, 2.0) << hinge;
     EXPECT_GT(by_scatter / n, 5.0) << hinge << ": movements all show the same slide";
   }
 }
 
-TEST(SkinSlide, TheExpectedPlaceIsNearerThanLeastSquares) {
-  double expected = 0.0, least = 0.0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Fitted fitted({.own_slide_m = 0.006, .common_slide_m = 0.004, .seed = seed});
-    expected += (fitted.error() + fitted.slide.shift.tail<3>()).squaredNorm();
-    least += fitted.error().squaredNorm();
-  }
-  EXPECT_LT(expected, least);
+TEST(SkinSlide, HalfWayToTheExpectedPlaceIsNearerThanLeastSquares) {
+  for (const bool hinge : {false, true})
+    for (const double common_slide_m : {0.0, 0.008}) {
+      double half_way = 0.0, expected = 0.0, least = 0.0;
+      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const Fitted fitted(
+            {.hinge = hinge, .own_slide_m = 0.004, .common_slide_m = common_slide_m, .seed = seed});
+        half_way += (fitted.error() + 0.5 * fitted.slide.shift.tail<3>()).squaredNorm();
+        expected += fitted.expected_error().squaredNorm();
+        least += fitted.error().squaredNorm();
+      }
+      EXPECT_LT(half_way, least) << hinge << " " << common_slide_m;
+      if (common_slide_m > 0.0) {
+        EXPECT_LT(expected, half_way) << hinge << ": slides are as the model has them";
+      }
+    }
 }
 
 TEST(SkinSlide, MovementsShareMostOfIt) {
-  double repeated = 0.0, all = 0.0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Fitted fitted({.own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
-    EXPECT_TRUE(fitted.slide.repeatability.allFinite());
-    repeated += fitted.slide.repeatability.trace();
-    all += fitted.slide.covariance.trace();
+  // Arcs in many directions differ by more than swings about one axis, which all show the same.
+  for (const auto& [hinge, share] : {std::pair{false, 0.7}, {true, 0.01}}) {
+    double repeated = 0.0, all = 0.0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const Fitted fitted({.hinge = hinge, .own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
+      EXPECT_TRUE(fitted.slide.repeatability.allFinite());
+      repeated += fitted.slide.repeatability.trace();
+      all += fitted.about().trace();
+    }
+    EXPECT_GT(repeated, 0.0);
+    EXPECT_LT(repeated, share * all) << hinge;
   }
-  EXPECT_GT(repeated, 0.0);
-  EXPECT_LT(repeated, 0.7 * all);
 }
 
-TEST(SkinSlide, AHingeIsPriorDominatedAndNothingIsSaidAlongIt) {
-  int dominated = 0;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Fitted fitted({.hinge = true, .own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
+TEST(SkinSlide, AHingeOfSmallSwingsIsPriorDominatedAndNothingIsSaidAlongIt) {
+  int dominated = 0, of_a_ball = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Fitted fitted(
+        {.hinge = true, .range_rad = 0.25, .own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
     dominated += fitted.slide.prior_share > 0.5;
+    const Fitted ball({.own_slide_m = 0.006, .common_slide_m = 0.006, .seed = seed});
+    of_a_ball += ball.slide.prior_share > 0.5;
     EXPECT_LT(std::abs(fitted.slide.shift.head<3>().dot(fitted.score.axis_in_parent)), 1e-12);
     EXPECT_LT((fitted.slide.covariance.topLeftCorner<3, 3>() * fitted.score.axis_in_parent).norm(), 1e-12);
   }
-  EXPECT_GE(dominated, 7) << "a slide in proportion to the angle leaves no trace";
+  EXPECT_GE(dominated, 4) << "a slide in proportion to a small angle leaves no trace";
+  EXPECT_LE(of_a_ball, 1) << "arcs of many directions tell it";
 }
 
 TEST(SkinSlide, APriorThatExpectsMoreIsWider) {

@@ -56,7 +56,11 @@ TEST(JudgeLayout, NamesMarkersTooFarApart) {
   for (double& c : chain.markers.x_in_world) c *= 20.0;
   const auto found = judge_layout(chain.markers, chain.layout, {.most_noise_m = 0.1});
   ASSERT_EQ(found.size(), 3U);
-  for (const auto& f : found) EXPECT_EQ(f.figure, BodyFigure::spread);
+  for (const auto& f : found) {
+    EXPECT_EQ(f.figure, BodyFigure::spread);
+    EXPECT_NE(f.sentence().find(": two of its markers are "), std::string::npos) << f.sentence();
+    EXPECT_NE(f.sentence().find("1000 mm or less is expected of a body"), std::string::npos) << f.sentence();
+  }
 }
 
 TEST(JudgeLayout, NamesAJointWithoutACommonPoint) {
@@ -73,6 +77,10 @@ TEST(JudgeLayout, NamesAJointWithoutACommonPoint) {
   EXPECT_EQ(found[0].name, chain.layout.joints[1].name);
   EXPECT_EQ(found[0].figure, BodyFigure::gap);
   EXPECT_NEAR(found[0].value_m, 0.17, 0.05) << "0.3 / sqrt(3)";
+  EXPECT_NE(found[0].sentence().find("Joint 'j1': its two segments place it 1"), std::string::npos)
+      << found[0].sentence();
+  EXPECT_NE(found[0].sentence().find(" mm apart (RMS per axis); 20 mm or less is expected of a body."),
+            std::string::npos);
 }
 
 TEST(JudgeSkeleton, SaysNothingOfABody) {
@@ -92,7 +100,8 @@ TEST(JudgeSkeleton, NamesTheJointThatIsKnownWorse) {
     EXPECT_EQ(found[0].figure, BodyFigure::length);
     EXPECT_EQ(found[0].name, skeleton.joints[1].name);
     EXPECT_EQ(found[0].other, skeleton.joints[0].name);
-    EXPECT_NE(found[0].sentence().find("5 to 1500 mm"), std::string::npos);
+    EXPECT_NE(found[0].sentence().find("of the same segment; 5 to 1500 mm are expected of a body"),
+              std::string::npos);
   }
   skeleton.lengths[0].length_m = 1.49;
   EXPECT_TRUE(judge_skeleton(chain.markers, skeleton).empty());
@@ -106,6 +115,9 @@ TEST(JudgeSkeleton, NamesAJointFarFromItsMarkers) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].figure, BodyFigure::reach);
   EXPECT_NEAR(found[0].value_m, 3.0, 0.3);
+  EXPECT_NE(found[0].sentence().find("mm from the nearest marker of a segment; 1500 mm or less"),
+            std::string::npos)
+      << found[0].sentence();
 }
 
 TEST(JudgeSkeleton, NamesAJointThatLeavesItsMarkers) {
@@ -119,6 +131,9 @@ TEST(JudgeSkeleton, NamesAJointThatLeavesItsMarkers) {
   EXPECT_EQ(found[0].figure, BodyFigure::distance);
   EXPECT_EQ(found[0].name, skeleton.joints[1].name);
   EXPECT_GT(found[0].value_m, 0.02);
+  EXPECT_NE(found[0].sentence().find(": its distance from a marker of its segments changes by "),
+            std::string::npos)
+      << found[0].sentence();
 }
 
 TEST(JudgeSkeleton, NamesAJointWhereTheNoiseAloneIsTooLarge) {
@@ -128,7 +143,8 @@ TEST(JudgeSkeleton, NamesAJointWhereTheNoiseAloneIsTooLarge) {
   const auto found = judge_skeleton(chain.markers, skeleton);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].figure, BodyFigure::noise);
-  EXPECT_NE(found[0].sentence().find("noise is 38.9 mm"), std::string::npos) << found[0].sentence();
+  EXPECT_NE(found[0].sentence().find(": with it the markers' noise is 38.9 mm per axis"), std::string::npos)
+      << found[0].sentence();
 }
 
 TEST(LeaveOut, TakesASegmentWithItsJointsAndAJointAlone) {

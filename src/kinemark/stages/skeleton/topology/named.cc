@@ -150,21 +150,28 @@ double spread_of(internal::PoseStore& store, const Place& place, const Segmentat
   return kinds > 0.0 ? std::sqrt((mean_square(halves) + mean_square(markers)) / kinds) : kNaN;
 }
 
+std::int64_t frames_together(const SegmentPoses& a, const SegmentPoses& b) {
+  std::int64_t n = 0;
+  for (std::size_t f = 0; f < a.known.size(); ++f) n += a.known[f] != 0 && b.known[f] != 0 ? 1 : 0;
+  return n;
+}
+
 /// Figures of a joint between two segments with a pose, and why it is not known, if so.
 void judge(internal::PoseStore& store, const SegmentationOptions& options, JudgedJoint& joint) {
-  const auto place = internal::find_place(store.of(joint.parent), store.of(joint.child));
-  if (!place) {
+  const SegmentPoses &above = store.of(joint.parent), &below = store.of(joint.child);
+  if (frames_together(above, below) < kLeastSeen) {
     joint.reason = "the two were hardly seen together";
     return;
   }
-  joint.hinge = place->hinge;
-  joint.gap_m = place->gap_m;
-  joint.turn_rad = place->turn_rad[0];
-  if (joint.turn_rad < options.least_turn_rad) {
+  const auto place = internal::find_place(above, below);
+  joint.turn_rad = place ? place->turn_rad[0] : 0.0;
+  if (!place || joint.turn_rad < options.least_turn_rad) {
     joint.reason = fmt::format("the two hardly turn against each other (SD {:.1f} deg, {:.0f} are needed)",
                                joint.turn_rad * kDegPerRad, options.least_turn_rad * kDegPerRad);
     return;
   }
+  joint.hinge = place->hinge;
+  joint.gap_m = place->gap_m;
   if (joint.gap_m > options.most_gap_m) {
     joint.reason = fmt::format("the two place it {:.1f} mm apart (RMS; {:.0f} at most)", 1e3 * joint.gap_m,
                                1e3 * options.most_gap_m);

@@ -127,7 +127,8 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   by.slides = positive_part(slide.covariance - slide.noise) + rest * rest.transpose();
   by.in_parent = of_fewer_frames(joint.covariance_in_parent, slide.frames_alike, joint.axis_in_parent);
   by.in_child = of_fewer_frames(joint.covariance_in_child, slide.frames_alike, joint.axis_in_child);
-  const Matrix6 repeats = positive_part(slide.repeatability - slide.noise);
+  // Another part of the trial may move the joint otherwise, or, where it shows no skin, not at all.
+  const Matrix6 repeats = positive_part(slide.repeatability - slide.noise) + by.shift * by.shift.transpose();
   joint.repeatability_in_parent += by.in_parent + repeats.topLeftCorner<3, 3>();
   joint.repeatability_in_child += by.in_child + repeats.bottomRightCorner<3, 3>();
   joint.centre_in_parent += by.shift.head<3>();

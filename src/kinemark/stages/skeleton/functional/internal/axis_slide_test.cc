@@ -30,8 +30,13 @@ struct Hinge {
                                  setup.task.motion, posture, fit);
   }
   [[nodiscard]] Eigen::Vector3d error() const {
-    const Eigen::Vector3d truth =
-        setup.parent.world_from_segment[0].transpose() * setup.chain.world_from_segment[0][0].col(0);
+    // The bone's axis in the axes that the markers give the segment, mean over frames: each has its noise.
+    Eigen::Vector3d truth = Eigen::Vector3d::Zero();
+    for (const std::int64_t f : setup.task.motion.frames) {
+      const auto i = static_cast<std::size_t>(f);
+      truth += setup.parent.world_from_segment[i].transpose() * setup.chain.world_from_segment[0][i].col(0);
+    }
+    truth.normalize();
     return fit.axis_in_parent * (fit.axis_in_parent.dot(truth) < 0.0 ? -1.0 : 1.0) - truth;
   }
 };

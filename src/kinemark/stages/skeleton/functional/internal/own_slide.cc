@@ -116,6 +116,7 @@ OwnSlide find_own_slide(const Eigen::MatrixXd& deformation, const Posture& postu
     below += out.weight[i];
   }
   out.size_m = std::sqrt(squares);
+  out.limit_m = std::max(out.limit_m, out.size_m);
   return out;
 }
 

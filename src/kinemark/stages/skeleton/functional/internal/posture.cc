@@ -23,7 +23,8 @@ constexpr double kBlock_s = 0.2;
 constexpr double kLag_s = 0.1;
 constexpr double kLeastStep = 0.5;  ///< a step of this many SDs from frame to frame is no path in time
 constexpr double kMovementSmooth_s = 0.25, kLeastMovement_s = 0.8;
-constexpr double kSwing = 0.5;  ///< of the first component's SD: what is less is no movement
+constexpr double kOneAxis = 0.25;  ///< of the second component's SD over the first's
+constexpr double kSwing = 0.5;     ///< of the first component's SD: what is less is no movement
 
 /// Means weighted by a normal density of `sigma` frames, the ends reflected.
 Eigen::MatrixXd smoothed(const Eigen::MatrixXd& in, double sigma) {
@@ -125,20 +126,20 @@ std::vector<int> rises_of_distance(const Posture& posture) {
 }
 
 /// A movement begins where the first component, having been low, rises beyond half an SD: to and fro about
-/// one axis.
+/// one axis. What lies before the first belongs to it.
 std::vector<int> swings_of_first(const Posture& posture) {
   const auto n = posture.component.rows();
   std::vector<int> out(at(n), 0);
   const double bound = kSwing * posture.sd_rad(0);
   bool low = false;
-  int movement = 0;
+  int begun = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (posture.component(i, 0) < -bound) low = true;
     if (low && posture.component(i, 0) > bound) {
       low = false;
-      ++movement;
+      ++begun;
     }
-    out[at(i)] = movement;
+    out[at(i)] = std::max(begun - 1, 0);
   }
   return out;
 }
@@ -178,7 +179,10 @@ Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const 
 std::vector<int> movements_of(const Posture& posture) {
   const auto n = posture.component.rows();
   if (!posture.in_time || n < 3) return std::vector<int>(at(n), 0);
-  auto far = rises_of_distance(posture), swings = swings_of_first(posture);
+  auto swings = swings_of_first(posture);
+  // To and fro about one axis the distance from the median rises twice in each movement.
+  if (posture.sd_rad(1) < kOneAxis * posture.sd_rad(0)) return swings;
+  auto far = rises_of_distance(posture);
   return far.back() >= swings.back() ? far : swings;
 }
 

@@ -48,9 +48,9 @@ struct Posture {
                                  const RelativeMotion& motion, const std::vector<std::int64_t>& frames,
                                  double rate_hz);
 
-/// The movement that each frame of a posture belongs to, from 0: by its distance from the median posture (0.8
-/// s or more each) or by the swings of its first component, whichever finds more. All 0 where frames do not
-/// follow each other.
+/// The movement that each frame of a posture belongs to, from 0: about one axis by the swings of the first
+/// component, else by those or by the distance from the median posture (0.8 s or more each), whichever finds
+/// more. All 0 where frames do not follow each other.
 [[nodiscard]] std::vector<int> movements_of(const Posture& posture);
 
 }  // namespace kinemark::skeleton::internal
