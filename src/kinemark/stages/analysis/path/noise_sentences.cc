@@ -133,13 +133,33 @@ void say_filters(std::span<const PathNoise> markers, std::vector<std::string>& o
                     shared.of, members.range(noise_mm)));
     return;
   }
-  out.push_back(fmt::format(
-      "{}: the noise is not white, its spectrum falls as behind a low-pass at {} Hz (-3 dB), and {}: whether "
-      "a "
-      "filter made it is not known; what movement there was above may be lost, and intervals allow for that",
-      falling.names(), falling.range(cutoff_hz),
-      markers.size() < kFewestMembers ? "so few markers cannot agree on a filter"
-                                      : "the recording's markers do not agree on one cut-off"));
+  out.push_back(
+      fmt::format("{}: the noise is not white, its spectrum falls as behind a low-pass at {} Hz (-3 dB); too "
+                  "few of the recording's "
+                  "markers share a cut-off to say that a filter made it; what movement there was above may "
+                  "be lost, and intervals "
+                  "allow for it",
+                  falling.names(), falling.range(cutoff_hz)));
+}
+
+// What is correlated from sample to sample. Of noise that is slower than what can be seen the size is not
+// known, and of its memory no more than the least.
+void say_correlation(std::span<const PathNoise> markers, std::vector<std::string>& out) {
+  const auto correlation = [](const PathNoise& n) { return n.model.correlation; };
+  const auto memory_s = [](const PathNoise& n) { return -1.0 / std::log(n.model.correlation) / n.rate_hz; };
+  const auto correlated = [](const PathNoise& n) {
+    return !n.unusable() && n.model.correlation > kCorrelated;
+  };
+  const auto known =
+      group_of(markers, [&](const PathNoise& n) { return correlated(n) && !n.slow_is_unknown(); });
+  if (!known.empty())
+    out.push_back(fmt::format("{}: noise of {} mm, correlated over {} s (AR {})", known.names(),
+                              known.range(noise_mm), known.range(memory_s), known.range(correlation)));
+  const auto slow =
+      group_of(markers, [&](const PathNoise& n) { return correlated(n) && n.slow_is_unknown(); });
+  if (!slow.empty())
+    out.push_back(fmt::format("{}: the noise is correlated over {:.2g} s or more (AR {:.2g} or more)",
+                              slow.names(), slow.least(memory_s), slow.least(correlation)));
 }
 
 // Markers whose noise is smaller, or larger, than what was stated.
@@ -204,14 +224,7 @@ std::vector<std::string> noise_sentences(std::span<const PathNoise> markers) {
         fmt::format("{}: the spectrum falls within the movement's band as behind a low-pass: how much that "
                     "took away is not in the data, no interval of peaks and jerk",
                     within.names()));
-  const auto correlated = group_of(
-      markers, [](const PathNoise& n) { return !n.unusable() && n.model.correlation > kCorrelated; });
-  if (!correlated.empty())
-    out.push_back(fmt::format("{}: noise of {} mm, correlated over {} s (AR {})", correlated.names(),
-                              correlated.range(noise_mm), correlated.range([](const PathNoise& n) {
-                                return -1.0 / std::log(std::min(n.model.correlation, 0.9999)) / n.rate_hz;
-                              }),
-                              correlated.range([](const PathNoise& n) { return n.model.correlation; })));
+  say_correlation(markers, out);
   const auto slow =
       group_of(markers, [](const PathNoise& n) { return !n.unusable() && n.slow_is_unknown(); });
   if (!slow.empty()) out.push_back(range_sentence(slow));

@@ -13,6 +13,7 @@ namespace kinemark::trajectory {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kSigma = 0.001;
 
@@ -86,6 +87,25 @@ TEST(Butterworth, StretchesAreFilteredApart) {
   const auto a = smooth(in, of(FilterMethod::butterworth, 6.0)).value();
   const auto b = smooth(changed, of(FilterMethod::butterworth, 6.0)).value();
   for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(a.derivatives.velocity[i], b.derivatives.velocity[i]) << i;
+}
+
+TEST(Butterworth, SaysWhatWasAskedAndWhatWasFound) {
+  const auto said = [](const SmoothOptions& options, int frames = 300) {
+    return smooth(noise_only(frames), options)->markers[0].description;
+  };
+  const auto asked = said(of(FilterMethod::butterworth, 7.5)), found = said(of(FilterMethod::butterworth)),
+             classic = said(of(FilterMethod::classic)), none = said(of(FilterMethod::none));
+  EXPECT_THAT(asked, HasSubstr("Order 2 both ways, 7.5 Hz as asked."));
+  EXPECT_THAT(found, Not(HasSubstr("Hz as asked.")));
+  EXPECT_THAT(found, HasSubstr("Order 2 both ways, "));
+  EXPECT_THAT(none, HasSubstr("Not filtered; two-point differences."));
+  EXPECT_THAT(asked, Not(HasSubstr("Not filtered; two-point")));
+  EXPECT_THAT(none, Not(HasSubstr("Order 2 both ways, ")));
+  EXPECT_THAT(classic, HasSubstr("Hz together, two-point differences."));
+  EXPECT_THAT(found, Not(HasSubstr("Hz together, two-point differences.")));
+  EXPECT_THAT(said(of(FilterMethod::butterworth), 8),
+              HasSubstr(": no stretch of 12 samples to choose a cut-off by."));
+  EXPECT_THAT(found, Not(HasSubstr("samples to choose a cut-off by.")));
 }
 
 TEST(Butterworth, RulesAreNamed) {

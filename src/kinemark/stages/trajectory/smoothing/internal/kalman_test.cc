@@ -216,8 +216,10 @@ TEST(SmoothKalman, SaysWhichGapsHiddenStretchesCorrected) {
   const std::string sentence = "4 gaps are corrected by what ";
   const auto said = smoothed(gappy_tremor(16, 1), options);
   EXPECT_NE(said.account.description.find(sentence), std::string::npos) << said.account.description;
+  EXPECT_TRUE(said.account.description.contains("% of the error in velocity or less is left"));
   const auto whole = smoothed(gappy_tremor(0, 1), options);
   EXPECT_EQ(whole.account.description.find("corrected"), std::string::npos) << "no gaps";
+  EXPECT_FALSE(whole.account.description.contains("% of the error in velocity or less is left"));
   const auto open = smoothed(gappy_tremor(16, 1), {.method = FilterMethod::kalman});
   EXPECT_EQ(open.account.description.find("corrected"), std::string::npos) << "none is bridged";
   options.cutoff_hz = 9.0;
@@ -261,6 +263,21 @@ TEST(SmoothKalman, SaysWhatItChoseAndWhatItWasGiven) {
   EXPECT_EQ(chosen.account.noise_from, "data");
   EXPECT_NEAR(chosen.account.used.noise_sd_m / 0.001, 1.0, 0.2);
   EXPECT_EQ(chosen.account.criterion_name, "SURE, m^2");
+  EXPECT_FALSE(chosen.account.description.contains(": as asked."));
+  EXPECT_FALSE(chosen.account.description.contains("samples are too few to choose by."));
+  EXPECT_FALSE(asked.account.description.contains("all orders and cut-offs tried"));
+  EXPECT_FALSE(asked.account.description.contains("Hz, moved towards the best for velocities"));
+  // What was left to choose is what is said to have been tried.
+  const auto order = smoothed(noisy_path(200, 9), {.method = FilterMethod::kalman, .order = 4})
+                         .account.description,
+             cut_off = smoothed(noisy_path(200, 9), {.method = FilterMethod::kalman, .cutoff_hz = 6.0})
+                           .account.description;
+  EXPECT_TRUE(order.contains("of all cut-offs tried at this order")) << order;
+  EXPECT_FALSE(order.contains("all orders tried at this cut-off"));
+  EXPECT_TRUE(cut_off.contains("all orders tried at this cut-off") ||
+              cut_off.contains("too little to give up jerk"))
+      << cut_off;
+  EXPECT_FALSE(cut_off.contains("all cut-offs tried at this order"));
   const auto few = smoothed(noisy_path(3, 9), {.method = FilterMethod::kalman});
   EXPECT_NE(few.account.description.find("3 samples are too few to choose by"), std::string::npos);
   EXPECT_TRUE(few.account.criterion_name.empty());

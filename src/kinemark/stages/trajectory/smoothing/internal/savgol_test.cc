@@ -85,6 +85,16 @@ TEST(Savgol, WindowIsCrossValidatedAndTheNoiseFound) {
   EXPECT_LT(std::sqrt(error / bar), 1.7);
 }
 
+TEST(Savgol, SaysWhyTheWindowIsWhatItIs) {
+  const auto in = of(400, [](double t) { return 0.2 * std::sin(5.0 * t); }, 0.001);
+  const auto asked = smooth(in, savgol(4, 4.0)).value().markers[0].description;
+  const auto found = smooth(in, savgol(4)).value().markers[0].description;
+  EXPECT_TRUE(asked.contains("frames for the cut-off asked.")) << asked;
+  EXPECT_FALSE(asked.contains("frames: the least cross-validated error."));
+  EXPECT_TRUE(found.contains("frames: the least cross-validated error.")) << found;
+  EXPECT_FALSE(found.contains("frames for the cut-off asked."));
+}
+
 TEST(Savgol, ShortStretchesAreOnePolynomial) {
   auto in = of(60, [](double t) { return t; });
   for (int f = 20; f < 57; ++f) in.set_missing(f, 0);

@@ -132,12 +132,31 @@ TEST(Whiteness, NothingIsSaidOfASpectrumThatIsHardlyThere) {
   EXPECT_THAT(account.description, testing::Not(testing::HasSubstr("consistent with white")));
 }
 
+TEST(Whiteness, SaysWhichSideTheColourIsOnAndWhatThatDoes) {
+  SmoothOptions options;
+  options.order = 4;
+  options.cutoff_hz = 5.0;
+  const std::string white = account_of(options, 1, 0.0).description,
+                    slow = account_of(options, 1, 0.8).description;
+  EXPECT_THAT(white, testing::HasSubstr(" The residual ("));
+  EXPECT_THAT(white, testing::HasSubstr(" is consistent with white noise (cumulative periodogram, p = "));
+  EXPECT_THAT(white,
+              testing::Not(testing::HasSubstr("because the noise is coloured, the recording was filtered")));
+  EXPECT_THAT(white, testing::Not(testing::HasSubstr("to tell whether it is white.")));
+  EXPECT_THAT(slow, testing::HasSubstr(
+                        "% of the noise power lies too low in frequency, because the noise is coloured, "
+                        "the recording was filtered before, or movement was lost"));
+  EXPECT_THAT(slow, testing::HasSubstr("are then too small."));
+  EXPECT_THAT(slow, testing::Not(testing::HasSubstr("is consistent with white noise")));
+}
+
 TEST(Whiteness, NoFilterLeavesNothingToJudge) {
   SmoothOptions options;
   options.method = FilterMethod::none;
   const data::MarkerAccount account = account_of(options, 1, 0.0);
   EXPECT_FALSE(account.judged());
   EXPECT_THAT(account.description, testing::Not(testing::HasSubstr("white")));
+  EXPECT_THAT(account.description, testing::Not(testing::HasSubstr(" The residual (")));
 }
 
 /// A movement whose third derivative is white, which order 3 describes best, in white noise.
@@ -172,6 +191,11 @@ TEST(ChoiceOfTheFilter, LeastIsSaidOfTheLeastAlone) {
         << account.description;
     EXPECT_EQ(account.description.contains("order " + std::to_string(best->order) + " has"), !taken)
         << account.description;
+    if (taken) {
+      EXPECT_FALSE(account.description.contains(", which is too little to give up jerk for"));
+    } else {
+      EXPECT_TRUE(account.description.contains(", which is too little to give up jerk for"));
+    }
   }
   EXPECT_GT(least, 0);
   EXPECT_GT(other, 0) << "no case in which it must not be said";
