@@ -170,6 +170,29 @@ def check_reconstruct(folder, seed):
         row(blank == 0, f"reconstruct to {ending}: measured samples without a word of smoothing", "0", f"{blank}")
 
 
+def at_frames(lab):
+    """The raw frames at the instants of their frames, as analyze counts time: LEDs light up to 4 ms later, and a stretch of
+    other instants has another path. Moved by the first and second differences of the smoothed path."""
+    frames, smooth = read_csv(lab / "frames.csv"), read_csv(lab / "smooth.csv")
+    place = {key: triple(sample, ("x_m", "y_m", "z_m")) for key, sample in smooth.items() if sample["x_m"]}
+    rate_hz = 1 / (float(frames[2, next(iter(frames))[1]]["time_s"]) - float(frames[1, next(iter(frames))[1]]["time_s"]))
+    with (lab / "at_frames.csv").open("w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["frame", "time_s", "marker", "x_m", "y_m", "z_m"])
+        for (frame, marker), sample in frames.items():
+            x = triple(sample, ("x_m", "y_m", "z_m"))
+            later = rate_hz * float(sample["offset_s"] or 0)  # frames
+            # A parabola through three frames, about this one where it has neighbours.
+            for middle in (frame, frame + 1, frame - 1):
+                near = [place.get((middle + step, marker)) for step in (-1, 0, 1)]
+                if all(near) and not math.isnan(x[0]):
+                    x = [v - later * ((c - a) / 2 + (frame - middle) * (c - 2 * b + a)) - later**2 * (c - 2 * b + a) / 2
+                         for v, a, b, c in zip(x, *near)]
+                    break
+            out.writerow([frame, sample["time_s"], marker, *(["", "", ""] if math.isnan(x[0]) else x)])
+    return lab / "at_frames.csv"
+
+
 def measured(file):
     found = json.loads(run("analyze", file, "--json", "--quiet"))
     return {(m["subject"], m["measure"], m.get("region"), m.get("cycle")): m["interval"] for m in found["measures"]
@@ -205,7 +228,7 @@ def check_measures(folder, seed, count):
                     before, after = measured(here / "raw.c3d"), measured(here / f"clean.{ending}")
                 else:
                     lab = reconstruct(here, one)
-                    before, after = measured(lab / "frames.csv"), measured(lab / f"smooth.{ending}")
+                    before, after = measured(at_frames(lab)), measured(lab / f"smooth.{ending}")
                 some, gone = compare_measures(before, after)
                 off += some
                 lost += gone

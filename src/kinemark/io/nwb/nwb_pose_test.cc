@@ -92,6 +92,7 @@ TEST_F(NwbPose, PiecesMakeTheSameFile) {
     take(piece.x_in_world, 3);
     take(piece.state, 1);
     take(piece.covariance, 6);
+    take(piece.unfiltered_in_world, 3);
     take(piece.sample_offset_s, 1);
     take(piece.method, 1);
     ASSERT_TRUE(writer->write(piece, nullptr, first));

@@ -155,6 +155,8 @@ data::Trajectories cut(const data::Trajectories& t, std::vector<std::int64_t> ma
   out.x_in_world.resize(static_cast<std::size_t>(3 * n * out.markers()));
   out.state.resize(static_cast<std::size_t>(n * out.markers()));
   out.covariance.resize(6 * out.state.size());
+  out.unfiltered_in_world.resize(3 * out.state.size());
+  for (const std::int64_t m : markers) out.filters.push_back(t.filters[static_cast<std::size_t>(m)]);
   out.sample_offset_s.resize(out.state.size());
   for (std::int64_t f = 0; f < n; ++f) {
     for (std::size_t k = 0; k < markers.size(); ++k) {
@@ -162,6 +164,7 @@ data::Trajectories cut(const data::Trajectories& t, std::vector<std::int64_t> ma
       const std::size_t to = out.index(f, static_cast<std::int64_t>(k));
       std::copy_n(t.x_in_world.data() + 3 * from, 3, out.x_in_world.data() + 3 * to);
       std::copy_n(t.covariance.data() + 6 * from, 6, out.covariance.data() + 6 * to);
+      std::copy_n(t.unfiltered_in_world.data() + 3 * from, 3, out.unfiltered_in_world.data() + 3 * to);
       out.state[to] = t.state[from];
       out.sample_offset_s[to] = t.sample_offset_s[from];
       if (const auto by = t.made_by(first + f, markers[k]); !by.empty())
@@ -187,6 +190,12 @@ TEST(NwbWriter, PiecesInAnyOrderMakeTheSameRecording) {
   EXPECT_TRUE(testing::same_bits(back.x_in_world, t.x_in_world));
   EXPECT_TRUE(testing::same_bits(back.covariance, t.covariance));
   EXPECT_TRUE(testing::same_bits(back.sample_offset_s, t.sample_offset_s));
+  EXPECT_TRUE(testing::same_bits(back.unfiltered_in_world, t.unfiltered_in_world));
+  ASSERT_EQ(back.filters.size(), t.filters.size());
+  for (std::size_t m = 0; m < t.filters.size(); ++m) {
+    EXPECT_EQ(back.filters[m].method, t.filters[m].method);
+    EXPECT_EQ(back.filters[m].order, t.filters[m].order);
+  }
   EXPECT_EQ(back.state, t.state);
   for (std::int64_t f = 0; f < frames; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m)
@@ -220,6 +229,12 @@ TEST(NwbWriter, PiecesMustFitTheOutline) {
   EXPECT_THROW((void)writer.write(other), ContractError);
   other = t;
   other.sample_offset_s.clear();
+  EXPECT_THROW((void)writer.write(other), ContractError);
+  other = t;
+  other.unfiltered_in_world.clear();
+  EXPECT_THROW((void)writer.write(other), ContractError);
+  other = t;
+  other.filters.clear();
   EXPECT_THROW((void)writer.write(other), ContractError);
   const auto d = sample_derivatives(t);
   auto promised = NwbWriter::create(scratch / "b.nwb", NwbOutline::of(t, &d)).value();

@@ -210,7 +210,7 @@ TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
 
 TEST_F(RunClean, HandsOnFilterNoiseAndTheSamplesFromBefore) {
   const auto raw = io::read_markers(at("in.c3d")).value().markers;
-  for (const char* name : {"out.c3d", "out.csv", "out.nwb", "out.mat"}) {
+  for (const char* name : {"one.c3d", "two.csv", "three.nwb", "four.mat"}) {
     auto j = job(name);
     j.gaps.method = trajectory::GapMethod::cubic;
     ASSERT_TRUE(run_clean(j)) << name;

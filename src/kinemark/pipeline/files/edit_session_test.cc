@@ -100,8 +100,9 @@ TEST_F(EditSessionTest, KeepsNoMoreStatesThanItMay) {
     good(session, swap_);
     EXPECT_EQ(bytes(session), anew());
   }
-  const auto two = 2 * (session.now().markers.x_in_world.size() * sizeof(double));
-  EXPECT_LT(session.bytes(), 2 * two) << "as it was read, and as it is";
+  const auto& now = session.now().markers;
+  const auto positions = (now.x_in_world.size() + now.unfiltered_in_world.size()) * sizeof(double);
+  EXPECT_LT(session.bytes(), 2 * 2 * positions) << "as it was read, and as it is";
   good(session, {.kind = EditKind::undo, .count = 3});
   EXPECT_EQ(bytes(session), anew());
 }
