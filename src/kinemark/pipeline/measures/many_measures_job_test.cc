@@ -72,7 +72,7 @@ TEST_F(ManyMeasuresTest, TheLinesOfEachRecordingAreThoseOfItsOwnRun) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 0);
   EXPECT_THAT(outcome->written, SizeIs(3));
-  EXPECT_THAT(outcome->notes, ::testing::Contains(HasSubstr("participants.tsv: is joined")));
+  EXPECT_THAT(outcome->notes, ::testing::Contains(HasSubstr("participants.tsv: is joined to the rows")));
   std::string measures, cycles, events;
   for (const auto& file : files_) {
     measures += alone(file, "");
@@ -88,6 +88,14 @@ TEST_F(ManyMeasuresTest, TheLinesOfEachRecordingAreThoseOfItsOwnRun) {
   EXPECT_EQ(rows(job_.gait.write_events), events);
   EXPECT_THAT(measures, HasSubstr("sub-02_ses-1_task-circle.c3d,sub-02,ses-1,task-circle,RFIN,"));
   EXPECT_THAT(measures, HasSubstr(",21,young\n"));
+}
+
+TEST_F(ManyMeasuresTest, ATableThatIsGivenIsNotFoundBesideThem) {
+  job_.output = scratch_ / "all.csv";
+  job_.participants_file = folder_ / "participants.tsv";
+  const auto outcome = run_many_measures(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->notes, ::testing::Not(::testing::Contains(HasSubstr(": is joined to the rows"))));
 }
 
 TEST_F(ManyMeasuresTest, OneBadFileLeavesTheOthers) {

@@ -17,7 +17,9 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Two markers: RFIN reaches, RELB goes around an ellipse; events every second.
 class MeasuresJobTest : public ::testing::Test {
@@ -138,7 +140,9 @@ TEST_F(MeasuresJobTest, WhereNoFootStepsEventsAndCyclesAreThoseOfTheMarkers) {
   ASSERT_EQ(outcome->rhythms.size(), 2u);
   EXPECT_TRUE(outcome->rhythms[1].periodic);
   EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("RFIN: not periodic")));
-  EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("own movements, as there is no walking: ")));
+  EXPECT_THAT(outcome->warnings,
+              ::testing::Contains(HasSubstr(
+                  "events and cycles are those of the markers' own movements, as there is no walking: ")));
   const auto events = io::read_text(job_.gait.write_events).value();
   EXPECT_EQ(count(events, ",RFIN,,,Movement Start,"), 1);
   EXPECT_EQ(count(events, ",RFIN,,,Movement End,"), 1);
@@ -153,6 +157,37 @@ TEST_F(MeasuresJobTest, EventsOfMovementsAreFoundWhereTheyAreAskedFor) {
   EXPECT_TRUE(run_measures(job_)->rhythms.empty());
   job_.gait.events = "movement";
   EXPECT_EQ(run_measures(job_)->rhythms.size(), 2u);
+}
+
+TEST_F(MeasuresJobTest, NothingIsSaidOfEventsThatNobodyAskedFor) {
+  const auto plain = run_measures(job_);
+  ASSERT_TRUE(plain);
+  EXPECT_THAT(plain->warnings, Not(Contains(HasSubstr("Walking is not measured:"))));
+  EXPECT_THAT(plain->warnings, Not(Contains(HasSubstr("movements, as there is no walking:"))));
+  EXPECT_THAT(plain->warnings, Not(Contains(HasSubstr("have no cycles, such as"))));
+  EXPECT_THAT(plain->warnings, Not(Contains(HasSubstr(" has no row for "))));
+  job_.measures = {"peak_speed", "cadence"};
+  const auto asked = run_measures(job_);
+  ASSERT_TRUE(asked) << asked.error().message;
+  EXPECT_THAT(asked->warnings, Contains(HasSubstr("Walking is not measured: ")));
+}
+
+TEST_F(MeasuresJobTest, PathsWithoutCyclesAreCountedOnce) {
+  const auto recorded = io::read_markers(recording_).value();
+  auto trial = recorded;
+  trial.markers = data::Trajectories::all_missing({"RFIN", "RELB", "RWRI"}, recorded.markers.time);
+  for (std::int64_t f = 0; f < 300; ++f)
+    for (int m = 0; m < 3; ++m) {
+      trial.markers.x(f, m) = recorded.markers.x(f, m % 2) + Eigen::Vector3d(m == 2 ? 0.1 : 0.0, 0.0, 0.0);
+      trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
+    }
+  job_.input = scratch_ / "three.c3d";
+  ASSERT_TRUE(io::write_markers(job_.input, trial, false));
+  job_.gait.write_cycles = scratch_ / "cycles.csv";
+  const auto outcome = run_measures(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("2 paths of 3 have no cycles, such as RFIN: not periodic")));
 }
 
 TEST_F(MeasuresJobTest, EventsOfOneMarkerFitIntoTheRecording) {
@@ -189,10 +224,15 @@ TEST_F(MeasuresJobTest, TablesOfNwbAndNamesOfParticipants) {
   job_.participants_file = scratch_ / "files.tsv";
   ASSERT_TRUE(
       io::write_text(job_.participants_file, "file\tparticipant\thand\nsigns.c3d\tAnn\tleft\n", false));
-  ASSERT_TRUE(run_measures(job_));
+  const auto named = run_measures(job_);
+  ASSERT_TRUE(named);
+  EXPECT_THAT(named->warnings, Not(Contains(HasSubstr(" has no row for "))));
   const auto text = io::read_text(job_.output).value();
   EXPECT_THAT(text, HasSubstr("signs.c3d,Ann,,signs,RFIN,"));
   EXPECT_THAT(text, HasSubstr(",left\n"));
+  ASSERT_TRUE(io::write_text(job_.participants_file, "file\tparticipant\nother.c3d\tBob\n", true));
+  job_.output.clear();
+  EXPECT_THAT(run_measures(job_)->warnings, Contains(HasSubstr("files.tsv has no row for it")));
 }
 
 TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {
