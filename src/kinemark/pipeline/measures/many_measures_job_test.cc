@@ -15,7 +15,9 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 // Two participants, two sessions: RFIN goes around an ellipse.
@@ -95,7 +97,7 @@ TEST_F(ManyMeasuresTest, ATableThatIsGivenIsNotFoundBesideThem) {
   job_.participants_file = folder_ / "participants.tsv";
   const auto outcome = run_many_measures(job_);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->notes, ::testing::Not(::testing::Contains(HasSubstr(": is joined to the rows"))));
+  EXPECT_THAT(outcome->notes, Not(Contains(HasSubstr(": is joined to the rows"))));
 }
 
 TEST_F(ManyMeasuresTest, OneBadFileLeavesTheOthers) {
