@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kinemark/pipeline/segments/definition_file.h"
 #include "kinemark/pipeline/segments/testing/offset_leg.h"
 
@@ -53,6 +55,7 @@ TEST(OutputComparison, SaysThatTheyAgree) {
   EXPECT_THAT(c.findings(), IsEmpty());
   EXPECT_THAT(c.summary(), HasSubstr("agrees with the file's own 1 angle to"));
   EXPECT_THAT(c.summary(), HasSubstr("3 centres to"));
+  EXPECT_THAT(c.summary(), Not(HasSubstr("95 % of frames below")));
   EXPECT_TRUE(comparison_json(c)["agrees"].get<bool>());
 }
 
@@ -74,7 +77,11 @@ TEST(OutputComparison, NamesTheParameterThatExplainsADifference) {
       EXPECT_FALSE(c.agrees()) << name;
       EXPECT_THAT(explained(c), ::testing::ElementsAre(name));
       ASSERT_EQ(c.findings().size(), 1U) << name;
-      EXPECT_THAT(c.findings().front(), HasSubstr("is explained by " + name));
+      EXPECT_THAT(c.findings().front(),
+                  HasSubstr("The difference from the file's own outputs is explained by " + name));
+      EXPECT_THAT(c.findings().front(), Not(HasSubstr("No parameter of the model that can be read")));
+      EXPECT_THAT(c.findings().front(), Not(HasSubstr("are those of a static trial, and it was computed")));
+      EXPECT_THAT(c.summary(), HasSubstr("95 % of frames below"));
       EXPECT_THAT(c.summary(), HasSubstr("differs from the file's own"));
       EXPECT_LT(c.explanation.angle_rad, 1e-6);
     }
@@ -85,7 +92,9 @@ TEST(OutputComparison, NamesTheDiameterThatSomebodyGave) {
   const OffsetLeg leg{.diameter = 0.009};
   const auto c = compared(leg.trial(60, true), leg.values(), {{"MarkerDiameter", 0.014, "--subject"}});
   EXPECT_THAT(explained(c), ::testing::ElementsAre("MarkerDiameter"));
-  EXPECT_THAT(c.findings().front(), HasSubstr("made with 9 mm, here 14 mm from --subject"));
+  EXPECT_THAT(c.findings().front(),
+              HasSubstr("(the file's outputs were made with 9 mm, here 14 mm from --subject"));
+  EXPECT_THAT(c.findings().front(), Not(HasSubstr("by another regression (")));
 }
 
 TEST(OutputComparison, NamesHipsOfAnotherRegression) {
@@ -93,6 +102,7 @@ TEST(OutputComparison, NamesHipsOfAnotherRegression) {
   const auto c = compared(leg.trial(60, true), leg.values());
   EXPECT_THAT(explained(c), ::testing::ElementsAre("LHJC"));
   EXPECT_THAT(c.findings().front(), HasSubstr("LHJC by another regression (12 mm away)"));
+  EXPECT_THAT(c.findings().front(), Not(HasSubstr("(the file's outputs were made with")));
 }
 
 TEST(OutputComparison, SaysThatMarkersWereChangedOnlyWhereAConstantVaries) {
@@ -110,7 +120,49 @@ TEST(OutputComparison, SaysThatNothingExplainsIt) {
   for (std::size_t i = 0; i < trial.channels.values.size(); i += 3) trial.channels.values[i] += 2.0;
   const auto c = compared(trial, leg.values());
   EXPECT_THAT(explained(c), IsEmpty());
-  EXPECT_THAT(c.findings(), ::testing::ElementsAre(HasSubstr("No parameter of the model")));
+  EXPECT_THAT(c.findings(), ::testing::ElementsAre(HasSubstr("No parameter of the model that can be read")));
+  for (const auto& finding : c.findings())
+    EXPECT_THAT(finding, Not(HasSubstr("file's own outputs is explained by")));
+}
+
+TEST(OutputComparison, SaysThatAnglesAreThoseOfAStaticTrial) {
+  const OffsetLeg leg;
+  auto trial = leg.trial(60, true);
+  const auto definition = find_definition("pig");
+  ASSERT_TRUE(definition);
+  const auto still = analysis::compute_segments(
+      *definition, {.markers = &trial.markers, .static_trial = &trial.markers, .known = leg.values()});
+  ASSERT_TRUE(still) << still.error().message;
+  const auto knee = std::ranges::find(still->angles, "LKneeAngles", &analysis::SegmentSeries::name);
+  ASSERT_NE(knee, still->angles.end());
+  for (std::size_t i = 0; i < trial.channels.values.size(); ++i)
+    trial.channels.values[i] = knee->value[i] * 180.0 / 3.14159265358979323846;
+  const auto c = compared(trial, leg.values());
+  EXPECT_TRUE(c.static_outputs);
+  EXPECT_THAT(c.findings(), ::testing::ElementsAre(HasSubstr(
+                                "those of a static trial, and it was computed as a moving one: name it")));
+  EXPECT_THAT(explained(c), IsEmpty());
+}
+
+TEST(OutputComparison, JsonHasWhatExplainsInTheUnitsOfTheField) {
+  const OffsetLeg leg;
+  const auto json = comparison_json(compared_but(leg, "LKneeWidth", 0.12));
+  EXPECT_FALSE(json["agrees"].get<bool>());
+  ASSERT_EQ(json["explained_by"].size(), 1U);
+  const auto& cause = json["explained_by"][0];
+  EXPECT_EQ(cause["name"], "LKneeWidth");
+  EXPECT_NEAR(cause["shown"].get<double>(), 102.0, 1e-3);
+  EXPECT_NEAR(cause["used"].get<double>(), 120.0, 1e-9);
+  EXPECT_EQ(cause["unit"], "mm");
+  EXPECT_EQ(cause["from"], "leg.c3d");
+  ASSERT_EQ(json["outputs"].size(), 4U);
+  for (const auto& one : json["outputs"]) {
+    EXPECT_LE(one["median"].get<double>(), one["p95"].get<double>());
+    EXPECT_LE(one["p95"].get<double>(), one["largest"].get<double>());
+    EXPECT_EQ(one["frames"], 60);
+  }
+  const auto hips = comparison_json(compared(OffsetLeg{.hip_forward = 0.012}.trial(60, true), leg.values()));
+  EXPECT_TRUE(hips["explained_by"][0]["regression"].get<bool>());
 }
 
 TEST(OutputComparison, FindsOutputsWithASuffixAndPassesOverMissingOnes) {

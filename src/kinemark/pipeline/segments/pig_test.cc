@@ -18,6 +18,8 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kLeg = 0.92, kKnee = 0.102, kAnkle = 0.07, kMarker = 0.014, kAsis = 0.24, kWand = 0.25;
 
@@ -202,6 +204,7 @@ TEST(ConventionalGaitModel, TakesWhatTheFilesOwnOutputsWereMadeWith) {
   EXPECT_NEAR(used(motion, "LThighRotation").value, leg.thigh, 1e-9);
   EXPECT_NEAR(used(motion, "LAnkleAbAdd").value, leg.abduction, 1e-9);
   EXPECT_FALSE(used(motion, "LShankRotation").assumed) << "a file has it";
+  EXPECT_THAT(used(motion, "LShankRotation").from, Not(HasSubstr("the file's own model outputs")));
 }
 
 TEST(ConventionalGaitModel, DoubtsAnOffsetOfZero) {
@@ -210,9 +213,49 @@ TEST(ConventionalGaitModel, DoubtsAnOffsetOfZero) {
   const auto doubted = used(computed_of(leg, trial.markers, {}), "LThighRotation");
   EXPECT_TRUE(doubted.assumed);
   EXPECT_NEAR(doubted.sd, 5.0 * 3.14159265358979 / 180.0, 1e-9);
-  EXPECT_NE(doubted.from.find("may stand for 'not measured'"), std::string::npos);
+  EXPECT_THAT(doubted.from, HasSubstr("where 0 may stand for 'not measured'"));
   leg.thigh = 0.01;
-  EXPECT_FALSE(used(computed_of(leg, trial.markers, {}), "LThighRotation").assumed);
+  const auto entered = used(computed_of(leg, trial.markers, {}), "LThighRotation");
+  EXPECT_FALSE(entered.assumed);
+  EXPECT_THAT(entered.from, Not(HasSubstr("where 0 may stand for 'not measured'")));
+}
+
+TEST(ConventionalGaitModel, DoubtsAZeroMoreWhereOffsetsAreUsuallyMeasured) {
+  const OffsetLeg leg{.thigh = 0.0};
+  const auto trial = leg.trial(20, false);
+  analysis::SegmentInput input{.markers = &trial.markers, .known = leg.values(), .zeros_doubtful = true};
+  const auto motion = analysis::compute_segments(*find_definition("pig"), input, {.noise_sd_m = 1e-6});
+  ASSERT_TRUE(motion) << motion.error().message;
+  EXPECT_NEAR(used(*motion, "LThighRotation").sd, 15.0 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_TRUE(used(*motion, "LThighRotation").assumed);
+}
+
+TEST(ConventionalGaitModel, AMeasureThatIsGivenIsExactOrHasItsDeviation) {
+  const OffsetLeg leg;
+  const auto trial = leg.trial(20, false);
+  const auto with = [&](std::vector<analysis::SubjectValue> given) {
+    const double trochanter = 0.1288 * leg.leg - 0.04856;
+    given.push_back({"LAsisTrocanterDistance", trochanter, "--subject"});
+    given.push_back({"RAsisTrocanterDistance", trochanter, "--subject"});
+    analysis::SegmentInput input{.markers = &trial.markers, .given = std::move(given), .known = leg.values()};
+    auto motion = analysis::compute_segments(*find_definition("pig"), input, {.noise_sd_m = 1e-9});
+    EXPECT_TRUE(motion) << motion.error().message;
+    return std::move(*motion);
+  };
+  const auto exact = with({{"MarkerDiameter", 0.014, "--subject"}});
+  EXPECT_FALSE(used(exact, "MarkerDiameter").assumed);
+  EXPECT_EQ(used(exact, "MarkerDiameter").sd, 0.0);
+  for (const double sd : angle(exact, "LKneeAngles").sd) EXPECT_LT(sd, 1e-5);
+  analysis::SubjectValue turn{"LThighRotation", leg.thigh, "--subject"};
+  turn.sd = 0.04;
+  const auto loose = with({{"MarkerDiameter", 0.014, "--subject"}, turn});
+  EXPECT_EQ(used(loose, "LThighRotation").sd, 0.04);
+  // A turn of the thigh's axis turns the knee's rotation by about as much.
+  const auto& knee = angle(loose, "LKneeAngles");
+  for (std::size_t i = 2; i < knee.sd.size(); i += 3) {
+    EXPECT_GT(knee.sd[i], 0.02);
+    EXPECT_LT(knee.sd[i], 0.12);
+  }
 }
 
 TEST(ConventionalGaitModel, TakesEnteredAnthropometryBeforeTheStaticTrials) {

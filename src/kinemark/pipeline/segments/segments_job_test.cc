@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 
@@ -13,13 +16,16 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
+#include "kinemark/pipeline/segments/testing/offset_leg.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::string_view kDefinition = R"toml(
 title = "A knee"
@@ -230,6 +236,131 @@ TEST_F(SegmentsJobTest, AReportNeedsWalkingAndTheRestIsWrittenWithout) {
   job_.report.clear();
   job_.gait.sheet.norms = {"norm.csv"};
   EXPECT_EQ(run_segments(job_).error().code, Code::usage);
+}
+
+// A leg by the conventional gait model, from a file, its measures by options.
+class LegJobTest : public ::testing::Test {
+ protected:
+  void write(const data::Trial& trial) {
+    ASSERT_TRUE(io::write_markers(scratch_ / "leg.c3d", trial, true));
+    job_.input = scratch_ / "leg.c3d";
+    job_.definition = "pig";
+    job_.noise_sd_m = 0.001;
+    job_.keep_defects = true;
+  }
+  void give(const OffsetLeg& leg) {
+    for (const auto& value : leg.values()) {
+      const bool angle = value.name.ends_with("Rotation") || value.name.ends_with("Torsion") ||
+                         value.name.ends_with("AbAdd");
+      job_.subject.push_back(fmt::format("{}={}", value.name,
+                                         angle ? value.value * 180.0 / std::numbers::pi : 1e3 * value.value));
+    }
+  }
+  SegmentsOutcome run() {
+    auto outcome = run_segments(job_);
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    return outcome ? std::move(*outcome) : SegmentsOutcome{};
+  }
+
+  testing_support::ScratchFolder scratch_;
+  SegmentsJob job_;
+};
+
+TEST_F(LegJobTest, SaysThatKneeRotationOfAStaticTrialContainsTheTorsion) {
+  const OffsetLeg leg;
+  write(leg.trial(30, false));
+  give(leg);
+  EXPECT_THAT(run().warnings,
+              Each(Not(HasSubstr("Knee rotation of a static trial contains the tibia's torsion"))))
+      << "a walk";
+  job_.static_trial = job_.input;
+  const auto still = run();
+  EXPECT_THAT(still.warnings,
+              Contains(HasSubstr("Knee rotation of a static trial contains the tibia's torsion")));
+  EXPECT_THAT(
+      still.warnings,
+      Contains(HasSubstr("that of a walk does not: beside a walk it jumps by LTibialTorsion -17.2 deg")));
+  EXPECT_TRUE(still.static_trial);
+  job_.subject.push_back("LTibialTorsion=0");
+  std::ranges::rotate(job_.subject, std::prev(job_.subject.end()));
+  EXPECT_THAT(run().warnings,
+              Each(Not(HasSubstr("Knee rotation of a static trial contains the tibia's torsion"))))
+      << "without torsion nothing jumps";
+}
+
+TEST_F(LegJobTest, SaysWhatIsAssumedOfTheFoot) {
+  const OffsetLeg leg;
+  write(leg.trial(30, false));
+  give(leg);
+  EXPECT_THAT(run().warnings, Each(Not(HasSubstr(": no file tells; --subject")))) << "no static trial";
+  job_.static_trial = job_.input;
+  EXPECT_THAT(run().warnings, Contains(HasSubstr("FlatFoot is assumed to be 1: no file tells; --subject "
+                                                 "FlatFoot=0 is the other.")));
+  job_.subject.push_back("FlatFoot=0");
+  EXPECT_THAT(run().warnings, Each(Not(HasSubstr(": no file tells; --subject"))));
+}
+
+TEST_F(LegJobTest, NamesModelledPointsThatStandInForMarkers) {
+  const OffsetLeg leg;
+  auto trial = leg.trial(30, false);
+  write(trial);
+  give(leg);
+  const auto measured = run();
+  EXPECT_THAT(measured.warnings,
+              Each(Not(HasSubstr(": not measured, taken as a model of the file has them:"))));
+  const auto wand = trial.markers.find("LTHI");
+  ASSERT_GE(wand, 0);
+  trial.channels.names = {"LTHI"};
+  trial.channels.kinds = {data::ChannelKind::modeled_marker};
+  trial.channels.units = {"mm"};
+  trial.channels.rate_hz = 100.0;
+  trial.channels.frames = 30;
+  for (std::int64_t f = 0; f < 30; ++f)
+    for (int k = 0; k < 3; ++k) trial.channels.values.push_back(1e3 * trial.markers.x(f, wand)[k]);
+  for (std::int64_t f = 0; f < 30; ++f) trial.markers.set_missing(f, wand);
+  trial.markers.names[static_cast<std::size_t>(wand)] = "Nobody";
+  write(trial);
+  const auto modelled = run();
+  EXPECT_THAT(modelled.warnings,
+              Contains("leg.c3d: not measured, taken as a model of the file has them: LTHI"));
+  const auto knee = [](const SegmentsOutcome& outcome) {
+    return std::ranges::find(outcome.motion.angles, "LKneeAngles", &analysis::SegmentSeries::name);
+  };
+  ASSERT_NE(knee(modelled), modelled.motion.angles.end());
+  for (std::size_t i = 0; i < 90; ++i)
+    EXPECT_NEAR(knee(modelled)->value[i], knee(measured)->value[i], 1e-4) << "a float has 7 digits";
+}
+
+TEST_F(LegJobTest, TellsWhatIsAssumed) {
+  const OffsetLeg leg;
+  write(leg.trial(30, false));
+  give(leg);
+  const auto assumed = assumed_measures(run().motion);
+  EXPECT_THAT(assumed, HasSubstr("MarkerDiameter 14 mm (SD 2)"));
+  EXPECT_THAT(assumed, HasSubstr("LAsisTrocanterDistance 69.94 mm (SD 10)"));
+  EXPECT_THAT(assumed, Not(HasSubstr("LThighRotation"))) << "it was given";
+  job_.subject.push_back("MarkerDiameter=14");
+  EXPECT_THAT(assumed_measures(run().motion), Not(HasSubstr("MarkerDiameter")));
+  std::erase_if(job_.subject, [](const std::string& text) { return text.starts_with("LThighRotation"); });
+  EXPECT_THAT(assumed_measures(run().motion), HasSubstr("LThighRotation 0 deg (SD 15)"));
+  job_.subject.push_back("LThighRotation=0");
+  EXPECT_THAT(assumed_measures(run().motion), Not(HasSubstr("LThighRotation"))) << "known to be 0";
+}
+
+TEST_F(LegJobTest, ComparesWithTheFilesOwnAnglesAndTellsSoInJson) {
+  const OffsetLeg leg;
+  write(leg.trial(30, true));
+  give(leg);
+  const auto outcome = run();
+  EXPECT_TRUE(outcome.comparison.agrees()) << outcome.comparison.summary();
+  const auto json = segments_outcome_json(outcome);
+  EXPECT_TRUE(json["comparison"]["agrees"]);
+  EXPECT_FALSE(json.contains("static_trial"));
+  for (auto& text : job_.subject)
+    if (text.starts_with("LKneeWidth")) text = "LKneeWidth=120";
+  const auto other = run();
+  EXPECT_FALSE(other.comparison.agrees());
+  EXPECT_THAT(other.warnings, Contains(HasSubstr("is explained by LKneeWidth")));
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ namespace kinemark::pipeline {
 namespace {
 
 using analysis::SubjectQuantity;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 analysis::SegmentDefinition measures() {
   analysis::SegmentDefinition d;
@@ -109,6 +111,41 @@ TEST(SubjectValues, AreReadFromAParameterFile) {
   EXPECT_EQ((*values)[1].from, "Ann.mp");
   EXPECT_THAT(parse_mp("no parameters", "Ann.mp", measures()).error().message,
               HasSubstr("Ann.mp: no line '$NAME = VALUE'"));
+}
+
+TEST(SubjectValues, MendedUnitsAreSaidAndRightOnesAreNot) {
+  const auto notes = [](double leg, double turn) {
+    std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"},
+                                               {"LThighRotation", turn, "a.c3d"}};
+    std::vector<std::string> out;
+    mend_units(values, measures(), out);
+    return out;
+  };
+  EXPECT_THAT(notes(0.92, 12.0),
+              Contains("a.c3d: its angles are taken as degrees: 12 rad is no offset of a marker"));
+  EXPECT_THAT(notes(0.92, 12.0), Not(Contains(HasSubstr(": its lengths are taken times"))));
+  EXPECT_THAT(notes(920.0, 0.2), Contains("a.c3d: its lengths are taken times 0.001: no leg is 920 m long"));
+  EXPECT_THAT(notes(920.0, 0.2), Not(Contains(HasSubstr(": its angles are taken as degrees:"))));
+  EXPECT_EQ(notes(920.0, 12.0).size(), 2U);
+  EXPECT_TRUE(notes(0.92, 0.2).empty());
+}
+
+TEST(SubjectValues, LengthsThatNoFactorMendsStayAsTheyAre) {
+  std::vector<analysis::SubjectValue> values{{"LLegLength", 3.0e-7, "a.c3d"}};
+  std::vector<std::string> notes;
+  mend_units(values, measures(), notes);
+  EXPECT_EQ(values[0].value, 3.0e-7);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(SubjectValues, HaveTheUnitsThatAreShown) {
+  EXPECT_EQ(shown_unit(SubjectQuantity::length), "mm");
+  EXPECT_EQ(shown_unit(SubjectQuantity::angle), "deg");
+  EXPECT_EQ(shown_unit(SubjectQuantity::mass), "kg");
+  EXPECT_EQ(shown_unit(SubjectQuantity::number), "");
+  EXPECT_DOUBLE_EQ(0.92 / per_shown(SubjectQuantity::length), 920.0);
+  EXPECT_NEAR(std::numbers::pi / per_shown(SubjectQuantity::angle), 180.0, 1e-12);
+  EXPECT_EQ(per_shown(SubjectQuantity::mass), 1.0);
 }
 
 TEST(SubjectValues, AreMendedWhereNoBodyHasThem) {

@@ -149,8 +149,8 @@ Status FoundationOptions::check() const {
   for (const double sd : {still_sd_m, moving_sd_m, between_sd_m})
     if (!(sd > 0.0 && sd < 1.0))
       return fail(Code::usage, fmt::format("a spread of {} m; need above 0, below 1", sd));
-  if (!(least_score > 0.0))
-    return fail(Code::usage, fmt::format("a score of {}; need a number above 0", least_score));
+  for (const double score : {least_score, least_fall})
+    if (!(score > 0.0)) return fail(Code::usage, fmt::format("a score of {}; need a number above 0", score));
   if (moving_frames < 1 || most_findings < 1)
     return fail(Code::usage,
                 fmt::format("{} frames and {} findings; need at least 1", moving_frames, most_findings));
@@ -187,23 +187,48 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   if (!moving.empty()) prior = prior_with(body, prior, moving, options.between_sd_m);
 
   const auto name_of = [&](int m) { return still.names[static_cast<std::size_t>(columns[at(m)])]; };
+  struct Single {
+    int marker;
+    double score;
+    internal::SeenFrame before;  // as it was while the marker took part
+  };
+  std::vector<Single> singles;
   for (int k = 0; k < options.most_findings; ++k) {
     const auto explanations = internal::explain(body, prior, frame);
     if (explanations.empty() || explanations.front().score < options.least_score) break;
-    const auto& best = explanations.front();
+    auto best = explanations.front();
     if (best.second < 0 && best.shift.norm() < kLeastShift_m) break;
+    if (best.second < 0 && moving.empty() && best.gain * best.misfit < options.least_fall) break;
+    std::vector<std::string> rivals;
+    for (std::size_t i = 1; i < explanations.size(); ++i)
+      if (explanations[i].score > best.score - kRival) rivals.push_back(words_of(body, explanations[i]));
+    // Two markers that both lie elsewhere may be one exchange.
+    const auto single = std::ranges::find_if(singles, [&](const Single& one) {
+      if (best.second >= 0) return false;
+      const auto h = internal::explain_exchange(body, prior, one.before, std::min(one.marker, best.first),
+                                                std::max(one.marker, best.first));
+      if (h.score <= std::max(one.score, best.score)) return false;
+      best = h;
+      return true;
+    });
+    if (single != singles.end()) {
+      frame = single->before;
+      std::erase_if(out.findings, [&](const FoundationFinding& f) {
+        return f.marker == name_of(best.first) && f.partner.empty();
+      });
+      singles.erase(single);
+      rivals.clear();
+    }
     FoundationFinding finding{.marker = name_of(best.first),
                               .partner = best.second < 0 ? std::string() : name_of(best.second),
                               .shift_m = best.shift,
                               .shift_sd_m = best.shift_sd,
                               .score = best.score,
-                              .rivals = {}};
-    for (std::size_t i = 1; i < explanations.size(); ++i)
-      if (explanations[i].score > best.score - kRival)
-        finding.rivals.push_back(words_of(body, explanations[i]));
+                              .rivals = std::move(rivals)};
     if (moving.empty() || best.second >= 0 || keeps_its_place(body.markers[at(best.first)]))
       out.findings.push_back(std::move(finding));
     if (best.second < 0) {
+      singles.push_back({best.first, best.score, frame});
       frame.x.col(best.first).setConstant(kNaN);
     } else {
       frame.x.col(best.first).swap(frame.x.col(best.second));

@@ -17,7 +17,10 @@ namespace kinemark::motion {
 
 /// Options of judge_foundation().
 struct FoundationOptions {
-  double least_score = 12.0;    ///< of a finding: twice the log of how much likelier it makes the recording
+  double least_score = 12.0;  ///< of a finding: twice the log of how much likelier it makes the recording
+  /// Of a single marker where no movement tells its place: fall of the cost by the spreads as they are, which
+  /// is a chi-square of three by chance, beyond 20 in 2 of 10,000 markers.
+  double least_fall = 20.0;
   double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
   double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue
   double between_sd_m = 0.004;  ///< of a marker between two recordings, per axis
@@ -49,7 +52,8 @@ struct FoundationJudgement {
 
 /// Judge the stillest part of a recording against a body, and against movements of the same session, in which
 /// markers keep their places on the segments. Markers of the body that the recording lacks take no part;
-/// fewer than six, or on fewer than two segments: nothing is judged. About 0.2 s for 40 markers.
+/// fewer than six, or on fewer than two segments: nothing is judged. About 0.2 s for 40 markers, a second
+/// where something is wrong.
 [[nodiscard]] Result<FoundationJudgement> judge_foundation(
     const StandingBody& body, const data::Trajectories& still,
     std::span<const data::Trajectories* const> movements, const FoundationOptions& options = {});

@@ -196,6 +196,31 @@ Seen linearise(const StandingBody& body, const SeenFrame& frame, const Matrix3d&
   return out;
 }
 
+/// Inverse covariance of all numbers, pose first. A marker's place moves that marker alone, and by a
+/// rotation.
+MatrixXd information_of(const Seen& seen, const Layout& layout, const std::vector<int>& rows,
+                        const VectorXd& pose_info, const SharedPrior& prior) {
+  const Eigen::Index P = layout.pose(), S = layout.shared(), dense = P + layout.sites();
+  MatrixXd weighted(seen.residual.size(), dense);
+  weighted << seen.by_pose, seen.by_shared.leftCols(layout.sites());
+  weighted.array().colwise() /= seen.variance.array().sqrt();
+  MatrixXd out = MatrixXd::Zero(P + S, P + S);
+  out.topLeftCorner(dense, dense).selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+  for (Eigen::Index m = 0; m < layout.markers; ++m) {
+    const int row = rows[static_cast<std::size_t>(m)];
+    if (row < 0) continue;
+    const Eigen::Index k = dense + 3 * m;
+    const double sd = std::sqrt(seen.variance[row]);
+    out.block(k, 0, 3, dense) =
+        seen.by_shared.block<3, 3>(row, k - P).transpose() * weighted.middleRows<3>(row) / sd;
+    out.diagonal().segment<3>(k).array() += 1.0 / seen.variance[row];
+  }
+  out.diagonal().head(P) += pose_info;
+  out.bottomRightCorner(S, S).triangularView<Eigen::Lower>() += prior.information;
+  out.triangularView<Eigen::StrictlyUpper>() = out.transpose();
+  return out;
+}
+
 }  // namespace
 
 SharedPrior prior_of(const StandingBody& body) {
@@ -254,25 +279,21 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
   Posed posed;
   double cost = cost_of(body, prior, pose_info, frame, first, pose, shared, posed);
   double damping = 1e-3;
-  MatrixXd information(P + S, P + S);
+  MatrixXd information;
   Seen seen;
-  for (int iteration = 0; iteration < 60; ++iteration) {
+  for (int iteration = 0; iteration < 40; ++iteration) {
     seen = linearise(body, frame, first, pose, shared, out.rows, count);
-    MatrixXd J(count, P + S);
-    J << seen.by_pose, seen.by_shared;
-    const MatrixXd weighted = seen.variance.cwiseInverse().asDiagonal() * J;
-    information.noalias() = J.transpose() * weighted;
-    information.topLeftCorner(P, P).diagonal() += pose_info;
-    information.bottomRightCorner(S, S) += prior.information;
-    VectorXd gradient = weighted.transpose() * seen.residual;
-    gradient.head(P) -= pose_info.cwiseProduct(pose);
-    gradient.tail(S) -= prior.information * (shared - prior.mean);
+    information = information_of(seen, layout, out.rows, pose_info, prior);
+    VectorXd gradient(P + S);
+    const VectorXd weighted = seen.residual.cwiseQuotient(seen.variance);
+    gradient.head(P) = seen.by_pose.transpose() * weighted - pose_info.cwiseProduct(pose);
+    gradient.tail(S) = seen.by_shared.transpose() * weighted - prior.information * (shared - prior.mean);
     bool better = false;
     double gain = 0.0;
     for (int attempt = 0; attempt < 8 && !better; ++attempt) {
       MatrixXd damped = information;
       damped.diagonal() *= 1.0 + damping;
-      const VectorXd step = damped.ldlt().solve(gradient);
+      const VectorXd step = damped.llt().solve(gradient);
       const VectorXd next_pose = pose + step.head(P), next_shared = shared + step.tail(S);
       const double next = cost_of(body, prior, pose_info, frame, first, next_pose, next_shared, posed);
       better = next < cost;
@@ -286,14 +307,11 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
         damping = std::min(1e6, std::max(1e-6, damping) * 8.0);
       }
     }
-    if (!better || gain < 1e-4 * (1.0 + 1e-3 * cost)) break;
+    // A step that was held back gains little anywhere.
+    if (!better || (gain < 1e-4 * (1.0 + cost) && damping < 1e-2)) break;
   }
   seen = linearise(body, frame, first, pose, shared, out.rows, count);
-  MatrixXd J(count, P + S);
-  J << seen.by_pose, seen.by_shared;
-  information.noalias() = J.transpose() * (seen.variance.cwiseInverse().asDiagonal() * J);
-  information.topLeftCorner(P, P).diagonal() += pose_info;
-  information.bottomRightCorner(S, S) += prior.information;
+  information = information_of(seen, layout, out.rows, pose_info, prior);
   out.pose = pose;
   out.shared = shared;
   out.cost = cost;
@@ -319,7 +337,7 @@ SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
     const BodyFit fit = fit_body(body, known, frame);
     const MatrixXd A = fit.information.topLeftCorner(P, P), C = fit.information.topRightCorner(P, S);
     known.mean = fit.shared;
-    known.information = fit.information.bottomRightCorner(S, S) - C.transpose() * A.ldlt().solve(C);
+    known.information = fit.information.bottomRightCorner(S, S) - C.transpose() * A.llt().solve(C);
     known.information = (0.5 * (known.information + known.information.transpose())).eval();
   }
   return known;

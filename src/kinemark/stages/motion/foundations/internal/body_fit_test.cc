@@ -82,6 +82,58 @@ TEST(BodyFit, MarkersThatAreNotSeenTakeNoPart) {
   EXPECT_LT(fit.cost, 1e-6);
 }
 
+TEST(BodyFit, InformationIsThatOfTheJacobianAndThePrior) {
+  const auto body = body_of_names(kNames);
+  const auto prior = prior_of(body);
+  auto frame = standing_frame(body, 1.02, some_turn(0.7), Vector3d(0.2, 0.1, 0.0));
+  frame.x.col(3).setConstant(std::nan(""));
+  for (Eigen::Index m = 0; m < frame.sd.size(); ++m) frame.sd[m] = 0.002 + 0.001 * static_cast<double>(m % 3);
+  const auto fit = fit_body(body, prior, frame);
+  const Eigen::Index P = fit.pose.size(), S = fit.shared.size();
+  Eigen::MatrixXd J(fit.by_pose.rows(), P + S);
+  J << fit.by_pose, fit.by_shared;
+  Eigen::VectorXd weight(J.rows());
+  for (std::size_t m = 0; m < fit.rows.size(); ++m)
+    if (fit.rows[m] >= 0)
+      weight.segment<3>(fit.rows[m]).setConstant(std::pow(frame.sd[static_cast<Eigen::Index>(m)], -2.0));
+  Eigen::MatrixXd expected = J.transpose() * weight.asDiagonal() * J;
+  expected.bottomRightCorner(S, S) += prior.information;
+  // What is left is the posture's spread, on the diagonal.
+  Eigen::MatrixXd left = fit.information - expected;
+  for (int s = 1; s < static_cast<int>(body.segments.size()); ++s)
+    for (int a = 0; a < 3; ++a) {
+      const double sd = body.segments[at(s)].turn_sd[a];
+      EXPECT_NEAR(left(3 + 3 * s + a, 3 + 3 * s + a) * sd * sd, 1.0, 1e-3) << s;
+    }
+  left.diagonal().head(P).setZero();
+  EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(BodyFit, AFitGoesOnFromAnother) {
+  const auto body = body_of_names(kNames);
+  const auto prior = prior_of(body);
+  auto frame = standing_frame(body, 1.0, some_turn(1.4), Vector3d(1.0, 0.0, 0.0));
+  const auto first = fit_body(body, prior, frame);
+  frame.x.col(6) += Vector3d(0.0, 0.02, 0.0);
+  const auto again = fit_body(body, prior, frame, &first), anew = fit_body(body, prior, frame);
+  EXPECT_GT(again.cost, first.cost);
+  EXPECT_NEAR(again.cost, anew.cost, 0.02 * (1.0 + anew.cost));
+  EXPECT_EQ(again.first, first.first);
+}
+
+TEST(BodyFit, SidesThatBreakTheHabitCostMoreThanSidesThatShareIt) {
+  const auto body = body_of_names(kNames);
+  const auto prior = prior_of(body);
+  const auto clean = standing_frame(body, 1.0, Eigen::Matrix3d::Identity(), Vector3d::Zero());
+  auto both = clean, one = clean;
+  constexpr Eigen::Index kLeft = 10, kRight = 11;  // ankles
+  both.x.col(kLeft) += Vector3d(0.02, 0.0, 0.0);
+  both.x.col(kRight) += Vector3d(0.02, 0.0, 0.0);
+  one.x.col(kLeft) += Vector3d(0.02, 0.0, 0.0);
+  one.x.col(kRight) -= Vector3d(0.02, 0.0, 0.0);
+  EXPECT_LT(fit_body(body, prior, both).cost, fit_body(body, prior, one).cost);
+}
+
 TEST(BodyFit, FramesTeachWhereMarkersLie) {
   const auto body = body_of_names(kNames);
   const auto prior = prior_of(body);
@@ -89,7 +141,8 @@ TEST(BodyFit, FramesTeachWhereMarkersLie) {
   for (int k = 0; k < 4; ++k)
     frames.push_back(standing_frame(body, 1.0, some_turn(0.4 * k), Vector3d(0.1 * k, 0, 0)));
   constexpr Eigen::Index kKnee = 6;
-  for (auto& frame : frames) frame.x.col(kKnee) += 0.02 * Vector3d::UnitY();
+  for (int k = 0; k < 4; ++k)  // on the thigh, whichever way it points
+    frames[at(k)].x.col(kKnee) += 0.02 * (some_turn(0.4 * k) * Vector3d::UnitY());
   const auto known = learn_shared(body, prior, frames);
   const Eigen::Index row = prior.mean.size() - 3 * static_cast<Eigen::Index>(body.markers.size()) + 3 * kKnee;
   for (int a = 0; a < 3; ++a)

@@ -36,7 +36,7 @@ MatrixXd inverse_covariance(const BodyFit& fit, const SeenFrame& frame) {
   MatrixXd J(n, fit.by_pose.cols() + fit.by_shared.cols());
   J << fit.by_pose, fit.by_shared;
   const MatrixXd weighted = weight.asDiagonal() * J;
-  MatrixXd out = -weighted * fit.information.ldlt().solve(weighted.transpose());
+  MatrixXd out = -weighted * fit.information.llt().solve(weighted.transpose());
   out.diagonal() += weight;
   return out;
 }
@@ -101,6 +101,21 @@ void add_near_exchanges(const StandingBody& body, const SharedPrior& prior, cons
       out.push_back(h);
 }
 
+/// What exchanging two markers gains over `none`, the fit of the frame as it is.
+Hypothesis exchanged(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
+                     const BodyFit& none, int first, int second) {
+  SeenFrame changed = frame;
+  changed.x.col(first) = frame.x.col(second);
+  changed.x.col(second) = frame.x.col(first);
+  // The posture that explains the mistake may be far from the right one: a foot turned about.
+  const double cost =
+      std::min(fit_body(body, prior, changed, &none).cost, fit_body(body, prior, changed).cost);
+  Hypothesis out{.first = first, .second = second};
+  out.misfit = std::max(kLeastMisfit, cost / static_cast<double>(none.by_pose.rows()));
+  out.gain = out.score = (none.cost - cost) / out.misfit;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
@@ -141,7 +156,7 @@ std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& pri
     const int row = fit.rows[at(h.first)];
     MatrixXd J(3, fit.by_pose.cols() + fit.by_shared.cols());
     J << fit.by_pose.middleRows<3>(row), fit.by_shared.middleRows<3>(row);
-    const Matrix3d expected = J * fit.information.ldlt().solve(J.transpose());
+    const Matrix3d expected = J * fit.information.llt().solve(J.transpose());
     const Vector3d off = fit.residual.col(h.first);
     const double sd = frame.sd[h.first];
     h.misfit =
@@ -155,19 +170,14 @@ std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& pri
     h.shift_sd = (root * covariance * root.transpose()).diagonal().cwiseSqrt();
     all.push_back(h);
   }
-  for (auto h : exchanges) {
-    SeenFrame changed = frame;
-    changed.x.col(h.first) = frame.x.col(h.second);
-    changed.x.col(h.second) = frame.x.col(h.first);
-    // The posture that explains the mistake may be far from the right one: a foot turned about.
-    const double cost =
-        std::min(fit_body(body, prior, changed, &none).cost, fit_body(body, prior, changed).cost);
-    h.misfit = std::max(kLeastMisfit, cost / seen);
-    h.gain = h.score = (none.cost - cost) / h.misfit;
-    all.push_back(h);
-  }
+  for (const auto& h : exchanges) all.push_back(exchanged(body, prior, frame, none, h.first, h.second));
   std::ranges::stable_sort(all, std::greater{}, &Hypothesis::score);
   return all;
+}
+
+Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
+                            int first, int second) {
+  return exchanged(body, prior, frame, fit_body(body, prior, frame), first, second);
 }
 
 }  // namespace kinemark::motion::internal

@@ -24,4 +24,8 @@ struct Hypothesis {
 [[nodiscard]] std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& prior,
                                               const SeenFrame& frame, int most = 4);
 
+/// Two markers as exchanged, against no mistake.
+[[nodiscard]] Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior,
+                                          const SeenFrame& frame, int first, int second);
+
 }  // namespace kinemark::motion::internal
