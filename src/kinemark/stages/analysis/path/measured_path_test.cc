@@ -139,12 +139,14 @@ TEST(MeasuredPathTest, OutliersAreLeftOutUnlessTheyAreKept) {
   for (const std::int64_t i : {100, 230, 333}) x(i, 1) += 8e-3;
   const auto markers = testing::recording_of(x, 100.0, 0.0, 1);
   const auto clean = measures_of(testing::cycles_with(testing::white(3e-4), 9));
-  const auto without = measure_paths(markers, {.measures = {"peak_acceleration"}, .refits = 0}),
-             with = measure_paths(markers,
-                                  {.measures = {"peak_acceleration"}, .refits = 0, .keep_outliers = true});
+  const auto without = measure_paths(markers, {.measures = {"path_length"}, .refits = 0}),
+             with = measure_paths(markers, {.measures = {"path_length"}, .refits = 0, .keep_outliers = true});
   ASSERT_TRUE(without && with);
   EXPECT_EQ(without->noises.front().outliers, 3);
-  EXPECT_GT(with->measures.front().value, 1.2 * without->measures.front().value);
+  EXPECT_NEAR(without->measures.front().share_not_measured, 3.0 / 484.0, 1e-9)
+      << "without the edges of 8 samples";
+  EXPECT_EQ(with->measures.front().share_not_measured, 0.0);
+  EXPECT_GT(with->measures.front().value, without->measures.front().value);
   EXPECT_NEAR(with->noises.front().sd_m(), clean.noises.front().sd_m(), 4e-5)
       << "the noise is that of the others";
 }

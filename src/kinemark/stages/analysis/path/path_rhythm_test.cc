@@ -198,11 +198,11 @@ TEST(PathRhythm, MethodsSayByWhatEventsWereFound) {
 }
 
 TEST(PathRhythm, AFallingLikenessAndUnevenCyclesSaySo) {
-  // Ways of 1.3 Hz whose phase wanders: like itself after a while, but not enough.
+  // Six frequencies that have no period together: its velocity is like itself by 0.19 at most.
   const auto wander = [](double t) -> Eigen::Vector3d {
-    const double angle =
-        kTurn * (1.3 * t + 0.45 * std::sin(kTurn * 0.23 * t) + 0.3 * std::sin(kTurn * 0.61 * t));
-    return {0.2 * std::cos(angle), 0.1 * std::sin(angle), 0.1 * std::sin(kTurn * 0.37 * t)};
+    return {0.1 * std::sin(kTurn * 0.53 * t) + 0.05 * std::sin(kTurn * 1.13 * t + 1.0),
+            0.1 * std::sin(kTurn * 0.71 * t + 2.0) + 0.04 * std::sin(kTurn * 1.37 * t),
+            0.1 * std::sin(kTurn * 0.91 * t + 0.5) + 0.05 * std::sin(kTurn * 0.37 * t)};
   };
   const auto unlike = rhythm_of(testing::recording_of(testing::sampled(700, 100.0, wander), 100.0, 5e-4, 1));
   EXPECT_THAT(unlike.verdict, HasSubstr("s, where it is most like itself, its velocities correlate by "));
