@@ -207,7 +207,7 @@ TEST(Judge, ASingleMarkerNeedsMoreWhereNoMovementTellsItsPlace) {
   EXPECT_EQ(found_with(2000.0), 1);
 }
 
-TEST(Judge, ExchangesAreNotToldAsShiftsNorShiftsAsExchanges) {
+TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
   FoundationFinding exchanged{.marker = "LTOE", .partner = "LHEE", .rivals = {}};
   EXPECT_EQ(describe(exchanged, "cal.c3d"), "LTOE and LHEE are exchanged in cal.c3d");
   EXPECT_THAT(describe(exchanged, "cal.c3d"), Not(HasSubstr(") from where it should in")));
