@@ -220,7 +220,7 @@ struct Count {
   }
 };
 
-constexpr int kSlowMeasures = 7;  // of a trial, which have intervals or not together
+constexpr int kSlowMeasures = 8;  // of a trial, which have intervals or not together
 
 // Of few movements chance alone takes some intervals away; of the many that bounds were asked for, nothing is
 // allowed for it.

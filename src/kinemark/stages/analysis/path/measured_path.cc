@@ -415,6 +415,7 @@ StretchSummary MeasuredPath::summary_of(const Stretch& stretch, const PathFrame&
   out.slow_noise_unknown = noise_.slow_is_unknown();
   out.slow_low_m = noise_.slow_sd_m.low;
   out.slow_high_m = noise_.slow_sd_m.high;
+  out.correlated = noise_.correlated();
   out.filtered_within = noise_.filtered_within_movement();
   if (noise_.filtered()) out.filtered_hz = noise_.cutoff_hz.middle;
   return out;

@@ -18,7 +18,6 @@ constexpr double kTooOpen = 2.5;           // high end of a cut-off over its low
 constexpr double kLeastDoubt = 1.05;       // of a cut-off, whatever the curvature of the likelihood says
 constexpr std::size_t kFewestMembers = 3;  // of a shared filter
 constexpr double kStatedOff = 1.3;         // stated noise over found, or the other way round
-constexpr double kCorrelated = 0.2;        // from which a correlation is worth a word
 
 // Markers that share a sentence, and how a number ranges over them.
 struct Group {
@@ -105,7 +104,8 @@ void average(std::span<const PathNoise> markers, SharedFilter& shared) {
 std::string range_sentence(const Group& group) {
   return fmt::format(
       "{}: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm): no interval of "
-      "extents, largest distance, boxes and plane. State it (--noise, from a static trial of the same "
+      "extents, largest distance, farthest sample, boxes and plane. State it (--noise, from a static trial "
+      "of the same "
       "session)",
       group.names(), 1e3 * group.least([](const PathNoise& n) { return n.slow_sd_m.low; }),
       1e3 * group.most([](const PathNoise& n) { return n.slow_sd_m.high; }));
@@ -147,9 +147,7 @@ void say_filters(std::span<const PathNoise> markers, std::vector<std::string>& o
 void say_correlation(std::span<const PathNoise> markers, std::vector<std::string>& out) {
   const auto correlation = [](const PathNoise& n) { return n.model.correlation; };
   const auto memory_s = [](const PathNoise& n) { return -1.0 / std::log(n.model.correlation) / n.rate_hz; };
-  const auto correlated = [](const PathNoise& n) {
-    return !n.unusable() && n.model.correlation > kCorrelated;
-  };
+  const auto correlated = [](const PathNoise& n) { return !n.unusable() && n.correlated(); };
   const auto known =
       group_of(markers, [&](const PathNoise& n) { return correlated(n) && !n.slow_is_unknown(); });
   if (!known.empty())

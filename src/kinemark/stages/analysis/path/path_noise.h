@@ -57,6 +57,8 @@ struct PathNoise {
   [[nodiscard]] double variance_about_mean(double seconds, bool before) const;
   [[nodiscard]] double sd_m() const { return model.sd(true); }  ///< per axis, before any filter
   [[nodiscard]] bool filtered() const { return model.kind == math::NoiseKind::filtered; }
+  /// From sample to sample, by so much that it is worth a word.
+  [[nodiscard]] bool correlated() const { return model.correlation > 0.2; }
   /// No interval can rest on it.
   [[nodiscard]] bool unusable() const {
     return source == NoiseSource::no_model || source == NoiseSource::rounding;

@@ -58,8 +58,17 @@ bool is_peak(const PathDefinition& definition) {
   return definition.weakness == Weakness::extreme_of_constant || definition.pivot == Pivot::of_derivative;
 }
 
+// Upper ends of discrete movements that hold too few of simulated ones where noise is correlated (70 and 93
+// %): jerk, and the speed between two instants that the noise moves.
+bool fails_under_correlation(const PathDefinition& definition) {
+  return definition.weakness == Weakness::upper_alone_if_discrete ||
+         (definition.weakness == Weakness::upper_if_discrete &&
+          definition.what.quantity == data::Quantity::speed);
+}
+
 // Why there is no interval, or an empty text.
-std::string no_interval(const PathDefinition& definition, const StretchSummary& stretch) {
+std::string no_interval(const PathDefinition& definition, const StretchSummary& stretch,
+                        const PathFrame& frame) {
   if (stretch.refits == 0) return "no interval was asked for";
   if (stretch.longest_gap_s > kLongestGap_s)
     return fmt::format("no interval: what happened in a gap of {:.2g} s is not known", stretch.longest_gap_s);
@@ -73,6 +82,8 @@ std::string no_interval(const PathDefinition& definition, const StretchSummary& 
         "no interval: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm); "
         "state it",
         1e3 * stretch.slow_low_m, 1e3 * stretch.slow_high_m);
+  if (stretch.correlated && frame.discrete && fails_under_correlation(definition))
+    return "no interval: the noise is correlated, and an upper end would not hold between two rests";
   if (stretch.filtered_within && is_peak(definition))
     return "no interval: the spectrum falls within the movement's band as behind a low-pass, how much that "
            "took away is "
@@ -134,7 +145,7 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
                         : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
   // Thinning leaves next to no bias: what the refits find of it is as uncertain as it is large.
   if (numbers.thinned) pivoted.value = 0.5 * (pivoted.value + numbers.estimate);
-  const std::string why_none = no_interval(definition, stretch);
+  const std::string why_none = no_interval(definition, stretch, frame);
   if (definition.weakness == Weakness::needs_change && frame.steady) {
     remark(out, "the speed hardly changes");
     return out;

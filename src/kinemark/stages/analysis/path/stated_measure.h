@@ -29,6 +29,7 @@ struct StretchSummary {
       false;  ///< noise below 2 Hz cannot be told from movement: from `slow_low_m` to `slow_high_m`
   double slow_low_m = kNaN;      ///< of that noise
   double slow_high_m = kNaN;     ///< of that noise
+  bool correlated = false;       ///< the noise, from sample to sample
   bool filtered_within = false;  ///< low-passed within the movement's band
   double filtered_hz = kNaN;     ///< -3 dB of the filter that it went through; NaN: none
   double cut_off_hz = kNaN;      ///< of least expected error

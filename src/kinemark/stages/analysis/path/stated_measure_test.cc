@@ -235,7 +235,8 @@ TEST_F(StatedMeasure, SlowNoiseWithdrawsOnlyWhatRestsOnIt) {
   EXPECT_FALSE(says(known, "the noise below 2 Hz cannot be told from movement"));
   stretch_.slow_noise_unknown = true;
   stretch_.slow_low_m = 1e-4, stretch_.slow_high_m = 9e-4;
-  for (const char* id : {"extent_long", "extent_wide", "largest_distance", "plane_sd", "box_length"}) {
+  for (const char* id :
+       {"extent_long", "extent_wide", "largest_distance", "farthest_sample", "plane_sd", "box_length"}) {
     const auto none = tell(id, 1.0, 0.0, 0.1);
     EXPECT_EQ(none.interval.kind, data::IntervalKind::none) << id;
     EXPECT_EQ(
@@ -275,6 +276,28 @@ TEST_F(StatedMeasure, WhatAFilterTookOfABandMayHaveBeenMore) {
   const auto part = tell("tremor", 1.0, 0.0, 0.1);
   EXPECT_EQ(part.interval.kind, data::IntervalKind::at_least);
   EXPECT_EQ(part.remark, "its spectrum falls as behind a low-pass at 6 Hz: what it had above may be lost");
+}
+
+TEST_F(StatedMeasure, CorrelatedNoiseTakesUpperEndsThatWouldNotHold) {
+  const char* ids[] = {"ldlj", "movement_mean_speed"};
+  frame_.discrete = true;
+  for (const char* id : ids) {
+    const auto white = tell(id, 1.0, 0.02, 0.05);
+    EXPECT_EQ(white.interval.kind, data::IntervalKind::at_most) << id;
+    EXPECT_FALSE(says(white, "no interval: the noise is correlated, and an upper end"));
+  }
+  stretch_.correlated = true;
+  for (const char* id : ids) {
+    const auto none = tell(id, 1.0, 0.02, 0.05);
+    EXPECT_EQ(none.interval.kind, data::IntervalKind::none) << id;
+    EXPECT_EQ(none.remark,
+              "no interval: the noise is correlated, and an upper end would not hold between two rests");
+  }
+  // Paths have theirs, and what goes on has both.
+  EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::at_most);
+  frame_.discrete = false;
+  for (const char* id : ids)
+    EXPECT_EQ(tell(id, 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided) << id;
 }
 
 TEST_F(StatedMeasure, DoubtAboutTheNoiseIsSaidWhereItDecides) {
