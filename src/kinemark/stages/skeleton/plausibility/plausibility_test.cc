@@ -59,7 +59,7 @@ TEST(JudgeLayout, NamesMarkersTooFarApart) {
   for (const auto& f : found) {
     EXPECT_EQ(f.figure, BodyFigure::spread);
     EXPECT_NE(f.sentence().find(": two of its markers are "), std::string::npos) << f.sentence();
-    EXPECT_NE(f.sentence().find("1000 mm or less is expected of a body"), std::string::npos) << f.sentence();
+    EXPECT_NE(f.sentence().find("1500 mm or less is expected of a body"), std::string::npos) << f.sentence();
   }
 }
 
