@@ -124,7 +124,8 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   Correction by;
   if (joint.skin.verdict == data::SkinVerdict::follows) by.shift = 0.5 * slide.shift;
   const Vector6 rest = slide.shift - by.shift;
-  by.slides = positive_part(slide.covariance - slide.noise) + rest * rest.transpose();
+  // Where no marker slides the way is least squares' own error by noise, which the chain does not share.
+  by.slides = positive_part(slide.covariance - slide.noise) + (1.0 - slide.none) * rest * rest.transpose();
   by.in_parent = of_fewer_frames(joint.covariance_in_parent, slide.frames_alike, joint.axis_in_parent);
   by.in_child = of_fewer_frames(joint.covariance_in_child, slide.frames_alike, joint.axis_in_child);
   // Another part of the trial may move the joint otherwise, or, where it shows no skin, not at all.
