@@ -123,10 +123,9 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   auto& solved = judged->solved;
   const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
   const auto loose = internal::find_loose_frames(*problem, kept);
-  const bool rivalled = std::ranges::any_of(loose, [](std::int64_t pattern) { return pattern >= 0; });
   MarkerVariances variances;
   std::vector<internal::RivalPose> rivals;
-  if (rivalled) {
+  if (loose.any()) {
     variances = find_variances(*problem, options, kept, solved.states);
     internal::FrameWalk walk(*problem, options, progress);
     std::vector<std::uint8_t> changed;
@@ -135,7 +134,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
       variances = find_variances(*problem, options, kept, solved.states);
   }
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (options.error_bars && !rivalled) variances = find_variances(*problem, options, kept, solved.states);
+  if (options.error_bars && !loose.any()) variances = find_variances(*problem, options, kept, solved.states);
   take_frames(solved, result);
   fill_coordinates(*problem, solved.states, motion);
   add_task_costs(*problem, result);

@@ -4,9 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
-#include <numeric>
-#include <span>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/model/kinematics.h"
@@ -47,26 +48,25 @@ class Groups {
     const auto& model = problem.model;
     model::kinematics(model, w_, model.default_state());
     const auto bodies = model.bodies();
-    std::vector<std::size_t> of_body;
     std::size_t count = 1;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const std::size_t parent = bodies[b].parent < 0 ? 0 : of_body[at(bodies[b].parent)];
+      const std::size_t parent = bodies[b].parent < 0 ? 0 : of_body_[at(bodies[b].parent)];
       const auto moving = moving_columns(bodies[b]);
-      of_body.push_back(moving.empty() ? parent : count++);
+      of_body_.push_back(moving.empty() ? parent : count++);
       if (!moving.empty())
-        links_.push_back({.parent = parent, .child = of_body[b], .points = points_of(b, moving)});
+        links_.push_back({.parent = parent, .child = of_body_[b], .points = points_of(b, moving)});
     }
     for (const auto& marker : model.markers())
-      group_.push_back(marker.body < 0 ? 0 : of_body[at(marker.body)]);
+      group_.push_back(marker.body < 0 ? 0 : of_body_[at(marker.body)]);
     points_.resize(count);
     fixed_.resize(count);
     carries_.resize(count);
     lost_.resize(count);
   }
 
-  /// A group that lost a marker is loose. One number for each marker: whether it is seen, and whether it ever
-  /// is.
-  bool any_loose(const std::vector<std::uint8_t>& seen, const std::vector<std::uint8_t>& used) {
+  /// 1 for each group that lost a marker and is loose. For each marker: whether it is seen, and ever is.
+  std::vector<std::uint8_t> find_loose(const std::vector<std::uint8_t>& seen,
+                                       const std::vector<std::uint8_t>& used) {
     std::ranges::fill(carries_, std::uint8_t{0});
     std::ranges::fill(lost_, std::uint8_t{0});
     std::ranges::fill(fixed_, std::uint8_t{0});
@@ -84,9 +84,26 @@ class Groups {
     fix(0);
     for (std::size_t g = 1; g < points_.size(); ++g)
       if (fixed_[g] == 0 && fix_a_body(points_[g])) fix(g);
-    for (std::size_t g = 1; g < points_.size(); ++g)
-      if (lost_[g] != 0 && carries_[g] != 0 && fixed_[g] == 0) return true;
-    return false;
+    std::vector<std::uint8_t> loose(points_.size(), 0);
+    for (std::size_t g = 1; g < loose.size(); ++g)
+      loose[g] = lost_[g] != 0 && carries_[g] != 0 && fixed_[g] == 0 ? 1 : 0;
+    return loose;
+  }
+
+  [[nodiscard]] std::size_t count() const { return points_.size(); }
+  [[nodiscard]] std::size_t of_marker(std::size_t m) const { return group_[m]; }
+
+  /// 1 for the speeds of the joints between these groups and those beside them.
+  [[nodiscard]] std::vector<std::uint8_t> speeds_at(const std::vector<std::uint8_t>& loose) const {
+    const auto& model = problem_.model;
+    std::vector<std::uint8_t> speeds(at(model.speed_count()), 0);
+    for (std::size_t b = 0; b < of_body_.size(); ++b) {
+      const auto& body = model.bodies()[b];
+      const bool beside = body.parent >= 0 && loose[of_body_[at(body.parent)]] != 0;
+      if (loose[of_body_[b]] == 0 && !beside) continue;
+      for (const int c : moving_columns(body)) speeds[at(model.columns()[at(c)].speed)] = 1;
+    }
+    return speeds;
   }
 
  private:
@@ -127,32 +144,54 @@ class Groups {
   const Problem& problem_;
   model::Workspace w_;
   std::vector<Link> links_;
-  std::vector<std::size_t> group_;  ///< of each marker
+  std::vector<std::size_t> of_body_, group_;  ///< group of each body and of each marker
   std::vector<std::vector<Vector3d>> points_;
   std::vector<std::uint8_t> fixed_, carries_, lost_;
 };
 
 }  // namespace
 
-std::vector<std::int64_t> find_loose_frames(const Problem& problem, const data::Trajectories& markers) {
-  const std::size_t M = problem.data_marker.size();
-  const auto present = [&](std::int64_t f, std::size_t m) {
-    return markers.present(problem.first_frame + f, problem.data_marker[m]);
+LooseFrames find_loose_frames(const Problem& problem, const data::Trajectories& markers, double least_s) {
+  const std::size_t M = problem.data_marker.size(), F = at(problem.frames);
+  const auto present = [&](std::size_t f, std::size_t m) {
+    return markers.present(problem.first_frame + static_cast<std::int64_t>(f), problem.data_marker[m]);
   };
   std::vector<std::uint8_t> used(M, 0), seen(M, 0);
-  for (std::int64_t f = 0; f < problem.frames; ++f)
+  for (std::size_t f = 0; f < F; ++f)
     for (std::size_t m = 0; m < M; ++m) used[m] = used[m] != 0 || present(f, m) ? 1 : 0;
   Groups groups(problem);
-  std::map<std::vector<std::uint8_t>, std::int64_t> number_of;  // of a pattern; -1: not loose
-  std::vector<std::int64_t> loose(at(problem.frames), -1);
-  std::int64_t next = 0;
-  for (std::int64_t f = 0; f < problem.frames; ++f) {
+  const std::vector<std::uint8_t> none(groups.count(), 0);
+  std::map<std::vector<std::uint8_t>, std::vector<std::uint8_t>> known;  // loose groups by the markers seen
+  std::vector<std::vector<std::uint8_t>> loose(F, none);
+  for (std::size_t f = 0; f < F; ++f) {
     for (std::size_t m = 0; m < M; ++m) seen[m] = present(f, m) ? 1 : 0;
-    const auto [it, is_new] = number_of.try_emplace(seen, -1);
-    if (is_new && seen != used && groups.any_loose(seen, used)) it->second = next++;
-    loose[at(f)] = it->second;
+    if (seen == used) continue;
+    const auto [it, is_new] = known.try_emplace(seen);
+    if (is_new) it->second = groups.find_loose(seen, used);
+    loose[f] = it->second;
   }
-  return loose;
+  const auto least =
+      static_cast<std::size_t>(std::max(1.0, std::round(std::min(least_s * markers.time.rate_hz, 1e6))));
+  for (std::size_t g = 0; g < none.size(); ++g)
+    for (std::size_t f = 0; f < F; ++f) {
+      std::size_t end = f;
+      while (end < F && loose[end][g] != 0) ++end;
+      for (std::size_t k = f; k < end && end - f < least; ++k) loose[k][g] = 0;
+      f = end;
+    }
+  LooseFrames out;
+  out.pattern.assign(F, -1);
+  std::map<std::vector<std::uint8_t>, std::int64_t> number_of;
+  for (std::size_t f = 0; f < F; ++f) {
+    if (loose[f] == none) continue;
+    auto key = loose[f];
+    for (std::size_t m = 0; m < M; ++m)
+      key.push_back(loose[f][groups.of_marker(m)] != 0 && present(f, m) ? 1 : 0);
+    const auto [it, is_new] = number_of.try_emplace(std::move(key), std::ssize(out.speeds));
+    if (is_new) out.speeds.push_back(groups.speeds_at(loose[f]));
+    out.pattern[f] = it->second;
+  }
+  return out;
 }
 
 }  // namespace kinemark::motion::internal

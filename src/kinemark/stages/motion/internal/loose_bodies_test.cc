@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
+#include <iterator>
 
 #include "kinemark/model/kinematics.h"
 
@@ -65,14 +65,12 @@ data::ModelDescription body(bool slides = false) {
 class LooseBodies : public ::testing::Test {
  protected:
   /// Frames of one pose; each list of names is lost in the frame behind the first, which sees all.
-  static Frames loose(const data::ModelDescription& description,
-                      std::initializer_list<std::vector<const char*>> lost, bool lock_elbow = false) {
-    auto m = description;
-    if (lock_elbow) m.coordinates[9].locked = true;
-    const auto model = model::Model::compile(m).value();
+  static LooseFrames find(const data::ModelDescription& description,
+                          const std::vector<std::vector<const char*>>& lost, double least_s = 0.0) {
+    const auto model = model::Model::compile(description).value();
     std::vector<std::string> names;
-    for (const auto& marker : m.markers) names.push_back(marker.name);
-    const auto frames = static_cast<std::int64_t>(lost.size()) + 1;
+    for (const auto& marker : description.markers) names.push_back(marker.name);
+    const auto frames = std::ssize(lost) + 1;
     auto t = data::Trajectories::all_missing(names, {.rate_hz = 100.0, .t0_s = 0.0, .frames = frames});
     model::Workspace w(model);
     model::kinematics(model, w, model.default_state());
@@ -81,12 +79,13 @@ class LooseBodies : public ::testing::Test {
         t.x(f, i) = w.marker.col(i);
         t.state[t.index(f, i)] = data::SampleState::measured;
       }
-    std::int64_t f = 0;
-    for (const auto& frame : lost) {
-      ++f;
-      for (const char* name : frame) t.set_missing(f, t.find(name));
-    }
-    return find_loose_frames(make_problem(model, t, {}).value(), t);
+    for (std::size_t k = 0; k < lost.size(); ++k)
+      for (const char* name : lost[k]) t.set_missing(static_cast<std::int64_t>(k) + 1, t.find(name));
+    return find_loose_frames(make_problem(model, t, {}).value(), t, least_s);
+  }
+  static Frames loose(const data::ModelDescription& description,
+                      const std::vector<std::vector<const char*>>& lost) {
+    return find(description, lost).pattern;
   }
 };
 
@@ -124,12 +123,39 @@ TEST_F(LooseBodies, ASlidingJointHasNoCentre) {
 
 TEST_F(LooseBodies, LockedJointsMakeOneBodyOfTwo) {
   EXPECT_EQ(loose(body(), {{"U1", "F2"}}), (Frames{-1, 0}));
-  EXPECT_EQ(loose(body(), {{"U1", "F2"}}, true), (Frames{-1, -1})) << "U2, F1, F3 and the shoulder";
+  auto locked = body();
+  locked.coordinates[9].locked = true;
+  EXPECT_EQ(loose(locked, {{"U1", "F2"}}), (Frames{-1, -1})) << "U2, F1, F3 and the shoulder";
 }
 
 TEST_F(LooseBodies, PatternsAreNumberedAsTheyAppear) {
   EXPECT_EQ(loose(body(true), {{"T1"}, {"T1", "T4"}, {"T1"}, {}, {"T1", "T4"}}),
             (Frames{-1, 0, 1, 0, -1, 1}));
+}
+
+TEST_F(LooseBodies, AMarkerOfAnotherBodyMakesNoOtherPattern) {
+  EXPECT_EQ(loose(body(true), {{"T1"}, {"T1", "H1"}}), (Frames{-1, 0, 0}));
+}
+
+TEST_F(LooseBodies, ForAShortTimeTheFramesBesideTell) {
+  const std::vector<std::vector<const char*>> four(4, {"T1"}), five(5, {"T1"});
+  EXPECT_FALSE(find(body(true), four, 0.05).any()) << "40 ms";
+  const auto long_enough = find(body(true), five, 0.05);
+  EXPECT_TRUE(long_enough.any());
+  EXPECT_EQ(long_enough.pattern, (Frames{-1, 0, 0, 0, 0, 0}));
+  auto turns = five;  // the trunk is loose all along, the upper arm for 20 ms
+  turns[1] = turns[2] = {"T1", "U1"};
+  EXPECT_EQ(find(body(true), turns, 0.05).pattern, (Frames{-1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(find(body(true), turns, 0.01).pattern, (Frames{-1, 0, 1, 1, 0, 0}));
+}
+
+TEST_F(LooseBodies, SpeedsAreThoseOfTheJointsAtALooseBody) {
+  const auto trunk = find(body(true), {{"T1"}});
+  ASSERT_EQ(trunk.speeds.size(), 1U);
+  EXPECT_EQ(trunk.speeds[0], (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0}));
+  const auto forearm = find(body(), {{"F1", "F2", "F3"}});
+  ASSERT_EQ(forearm.speeds.size(), 1U);
+  EXPECT_EQ(forearm.speeds[0], (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1}));
 }
 
 TEST_F(LooseBodies, WhatABodyNeverHadItDoesNotLose) {

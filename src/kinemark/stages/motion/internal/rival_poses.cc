@@ -34,8 +34,9 @@ constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' erro
 constexpr std::size_t kMostRivals = 14;
 constexpr double kLeastSd_m = 0.3e-3;  // of a marker
 constexpr int kRoundsOfRivals = 2;
-constexpr std::int64_t kSearchEvery = 3;   // frames; between them rivals are followed
-constexpr std::int64_t kSearchAlike = 12;  // frames, while the same markers are seen
+constexpr double kSearchEvery_s = 0.05;  // between searches rivals are followed
+constexpr double kSearchAlike_s = 0.2;   // while the same markers are seen
+constexpr double kNearInSteps = 4.0;     // so near a start leads to the same pose
 constexpr double kShutLoopSd_m = 1e-5;
 constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
 constexpr double kLeastStep = 2e-3;  // rad or m
@@ -58,10 +59,11 @@ struct Candidate {
 class Rivals {
  public:
   Rivals(const Problem& problem, const IkOptions& options, const data::Trajectories& markers,
-         const std::vector<std::int64_t>& loose, const MarkerVariances& variances, const SolvedFrames& solved)
+         const LooseFrames& loose, const MarkerVariances& variances, const SolvedFrames& solved)
       : problem_(problem),
         markers_(markers),
         loose_(loose),
+        pattern_(loose.pattern),
         solved_(solved),
         solver_(problem, options),
         w_(problem.model),
@@ -75,7 +77,23 @@ class Rivals {
       const double v = variances.own[m] + (body >= 0 ? variances.common[body] : 0.0);
       all_[m] = 1.0 / std::max(v, kLeastSd_m * kLeastSd_m);
     }
+    const auto frames_in = [&](double time_s) {
+      return std::max<std::int64_t>(1, std::llround(std::min(time_s * markers.time.rate_hz, 1e6)));
+    };
+    every_ = frames_in(kSearchEvery_s);
+    alike_ = frames_in(kSearchAlike_s);
     find_steps();
+  }
+
+  /// Look again only at stretches of loose frames that hold one of these (F).
+  void keep_stretches(const std::vector<std::uint8_t>& with) {
+    for (std::int64_t f = 0; f < problem_.frames; ++f) {
+      std::int64_t end = f;
+      bool holds = false;
+      for (; is_loose(end); ++end) holds = holds || with[at(end)] != 0;
+      if (!holds) std::fill(pattern_.begin() + f, pattern_.begin() + end, -1);
+      f = end;
+    }
   }
 
   void find() {
@@ -88,17 +106,17 @@ class Rivals {
       auto& here = of_frame_[at(f)];
       here.push_back(candidate(solved_.states.col(f)));
       if (!is_loose(f)) continue;
-      if (begins) {  // a single frame between good ones is decided by those
-        searched = f - kSearchEvery + 1;
+      if (begins) {
+        searched = f - every_;
         pattern = -1;
       }
-      const bool search_now = f - searched >= (loose_[at(f)] == pattern ? kSearchAlike : kSearchEvery);
+      const bool search_now = f - searched >= (pattern_[at(f)] == pattern ? alike_ : every_);
       if (search_now) find_directions(here.front());
       if (f > 0) follow(f - 1, here);
       if (!search_now) continue;
       search(here);
       searched = f;
-      pattern = loose_[at(f)];
+      pattern = pattern_[at(f)];
     }
     for (std::int64_t f = F - 2; f >= 0; --f) {
       if (!is_loose(f)) continue;
@@ -152,7 +170,7 @@ class Rivals {
 
  private:
   [[nodiscard]] bool is_loose(std::int64_t f) const {
-    return f >= 0 && f < problem_.frames && loose_[at(f)] >= 0;
+    return f >= 0 && f < problem_.frames && pattern_[at(f)] >= 0;
   }
 
   /// How far each speed goes in a frame.
@@ -214,10 +232,11 @@ class Rivals {
   void find_directions(const Candidate& now) {
     model::kinematics(problem_.model, w_, now.state);
     invert(all_, whole_);
+    const auto& at_loose = loose_.speeds[at(pattern_[at(frame_)])];
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
       const double ratio = now.variance[i] / whole_(i, i);
-      if (!problem_.fixed_speed[at(i)] && ratio > kLessKnown) found.emplace_back(-ratio, i);
+      if (at_loose[at(i)] != 0 && ratio > kLessKnown) found.emplace_back(-ratio, i);
     }
     std::ranges::sort(found);
     std::vector<Eigen::Index> out;
@@ -240,13 +259,17 @@ class Rivals {
   /// The poses of the frame beside, solved in this one.
   void follow(std::int64_t beside, std::vector<Candidate>& here) {
     const auto& there = of_frame_[at(beside)];
-    for (std::size_t k = 0; k < std::min(there.size(), kMostRivals); ++k) {
-      if (k == 0 && beside < frame_ && there.size() == 1) {
-        model::difference(problem_.model, there[k].state, here.front().state, move_);
-        if ((move_.array().abs() < 4.0 * step_.array()).all()) continue;  // it was solved from there
-      }
-      take(there[k].state, here);
-    }
+    for (std::size_t k = 0; k < std::min(there.size(), kMostRivals); ++k)
+      if (!near_one_of(there[k].state, here, there.size() == 1 ? HUGE_VAL : 0.5 * kDiffers))
+        take(there[k].state, here);
+  }
+
+  /// A start from which one of these poses would be found again: it is near, and nearer than `most`.
+  bool near_one_of(const VectorXd& start, const std::vector<Candidate>& here, double most) {
+    return std::ranges::any_of(here, [&](const Candidate& c) {
+      model::difference(problem_.model, start, c.state, move_);
+      return (move_.array().abs() < (kNearInSteps * step_.array()).min(most)).all();
+    });
   }
 
   /// Poses on the ways along which the markers that are missing held the body.
@@ -339,7 +362,8 @@ class Rivals {
 
   const Problem& problem_;
   const data::Trajectories& markers_;
-  const std::vector<std::int64_t>& loose_;
+  const LooseFrames& loose_;
+  std::vector<std::int64_t> pattern_;  // of `loose`, -1 in frames that are not looked at
   const SolvedFrames& solved_;
   FrameSolver solver_;
   model::Workspace w_;
@@ -347,7 +371,7 @@ class Rivals {
   VectorXd weight_, information_, all_, step_, x_, start_, move_;
   MatrixXd H_, K_, whole_, C_;
   Eigen::LLT<MatrixXd> llt_;
-  std::int64_t frame_ = 0;
+  std::int64_t frame_ = 0, every_ = 1, alike_ = 1;
   std::vector<VectorXd> directions_;
   std::vector<std::vector<Candidate>> of_frame_;
   std::vector<double> logs_;
@@ -356,28 +380,27 @@ class Rivals {
 }  // namespace
 
 std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
-                                           const data::Trajectories& markers,
-                                           const std::vector<std::int64_t>& loose,
+                                           const data::Trajectories& markers, const LooseFrames& loose,
                                            const MarkerVariances& variances, FrameWalk& walk,
                                            SolvedFrames& solved, std::vector<std::uint8_t>& changed) {
   changed.assign(at(problem.frames), 0);
   std::vector<RivalPose> left;
-  bool again = true;
+  std::vector<std::uint8_t> again(at(problem.frames), 1);
   // A frame may have the wrong pose in two limbs, and its rivals the right one in one of them.
-  for (int round = 0; round < kRoundsOfRivals && again; ++round) {
-    again = false;
-    left.clear();
+  for (int round = 0; round < kRoundsOfRivals; ++round) {
     Rivals rivals(problem, options, markers, loose, variances, solved);
+    rivals.keep_stretches(again);
+    std::ranges::fill(again, std::uint8_t{0});
     rivals.find();
     rivals.weigh();
+    std::erase_if(left, [&](const RivalPose& r) { return !rivals.of(r.frame).empty(); });
     for (std::int64_t f = 0; f < problem.frames; ++f) {
       auto& here = rivals.of(f);
       if (here.empty()) continue;
       const auto best = static_cast<std::size_t>(std::ranges::max_element(here, {}, &Candidate::probability) -
                                                  here.begin());
       if (here[best].state != solved.states.col(f)) {
-        changed[at(f)] = 1;
-        again = true;
+        changed[at(f)] = again[at(f)] = 1;
         walk.put(markers, f, here[best].state, solved);
       }
       for (std::size_t k = 0; k < here.size(); ++k) {
@@ -388,7 +411,9 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
           left.push_back({.frame = f, .state = std::move(here[k].state), .probability = here[k].probability});
       }
     }
+    if (std::ranges::count(again, std::uint8_t{1}) == 0) break;
   }
+  std::ranges::stable_sort(left, {}, &RivalPose::frame);
   return left;
 }
 

@@ -10,6 +10,7 @@
 
 #include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/frame_walk.h"
+#include "kinemark/stages/motion/internal/loose_bodies.h"
 
 namespace kinemark::motion::internal {
 
@@ -23,16 +24,15 @@ struct RivalPose {
 /// Look for rivals in all frames with a loose body, and put the likeliest pose of each frame into `solved`;
 /// frames whose pose is another one then are solved as `markers` have them.
 ///
-/// @param loose      F, of find_loose_frames()
+/// @param loose      of find_loose_frames()
 /// @param walk       that solved them; its starts and losses are used
 /// @param variances  of the markers' errors
 /// @param changed    becomes 1 (F) where a frame got another pose
-/// @return           the rivals that are left, by frame. Costs up to 32 solutions of a frame in every third
-/// to
-///                   twelfth frame that has a loose body, nothing in others.
+/// @return           the rivals that are left, by frame. Costs up to 32 solutions of a frame with a loose
+///                   body every 50 to 200 ms, next to nothing in others.
 [[nodiscard]] std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptions& options,
                                                          const data::Trajectories& markers,
-                                                         const std::vector<std::int64_t>& loose,
+                                                         const LooseFrames& loose,
                                                          const MarkerVariances& variances, FrameWalk& walk,
                                                          SolvedFrames& solved,
                                                          std::vector<std::uint8_t>& changed);
