@@ -174,7 +174,8 @@ TEST_F(MeasuresJobTest, NothingIsSaidOfEventsThatNobodyAskedFor) {
 
 TEST_F(MeasuresJobTest, PathsWithoutCyclesAreCountedOnce) {
   const auto recorded = io::read_markers(recording_).value();
-  auto trial = recorded;
+  data::Trial trial;
+  trial.first_frame = recorded.first_frame;
   trial.markers = data::Trajectories::all_missing({"RFIN", "RELB", "RWRI"}, recorded.markers.time);
   for (std::int64_t f = 0; f < 300; ++f)
     for (int m = 0; m < 3; ++m) {
@@ -240,8 +241,10 @@ TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {
   job_.output = scratch_ / "short.csv";
   const auto outcome = run_measures(job_);
   ASSERT_FALSE(outcome);
-  EXPECT_THAT(outcome.error().message,
-              HasSubstr("nothing can be measured: RFIN was measured in 20 frames; need 30 at least"));
+  EXPECT_THAT(
+      outcome.error().message,
+      HasSubstr(
+          "nothing can be measured: 2 markers (RFIN, RELB) were measured in 20 frames; need 30 at least"));
   EXPECT_FALSE(std::filesystem::exists(job_.output));
 }
 

@@ -108,7 +108,7 @@ TEST(MeasuredPathTest, NoiseThatFitsNoModelLeavesValuesWithoutIntervals) {
 }
 
 TEST(MeasuredPathTest, NoiseBelowTheRoundingLeavesValuesWithoutIntervals) {
-  SeriesMatrix x = testing::cycles_with(testing::white(2e-6), 5);
+  SeriesMatrix x = testing::drifting_cycles_with(testing::white(2e-6), 5);
   const auto fine = measures_of(testing::cycles_with(testing::white(2e-4), 5));
   for (auto& value : x.reshaped()) value = 7.4e-5 * std::round(value / 7.4e-5);
   const auto coarse = measures_of(x);

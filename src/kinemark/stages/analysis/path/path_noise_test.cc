@@ -71,7 +71,7 @@ TEST(FindPathNoise, OfStatedAndFoundNoiseTheLargerCounts) {
 }
 
 TEST(FindPathNoise, NoiseBelowTheRoundingOfTheFileIsNoNoise) {
-  SeriesMatrix x = cycles_with(white(2e-6), 5), finer = x;
+  SeriesMatrix x = testing::drifting_cycles_with(white(2e-6), 5), finer = x;
   for (auto& value : x.reshaped()) value = 7.4e-5 * std::round(value / 7.4e-5);
   for (auto& value : finer.reshaped()) value = 1e-7 * std::round(value / 1e-7);
   const auto rounded = noise_of(x);

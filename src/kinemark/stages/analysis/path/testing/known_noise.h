@@ -31,6 +31,11 @@ inline SeriesMatrix cycles_with(const math::NoiseModel& model, std::uint64_t see
   return with_noise_of(sampled(kSamples, 100.0, ellipse), model, seed);
 }
 
+/// Turns of ellipse() that no sample repeats, as those of cycles_with() do.
+inline SeriesMatrix drifting_cycles_with(const math::NoiseModel& model, std::uint64_t seed) {
+  return with_noise_of(sampled(kSamples, 100.0, [](double t) { return ellipse(0.9717 * t); }), model, seed);
+}
+
 inline math::NoiseModel white(double sd) { return {.variance = sd * sd}; }
 inline math::NoiseModel slow(double sd, double rho) {
   return {.kind = math::NoiseKind::correlated, .variance = sd * sd, .correlation = rho};
