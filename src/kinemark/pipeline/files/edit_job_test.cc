@@ -162,9 +162,9 @@ TEST_F(EditJobTest, OfACleanRecordingNoExchangeIsAppended) {
 TEST_F(EditJobTest, ExchangesThatFlickerAreOneEditOfListedFrames) {
   auto spoilt = trajectory::testing::moving_trial();
   for (std::int64_t f = 62; f < 140; f += 3) {
-    const Eigen::Vector3d x = spoilt.markers.x(f, 3);
-    spoilt.markers.x(f, 3) = spoilt.markers.x(f, 4);
-    spoilt.markers.x(f, 4) = x;
+    const Eigen::Vector3d x = spoilt.markers.x(f, 0);
+    spoilt.markers.x(f, 0) = spoilt.markers.x(f, 2);
+    spoilt.markers.x(f, 2) = x;
   }
   ASSERT_TRUE(io::write_markers(job_.input, spoilt, true));
   auto search = job_;

@@ -52,6 +52,8 @@ TEST(ScreenRealRecordings, OnlyGenuineDefectsAreCalled) {
       {"TESTDPI.c3d", foot},
       {"cmu_02_05.c3d", {"spike TakeoMonday:STRN 1235-1236"}},
       {"walkingOptiTrack.c3d", {"label swap Foot_Marker3 1952-1952", "spike Knee_Marker3 2522-2523"}},
+      // Toe and fifth metatarsal in every third frame: the distance to the heel tells.
+      {"motion_capture_run.trc", {"label swap RTOE 0-121"}},
       // The last value repeated to the end of the file.
       {"dataWithNaNsWithSpaces.trc", {"stuck LMEL 408-426"}},
   };

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/data/frame_list.h"
@@ -161,6 +162,20 @@ double distance_beside(const Trajectories& t, std::int64_t one, std::int64_t oth
   return distances.empty() ? kNaN : median_of(std::move(distances));
 }
 
+/// Where the distances of the other side of the body speak against the greater part of the frames, that side
+/// may as well have its markers elsewhere: the fewer frames are named, and that nobody can decide.
+math::ExchangedPair fewer_of(const Trajectories& t, math::ExchangedPair pair) {
+  if (!pair.stated_by_distances) return pair;
+  std::vector<std::int64_t> rest;
+  for (std::int64_t f = 0; f < t.frames(); ++f)
+    if (t.present(f, pair.one) && t.present(f, pair.other) && !std::ranges::binary_search(pair.frames, f))
+      rest.push_back(f);
+  if (rest.empty() || rest.size() >= pair.frames.size()) return pair;
+  pair.frames = std::move(rest);
+  pair.side_known = pair.stated_by_distances = false;
+  return pair;
+}
+
 /// Exchanges by paths and distances, each pair once; and the recording without them.
 void report_exchanges(Trajectories& t, double least, Defects& out) {
   const auto found = math::find_exchanges(
@@ -168,7 +183,8 @@ void report_exchanges(Trajectories& t, double least, Defects& out) {
       {.least_m = least, .longest_gap_s = kLongestGap, .distance = [&](std::int64_t one, std::int64_t other) {
          return distance_beside(t, one, other);
        }});
-  for (const math::ExchangedPair& pair : found) {
+  for (const math::ExchangedPair& as_found : found) {
+    const math::ExchangedPair pair = fewer_of(t, as_found);
     const std::int64_t first = pair.frames.front(), last = pair.frames.back();
     const bool whole = last - first + 1 == std::ssize(pair.frames);
     const auto frames =

@@ -132,6 +132,34 @@ TEST(Swaps, TheOtherSideOfTheBodyTellsWhichHalfIsWrong) {
   }
 }
 
+TEST(Swaps, AnotherHabitOnTheOtherSideDoesNotMakeMostFramesWrong) {
+  // The right foot has toe and MT5 the other way round; on the left one they are exchanged in every fifth
+  // frame.
+  auto t = Trajectories::all_missing({"LHEE", "LTOE", "LMT5", "RHEE", "RTOE", "RMT5"},
+                                     {.rate_hz = 100.0, .t0_s = 0.0, .frames = 200});
+  Random random(4, 1);
+  for (std::int64_t f = 0; f < 200; ++f)
+    for (std::int64_t m = 0; m < 6; ++m) {
+      const double s = t.time.time_s(f), side = m < 3 ? 1.0 : -1.0;
+      const Eigen::Vector3d sites[] = {{0, 0, 0}, {0.25, 0.0, 0}, {0.12, 0.07 * side, 0}};
+      const std::int64_t site = m < 4 ? m % 3 : 6 - m;
+      t.x(f, m) =
+          sites[site] + Eigen::Vector3d(s + 0.2 * std::sin(6 * s + (m < 3 ? 0.0 : 1.0)), 0.2 * side, 0.0);
+      for (double& x : t.x(f, m)) x += 0.0003 * random.gaussian();
+      t.state[t.index(f, m)] = data::SampleState::measured;
+    }
+  EXPECT_TRUE(swaps_in(t).empty()) << "nothing jumps";
+  std::vector<std::int64_t> planted;
+  for (std::int64_t f = 3; f < 120; f += 5) {
+    exchange(t, {1, 2, f, f});
+    planted.push_back(f);
+  }
+  const Defects found = swaps_in(t);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].frames, planted);
+  EXPECT_LT(found[0].confidence, 0.8) << "distances speak against the paths: nothing is exchanged unasked";
+}
+
 TEST(Swaps, SeveralExchangesAtOnceAreKeptApart) {
   const std::set<Swap> planted{{0, 1, 40, 90}, {2, 6, 60, 120}, {3, 4, 90, 100}, {0, 1, 130, 131}};
   Trajectories t = testing::walker({.frames = 200});
@@ -271,7 +299,7 @@ TEST(Swaps, WhatIsSaidOfTheSideFollowsFromWhatIsKnownOfIt) {
                                    "fewer are named"));
   EXPECT_THAT(last_half, Not(HasSubstr("which side is right cannot be decided by the paths")));
   const auto middle = words({2, 4, 60, 80});
-  EXPECT_THAT(middle, HasSubstr("are exchanged in frames 60 to 80 (0.6 to 0.8 s): exchanged back they "
+  EXPECT_THAT(middle, HasSubstr("are exchanged in frames 60 to 80: exchanged back they "
                                 "continue their paths"));
   EXPECT_THAT(middle, Not(AnyOf(HasSubstr("which side is right cannot be decided by the paths"),
                                 HasSubstr("which of these and the other frames are right"),
@@ -288,7 +316,7 @@ TEST(Swaps, AVisitIsNoExchangeAndSaysHowNearItWas) {
   const Defects found = swaps_in(t);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].description, HasSubstr("mm from it) and back to its own"));
-  EXPECT_THAT(found[0].description, HasSubstr("in frames 60 to 65 (0.6 to 0.65 s)"));
+  EXPECT_THAT(found[0].description, HasSubstr("in frames 60 to 65 ("));
   EXPECT_THAT(found[0].description, Not(HasSubstr(": exchanged back they continue their paths")));
 }
 
