@@ -20,7 +20,7 @@ data::AxisDescription axis(bool is_rotation, const Vector3d& direction, int coor
 }
 
 /// A trunk free in the room, an upper arm on a ball or a slide, a forearm on a hinge and a hand on another.
-data::ModelDescription body(bool slides = false) {
+data::ModelDescription arm_on_a_trunk(bool slides = false) {
   data::ModelDescription m;
   m.name = "arm on a trunk";
   for (const char* name : {"trunk", "upper", "fore", "hand"})
@@ -89,77 +89,80 @@ class LooseBodies : public ::testing::Test {
   }
 };
 
-TEST_F(LooseBodies, AllMarkersLeaveNoneLoose) { EXPECT_EQ(loose(body(), {{}, {}}), (Frames{-1, -1, -1})); }
+TEST_F(LooseBodies, AllMarkersLeaveNoneLoose) {
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{}, {}}), (Frames{-1, -1, -1}));
+}
 
 TEST_F(LooseBodies, ThreeMarkersOffALineFixTheirBody) {
-  EXPECT_EQ(loose(body(true), {{"T4"}, {"T1"}, {"T2"}}), (Frames{-1, -1, 0, -1}))
+  EXPECT_EQ(loose(arm_on_a_trunk(true), {{"T4"}, {"T1"}, {"T2"}}), (Frames{-1, -1, 0, -1}))
       << "T2, T3 and T4 lie on a line, T1, T3 and T4 do not";
-  EXPECT_EQ(loose(body(), {{"T1"}}), (Frames{-1, -1})) << "the shoulder is known by the arm";
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"T1"}}), (Frames{-1, -1})) << "the shoulder is known by the arm";
 }
 
 TEST_F(LooseBodies, JointsToFixedBodiesCountAsPoints) {
-  EXPECT_EQ(loose(body(), {{"U1"}, {"U1", "U2"}}), (Frames{-1, -1, -1})) << "shoulder and elbow are known";
-  EXPECT_EQ(loose(body(), {{"U1", "F1", "F2"}, {"U2", "F1"}}), (Frames{-1, 0, 1}))
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"U1"}, {"U1", "U2"}}), (Frames{-1, -1, -1}))
+      << "shoulder and elbow are known";
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"U1", "F1", "F2"}, {"U2", "F1"}}), (Frames{-1, 0, 1}))
       << "a marker and the shoulder leave the upper arm free about their line, and the forearm with it";
 }
 
 TEST_F(LooseBodies, AHingeToAFixedBodyIsALine) {
-  EXPECT_EQ(loose(body(), {{"F1"}, {"F1", "F2"}, {"F1", "F2", "F3"}}), (Frames{-1, -1, -1, 0}))
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"F1"}, {"F1", "F2"}, {"F1", "F2", "F3"}}), (Frames{-1, -1, -1, 0}))
       << "one marker off the elbow's axis is enough, none is not";
 }
 
 TEST_F(LooseBodies, BehindTheLastMarkerThereIsNothingToMistake) {
-  EXPECT_EQ(loose(body(), {{"H1"}, {"F1", "F2", "F3", "H1"}}), (Frames{-1, -1, -1}))
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"H1"}, {"F1", "F2", "F3", "H1"}}), (Frames{-1, -1, -1}))
       << "open, and said to be";
-  EXPECT_EQ(loose(body(), {{"U1", "U2", "F1", "F2", "F3"}}), (Frames{-1, 0}))
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"U1", "U2", "F1", "F2", "F3"}}), (Frames{-1, 0}))
       << "the hand is seen behind them";
 }
 
 TEST_F(LooseBodies, ASlidingJointHasNoCentre) {
-  EXPECT_EQ(loose(body(false), {{"F1"}}), (Frames{-1, -1}));
-  EXPECT_EQ(loose(body(true), {{"F1"}}), (Frames{-1, 0}))
+  EXPECT_EQ(loose(arm_on_a_trunk(false), {{"F1"}}), (Frames{-1, -1}));
+  EXPECT_EQ(loose(arm_on_a_trunk(true), {{"F1"}}), (Frames{-1, 0}))
       << "two markers do not fix an upper arm that slides";
 }
 
 TEST_F(LooseBodies, LockedJointsMakeOneBodyOfTwo) {
-  EXPECT_EQ(loose(body(), {{"U1", "F2"}}), (Frames{-1, 0}));
-  auto locked = body();
+  EXPECT_EQ(loose(arm_on_a_trunk(), {{"U1", "F2"}}), (Frames{-1, 0}));
+  auto locked = arm_on_a_trunk();
   locked.coordinates[9].locked = true;
   EXPECT_EQ(loose(locked, {{"U1", "F2"}}), (Frames{-1, -1})) << "U2, F1, F3 and the shoulder";
 }
 
 TEST_F(LooseBodies, PatternsAreNumberedAsTheyAppear) {
-  EXPECT_EQ(loose(body(true), {{"T1"}, {"T1", "T4"}, {"T1"}, {}, {"T1", "T4"}}),
+  EXPECT_EQ(loose(arm_on_a_trunk(true), {{"T1"}, {"T1", "T4"}, {"T1"}, {}, {"T1", "T4"}}),
             (Frames{-1, 0, 1, 0, -1, 1}));
 }
 
 TEST_F(LooseBodies, AMarkerOfAnotherBodyMakesNoOtherPattern) {
-  EXPECT_EQ(loose(body(true), {{"T1"}, {"T1", "H1"}}), (Frames{-1, 0, 0}));
+  EXPECT_EQ(loose(arm_on_a_trunk(true), {{"T1"}, {"T1", "H1"}}), (Frames{-1, 0, 0}));
 }
 
 TEST_F(LooseBodies, ForAShortTimeTheFramesBesideTell) {
   const std::vector<std::vector<const char*>> four(4, {"T1"}), five(5, {"T1"});
-  EXPECT_FALSE(find(body(true), four, 0.05).any()) << "40 ms";
-  const auto long_enough = find(body(true), five, 0.05);
+  EXPECT_FALSE(find(arm_on_a_trunk(true), four, 0.05).any()) << "40 ms";
+  const auto long_enough = find(arm_on_a_trunk(true), five, 0.05);
   EXPECT_TRUE(long_enough.any());
   EXPECT_EQ(long_enough.pattern, (Frames{-1, 0, 0, 0, 0, 0}));
   auto turns = five;  // the trunk is loose all along, the upper arm for 20 ms
   turns[1] = turns[2] = {"T1", "U1"};
-  EXPECT_EQ(find(body(true), turns, 0.05).pattern, (Frames{-1, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(find(body(true), turns, 0.01).pattern, (Frames{-1, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(find(arm_on_a_trunk(true), turns, 0.05).pattern, (Frames{-1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(find(arm_on_a_trunk(true), turns, 0.01).pattern, (Frames{-1, 0, 1, 1, 0, 0}));
 }
 
 TEST_F(LooseBodies, SpeedsAreThoseOfTheJointsAtALooseBody) {
-  const auto trunk = find(body(true), {{"T1"}});
+  const auto trunk = find(arm_on_a_trunk(true), {{"T1"}});
   ASSERT_EQ(trunk.speeds.size(), 1U);
   EXPECT_EQ(trunk.speeds[0], (std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0}));
-  const auto forearm = find(body(), {{"F1", "F2", "F3"}});
+  const auto forearm = find(arm_on_a_trunk(), {{"F1", "F2", "F3"}});
   ASSERT_EQ(forearm.speeds.size(), 1U);
   EXPECT_EQ(forearm.speeds[0], (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1}));
 }
 
 TEST_F(LooseBodies, WhatABodyNeverHadItDoesNotLose) {
-  auto without = body(true);
+  auto without = arm_on_a_trunk(true);
   std::erase_if(without.markers, [](const auto& m) { return m.name == "T1"; });
   EXPECT_EQ(loose(without, {{"T4"}}), (Frames{-1, 0})) << "T2 and T3 are left";
   EXPECT_EQ(loose(without, {{}}), (Frames{-1, -1})) << "the three near a line are all there are";

@@ -92,7 +92,8 @@ TEST_F(RivalPoses, AWrongStartIsPutRightByTheFramesBehind) {
   for (std::int64_t f = 100; f < 140; ++f) markers.set_missing(f, 0);
   const auto problem = make_problem(model, markers, {}).value();
   const IkOptions options;
-  FrameWalk walk(problem, options, {});
+  const Progress progress;
+  FrameWalk walk(problem, options, progress);
   SolvedFrames solved;
   ASSERT_TRUE(walk.run(markers, false, solved));
   // The walk had taken the mirror pose from frame 110 on.
