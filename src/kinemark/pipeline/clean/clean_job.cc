@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/data/filtering.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/edit_input.h"
@@ -128,6 +129,7 @@ std::vector<ResultFile> list_files(const CleanFiles& files, internal::CleanOutpu
 Result<CleanOutcome> run_clean(const CleanJob& job) {
   // Prepare: where results go, markers, and what the recorder did to them.
   if (auto s = job.gaps.check(); !s) return std::unexpected(s.error());
+  if (auto s = io::check_marker_format(job.output); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
   auto staging = Staging::create(files.all(), job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
