@@ -147,7 +147,7 @@ TEST_F(LooseBodies, ForAShortTimeTheFramesBesideTell) {
   EXPECT_TRUE(long_enough.any());
   EXPECT_EQ(long_enough.pattern, (Frames{-1, 0, 0, 0, 0, 0}));
   auto turns = five;  // the trunk is loose all along, the upper arm for 20 ms
-  turns[1] = turns[2] = {"T1", "U1"};
+  turns[1] = turns[2] = {"T1", "U1", "F1"};
   EXPECT_EQ(find(arm_on_a_trunk(true), turns, 0.05).pattern, (Frames{-1, 0, 0, 0, 0, 0}));
   EXPECT_EQ(find(arm_on_a_trunk(true), turns, 0.01).pattern, (Frames{-1, 0, 1, 1, 0, 0}));
 }
