@@ -131,7 +131,7 @@ TEST_F(RivalPoses, BetweenStretchedArmsNobodyKnowsAndItIsSaid) {
   const auto result = solve_ik(model, markers).value();
   const std::int64_t middle = (first + last) / 2;
   for (int c = 0; c < 2; ++c) EXPECT_EQ(result.motion.determined[result.motion.index(middle, c)], 0);
-  // Near the stretched arm the linear error bar is too narrow for one frame: 5.9 deviations.
+  // Near the stretched arm one frame lies 5.9 deviations off, and is called determined.
   int beyond = 0;
   for (std::int64_t f = 0; f < 300; ++f)
     for (int c = 0; c < 2; ++c) {
