@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-const std::vector<std::string> kNames{"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE", "LTIB",
-                                      "RTIB", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"};
+const std::vector<std::string> kLegNames{"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE", "LTIB",
+                                         "RTIB", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"};
 
 /// Every marker where its name says, give or take 4 mm.
 SeenFrame standing(const StandingBody& body, std::uint64_t seed) {
@@ -45,7 +45,7 @@ int marker(const StandingBody& body, const std::string& name) {
 
 class Hypotheses : public ::testing::Test {
  protected:
-  StandingBody body_ = body_of_names(kNames);
+  StandingBody body_ = body_of_names(kLegNames);
   SharedPrior prior_ = prior_of(body_);
 };
 
