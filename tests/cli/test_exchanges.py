@@ -57,10 +57,10 @@ class ExchangesTest(CommandTest):
         clean = self.good(*self.ik(markers="whole.trc", output="whole.mot"))
         self.assertNotIn("are exchanged in", clean.err)
         self.assertEqual(table(self.folder / "walk.mot"), table(self.folder / "whole.mot"))
-        told = [json.loads((self.folder / name).read_text()) for name in ("walk_report.json", "whole_report.json")]
-        self.assertEqual([len(report["exchanged"]) for report in told], [1, 0])
-        self.assertEqual(told[0]["exchanged"][0]["count"], len(self.frames))
-        self.assertEqual(told[0]["rejected_samples"], told[1]["rejected_samples"], "no right sample is left out")
+        reports = [json.loads((self.folder / name).read_text()) for name in ("walk_report.json", "whole_report.json")]
+        self.assertEqual([len(report["exchanged"]) for report in reports], [1, 0])
+        self.assertEqual(reports[0]["exchanged"][0]["count"], len(self.frames))
+        self.assertEqual(reports[0]["rejected_samples"], reports[1]["rejected_samples"], "no right sample is left out")
         kept = self.good(*self.ik(markers="walk.trc", output="kept.mot", outliers="keep"), status=1)
         self.assertNotIn("exchanged back", kept.err)
 
@@ -78,7 +78,7 @@ class ExchangesTest(CommandTest):
         self.assertIn("nothing was appended", nothing.err)
         self.assertFalse((self.folder / "whole_edits.jsonl").exists())
 
-    def test_clean_exchanges_back_unless_it_is_told_to_keep(self):
+    def test_clean_exchanges_back_unless_asked_to_keep(self):
         self.assert_said(self.good("clean", "walk.trc", "cleaned.csv").err)
         self.good("clean", "walk.trc", "kept.csv", "--keep-exchanges")
         self.assertIn("exchanged with", (self.folder / "cleaned.csv").read_text())

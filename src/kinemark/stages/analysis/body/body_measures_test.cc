@@ -22,6 +22,7 @@ using data::Measure;
 using data::Quantity;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kHertz = 100.0, kTurn = 2.0 * std::numbers::pi;
 constexpr double kHip = 0.4, kKnee = 0.6, kFrequency = 1.0;
@@ -194,6 +195,73 @@ TEST(BodyMeasures, WithoutAnyErrorThereIsNoInterval) {
   const auto noise =
       measure_body(still, nothing, {.measures = {"joint_range"}, .coordinates = {0}, .refits = 39}).value();
   EXPECT_THAT(noise.measures.at(0).remark, HasSubstr("it moves by less than half of its errors"));
+}
+
+TEST(BodyMeasures, ReasonsAreSaidWhereTheyAreSoAlone) {
+  const auto record = swinging(0.01, 5);
+  const auto plain = measure_body(record, nothing, {.measures = {"joint_range"}, .refits = 0}).value();
+  EXPECT_THAT(find(plain, "joint_range", "hip_l").remark, HasSubstr("no interval was asked for"));
+  const auto out =
+      measure_body(record, damper,
+                   {.measures = {"joint_range", "joint_work_net", "joint_maximum_time"}, .refits = 39})
+          .value();
+  for (const auto& note : out.notes) {
+    EXPECT_THAT(note, Not(HasSubstr("fewer than 30 of their samples are determined")));
+    EXPECT_THAT(note, Not(HasSubstr("more than 15 % more from each other than their deviations tell")));
+  }
+  for (const std::string id : {"joint_range", "joint_work_net"}) {
+    const auto& m = find(out, id, "hip_l");
+    EXPECT_THAT(m.remark, Not(HasSubstr("no interval was asked for"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("nothing fixes it in this stretch"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("the torque is not determined in"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("the torque is not known throughout"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("no interval: what happened in"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("the samples show no noise"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("it moves by less than half of its errors"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("part of the stretch is at rest"))) << id;
+  }
+}
+
+TEST(BodyMeasures, AnInstantHasAnIntervalWhereItStandsOut) {
+  const auto record = swinging(0.01, 5);
+  const auto out = measure_body(record, nothing,
+                                {.measures = {"joint_maximum_time"},
+                                 .stretches = {{.name = "cycles", .first = 10, .count = 400},
+                                               {.name = "one", .first = 60, .count = 80},
+                                               {.name = "rise", .first = 110, .count = 40}},
+                                 .refits = 39})
+                       .value();
+  const auto& many = find(out, "joint_maximum_time", "knee_l", "cycles");
+  EXPECT_EQ(many.interval.kind, IntervalKind::none);
+  EXPECT_THAT(many.remark, HasSubstr("other instants are nearly as extreme")) << "each cycle has its peak";
+  const auto& one = find(out, "joint_maximum_time", "knee_l", "one");
+  EXPECT_EQ(one.interval.kind, IntervalKind::two_sided) << one.remark;
+  EXPECT_THAT(one.remark, Not(HasSubstr("other instants are nearly as extreme")));
+  EXPECT_THAT(one.remark, Not(HasSubstr("it is at an end of the stretch")));
+  const auto& slide = find(out, "joint_maximum_time", "slide", "cycles");
+  EXPECT_THAT(slide.remark, HasSubstr("it is at an end of the stretch")) << "it only ever rises";
+}
+
+TEST(BodyMeasures, ACoordinateAtRestForAWhileSaysThatNoiseWidensIt) {
+  auto record = swinging(0.0, 5);
+  Random random(21, 0);
+  for (int f = 0; f < 416; ++f) {
+    const double t = std::clamp(f / kHertz - 2.0, 0.0, 1.0);
+    record.q(f, 1) = 0.5 * t * t * (3.0 - 2.0 * t) + 0.01 * random.gaussian();
+  }
+  const BodyMeasureOptions options{.measures = {"joint_range"}, .coordinates = {1}, .refits = 39};
+  EXPECT_THAT(measure_body(record, nothing, options).value().measures.at(0).remark,
+              HasSubstr("part of the stretch is at rest, where noise can only widen it"));
+}
+
+TEST(BodyMeasures, APairOneOfWhichRestsHasNoPhase) {
+  auto record = swinging(0.0, 5);
+  record.q.col(1).setConstant(0.3);
+  const BodyMeasureOptions options{.measures = {"relative_phase"}, .pairs = {{0, 1}}, .refits = 0};
+  const auto still = measure_body(record, nothing, options).value();
+  EXPECT_THAT(still.measures.at(0).remark, HasSubstr("one of the two does not move"));
+  const auto moving = measure_body(swinging(0.0, 5), nothing, options).value();
+  EXPECT_THAT(moving.measures.at(0).remark, Not(HasSubstr("one of the two does not move")));
 }
 
 TEST(BodyMeasures, KineticsPerMass) {

@@ -231,8 +231,7 @@ class EmgMeasurement {
     const double unit = in_volts && std::isfinite(most) ? 1.0 / most : 1.0;
     if (unit != 1.0) measure.quantity = Quantity::share;
     if (!std::isfinite(value)) {
-      measure.remark =
-          which == kMedian ? "the stretch is too short" : "no burst begins or ends in the stretch";
+      measure.remark = which == kMedian ? "no signal there" : "no burst begins or ends in the stretch";
       out.measures.push_back(std::move(measure));
       return;
     }

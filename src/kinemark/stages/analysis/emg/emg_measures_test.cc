@@ -18,6 +18,7 @@ using data::Measure;
 using Eigen::VectorXd;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kEmg_hz = 1000.0;
 constexpr double kStrong = 1e-3, kQuiet = 2e-5;
@@ -109,6 +110,53 @@ TEST(EmgMeasures, ToAMaximumValuesAreShares) {
   channel.most_volts = 2.0 * kStrong;
   const auto half = measure_emg({channel}, kEmg_hz, 0.0, {.measures = {"emg_peak"}, .refits = 0}).value();
   EXPECT_LT(get(half, "emg_peak").value, 0.7);
+}
+
+TEST(EmgMeasures, ReasonsForNoIntervalAreThoseOfTheMeasure) {
+  const auto plain = measure_emg({burst(3)}, kEmg_hz, 0.0, {.refits = 0}).value();
+  EXPECT_THAT(get(plain, "emg_mean").remark, HasSubstr("no interval was asked for"));
+  EXPECT_THAT(get(plain, "emg_peak").remark, Not(HasSubstr("chance can only raise it")));
+  EXPECT_THAT(get(plain, "emg_rest").remark, Not(HasSubstr("it is the least of many stretches")));
+
+  const auto out =
+      measure_emg(
+          {burst(3)}, kEmg_hz, 0.0,
+          {.stretches = {{.name = "whole", .count = 4000}, {.name = "steady", .first = 1700, .count = 600}},
+           .refits = 39})
+          .value();
+  EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("no interval was asked for")));
+  EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("no burst rises above rest")));
+  EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("it is the least of many stretches")));
+  EXPECT_THAT(get(out, "emg_rest", "whole").remark, HasSubstr("it is the least of many stretches"));
+  EXPECT_THAT(get(out, "emg_peak", "whole").remark, HasSubstr("chance can only raise it"));
+  EXPECT_THAT(get(out, "emg_peak_time", "steady").remark, HasSubstr("other instants are nearly as good"))
+      << "any instant of an even burst may have the peak";
+  EXPECT_THAT(get(out, "emg_onset", "whole").remark, Not(HasSubstr("no burst begins or ends")));
+  EXPECT_THAT(get(out, "emg_onset", "steady").remark, HasSubstr("no burst begins or ends in the stretch"));
+}
+
+TEST(EmgMeasures, AnInstantThatManyDrawsLackHasNoInterval) {
+  const auto onset = [](double strength) {
+    const EmgOptions options{.measures = {"emg_onset"}, .refits = 39};
+    return get(measure_emg({burst(3, strength)}, kEmg_hz, 0.0, options).value(), "emg_onset").remark;
+  };
+  // So weak that the burst of many draws does not rise above rest; a little stronger it does.
+  EXPECT_THAT(onset(1.2 * kQuiet),
+              HasSubstr("more than a tenth of the simulated channels do not determine it"));
+  EXPECT_THAT(onset(1.6 * kQuiet),
+              Not(HasSubstr("more than a tenth of the simulated channels do not determine it")));
+  EXPECT_THAT(onset(1.6 * kQuiet), Not(HasSubstr("other instants are nearly as good")));
+}
+
+TEST(EmgMeasures, AShortChannelIsNotMeasured) {
+  const auto out = measure_emg({burst(3)}, kEmg_hz, 0.0, {.refits = 0}).value();
+  EXPECT_THAT(out.notes, Not(Contains(HasSubstr("is shorter than half a second"))));
+  EXPECT_THAT(out.notes, Not(Contains(HasSubstr("has missing samples, and is not measured"))));
+  auto few = burst(3);
+  few.name = "EMG2";
+  few.volts = VectorXd(few.volts.head(400));
+  const auto both = measure_emg({burst(3), few}, kEmg_hz, 0.0, {.refits = 0}).value();
+  EXPECT_THAT(both.notes, Contains("EMG2 is shorter than half a second"));
 }
 
 TEST(EmgMeasures, WhatCannotBeMeasuredIsSaid) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/gait_events.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,10 @@ using data::EventSource;
 using data::FootEvent;
 using data::GaitEvent;
 using data::Side;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 using testing::KnownWalk;
+using ::testing::Not;
 
 MarkerEvents markers_of(const data::Trajectories& markers) {
   const auto which = find_gait_markers(markers).value();
@@ -74,6 +78,10 @@ TEST(AgreementSentence, TellsTheSpreadOfSeveralAlone) {
             "Foot Off: A and B differ by -8 +- 5 ms in 6 events, by 14 ms at most");
   EXPECT_EQ(sentence_of({.what = "Foot Off: A and B", .count = 1, .mean_s = 0.012, .most_s = 0.012}),
             "Foot Off: A and B differ by 12 ms in one event");
+  EXPECT_THAT(sentence_of({.what = "Foot Off: A and B", .count = 6, .mean_s = -0.008, .most_s = 0.014}),
+              Not(HasSubstr(" ms in one event")));
+  EXPECT_THAT(sentence_of({.what = "Foot Off: A and B", .count = 1, .mean_s = 0.012, .most_s = 0.012}),
+              Not(HasSubstr(" events, by ")));
 }
 
 TEST_F(GaitEventsTest, AscendAndAlternate) {
@@ -165,6 +173,20 @@ TEST_F(GaitEventsTest, PlatesOutOfStepAreNamedAndNotTaken) {
   const auto small_offs = others(EventSource::plate, 3, -0.02, FootEvent::off);
   small.insert(small.end(), small_offs.begin(), small_offs.end());
   EXPECT_FALSE(find_gait_events(of_markers_, small, {}, EventChoice::best).out_of_step);
+}
+
+TEST_F(GaitEventsTest, WhatPlatesChangeIsSaidWhereTheyDo) {
+  auto late = others(EventSource::plate, 3, -0.045);
+  const auto offs = others(EventSource::plate, 3, -0.05, FootEvent::off);
+  late.insert(late.end(), offs.begin(), offs.end());
+  const auto out_of_step = find_gait_events(of_markers_, late, {}, EventChoice::best).notes,
+             moved =
+                 find_gait_events(of_markers_, others(EventSource::plate, 4, -0.02), {}, EventChoice::best)
+                     .notes;
+  EXPECT_THAT(out_of_step, Contains("events are those of the markers, as plates are out of step"));
+  EXPECT_THAT(out_of_step, Not(Contains(HasSubstr(" ms were taken off the events of markers, as "))));
+  EXPECT_THAT(moved, Contains(HasSubstr(" ms were taken off the events of markers, as 4 of plates show")));
+  EXPECT_THAT(moved, Not(Contains(HasSubstr("events are those of the markers, as plates are out of step"))));
 }
 
 TEST_F(GaitEventsTest, TheBestIsThatOfPlatesAndKeepsOthers) {

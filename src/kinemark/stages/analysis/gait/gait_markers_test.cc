@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/gait_markers.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kinemark/stages/analysis/gait/feet_by_place.h"
@@ -11,6 +12,9 @@ namespace kinemark::analysis {
 namespace {
 
 using data::Side;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using Names = std::vector<std::string>;
 using Indices = std::vector<std::int64_t>;
 
@@ -196,6 +200,40 @@ TEST(FeetByPlace, AreTwoGroupsWhereNoNamesPair) {
     EXPECT_EQ(foot[0] / 2, foot[1] / 2);
   }
   EXPECT_NE(found->feet[0][0] / 2, found->feet[1][0] / 2);
+}
+
+TEST(GaitMarkers, WhatStandsForWhatIsSaidWhereItDoesAlone) {
+  const auto whole = find_gait_markers(named({"LHEE", "LTOE", "RHEE", "RTOE", "SACR"}))->notes;
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("(--gait-marker with a marker of another one takes that one)"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("the one without a name"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("no names of feet are known here: by their place, "))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("; no name tells which is left"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr(" % of the frames"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr(" foot that is seen; that foot is not measured"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("no marker of the heel is used, "))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr(" stands for the whole foot"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("no marker of the pelvis is named; the mean of the "))));
+
+  EXPECT_THAT(find_gait_markers(named({"LTOE", "RHEE", "RTOE", "SACR"}))->notes,
+              Contains("left foot: no marker of the heel or ankle is used, LTOE stands for the whole foot"));
+  EXPECT_THAT(find_gait_markers(named({"LHEE", "LTOE", "RHEE", "RTOE", "X1", "X2"}))->notes,
+              Contains("no marker of the pelvis is named; the mean of the 2 others stands for it"));
+  auto flickers = named({"LHEE", "LCAL", "LTOE", "RHEE", "RTOE", "SACR"});
+  for (std::int64_t f = 0; f < 50; f += 2) flickers.set_missing(f, 0);
+  EXPECT_THAT(find_gait_markers(flickers)->notes,
+              Contains("left foot: LHEE is seen in 50 % of the frames; LCAL and LTOE are used"));
+  const auto two = find_gait_markers(named({"LHEE", "LTOE", "RHEE", "RTOE", "SACR", "Bob:LHEE", "Bob:LTOE"}));
+  EXPECT_THAT(two->notes, Contains(HasSubstr("walking is that of the one without a name, not of Bob "
+                                             "(--gait-marker with a marker of another one takes that one)")));
+}
+
+TEST(GaitMarkers, FeetByTheirPlaceAreNamedAsSuch) {
+  EXPECT_THAT(find_gait_markers(unnamed_walker({"1", "2", "3", "4", "5", "6", "7", "8", "9"}))->notes,
+              Contains(::testing::AllOf(HasSubstr("no names of feet are known here: by their place, "),
+                                        HasSubstr("; no name tells which is left"))));
+  EXPECT_THAT(
+      find_gait_markers(unnamed_walker({"LQ1", "LQ2", "RQ1", "RQ2", "P", "LQ3", "RQ3", "LQ4", "RQ4"}))->notes,
+      Not(Contains(HasSubstr("; no name tells which is left"))));
 }
 
 TEST(FeetByPlace, AreNotFoundOnAHand) {

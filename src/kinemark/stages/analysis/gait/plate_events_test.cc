@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/plate_events.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
@@ -11,7 +12,10 @@ namespace {
 
 using data::FootEvent;
 using data::Side;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 using testing::KnownWalk;
+using ::testing::Not;
 
 class PlateEventsTest : public ::testing::Test {
  protected:
@@ -40,6 +44,9 @@ class PlateEventsTest : public ::testing::Test {
 TEST_F(PlateEventsTest, AreThoseOfTheFootThatStandsThere) {
   plates_.items = {walk_.plate("plate 1", Side::left, 2), walk_.plate("plate 2", Side::right, 1)};
   const auto found = find();
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("s, tells of no event: "))));
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("the force does not stay under one foot"))));
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("the foot was not wholly on the plate"))));
   ASSERT_EQ(found.events.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const auto& event = found.events[i];

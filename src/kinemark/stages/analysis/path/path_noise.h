@@ -56,6 +56,7 @@ struct PathNoise {
   /// filter.
   [[nodiscard]] double variance_about_mean(double seconds, bool before) const;
   [[nodiscard]] double sd_m() const { return model.sd(true); }  ///< per axis, before any filter
+  /// A low-pass explains the spectrum best.
   [[nodiscard]] bool filtered() const { return model.kind == math::NoiseKind::filtered; }
   /// From sample to sample, by so much that it is worth a word.
   [[nodiscard]] bool correlated() const { return model.correlation > 0.2; }
