@@ -61,10 +61,11 @@ double three_db_of(const Filter& filter, double rate, std::int64_t n) {
   for (int i = 0; i < 24; ++i) {
     const double hz = std::sqrt(low * high);
     SeriesMatrix wave(n, 1);
+    const std::int64_t middle = n / 2;
     for (std::int64_t k = 0; k < n; ++k)
-      wave(k, 0) = std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(k - n / 2) / rate);
+      wave(k, 0) = std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(k - middle) / rate);
     filter(wave);
-    (wave(n / 2, 0) > std::sqrt(0.5) ? low : high) = hz;
+    (wave(middle, 0) > std::sqrt(0.5) ? low : high) = hz;
   }
   return std::sqrt(low * high);
 }
@@ -126,7 +127,7 @@ struct Judged {
 struct Trial {
   std::size_t colour = 0;
   std::string family;
-  bool measured = false, found = false, cut_off_right = true;
+  bool found = false, cut_off_right = true;
   std::vector<Judged> judged;
 };
 
@@ -171,7 +172,6 @@ Trial measure_one(std::size_t colour, const std::string& family, std::uint64_t s
   const auto measured = analysis::measure_paths(markers, {.seed = seed});
   Trial out{.colour = colour, .family = family};
   if (!measured || measured->measures.empty()) return out;
-  out.measured = true;
   const auto& noise = measured->noises.front();
   out.found = is_found(noise, kColours[colour].expect);
   if (out.found && std::isfinite(recorded.three_db_hz))
@@ -229,10 +229,8 @@ constexpr int kFewMovements = 10;  // of a family and colour
 void judge_colour(std::size_t colour, const std::vector<Trial>& trials, bool few) {
   const auto& what = kColours[colour];
   Count pooled, upper, withdrawn, found, cut_off;
-  int measured = 0;
   for (const auto& trial : trials) {
     if (trial.colour != colour) continue;
-    measured += trial.measured;
     found.add(trial.found);
     if (trial.found) cut_off.add(trial.cut_off_right);
     for (const auto& one : trial.judged) {

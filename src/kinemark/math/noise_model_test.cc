@@ -28,16 +28,16 @@ TEST(GainOf, ButterworthIsThatOfTheFilterRunBothWays) {
 }
 
 TEST(GainOf, SplineIsThatOfTheSmoother) {
-  const std::int64_t n = 2001;
+  const std::int64_t n = 2001, middle = n / 2;
   for (int order = 1; order <= 5; ++order)
     for (const double f : {0.03, 0.06, 0.12}) {
       DifferenceSmoother smoother(std::vector<bool>(n, true), order);
       ASSERT_TRUE(smoother.factor(0.06));
       SeriesMatrix wave(n, 1);
       for (std::int64_t i = 0; i < n; ++i)
-        wave(i, 0) = std::cos(2.0 * std::numbers::pi * f * static_cast<double>(i - n / 2));
+        wave(i, 0) = std::cos(2.0 * std::numbers::pi * f * static_cast<double>(i - middle));
       smoother.smooth(wave);
-      EXPECT_NEAR(wave(n / 2, 0), gain_of(LowPass::spline, order, 0.06, f), 1e-6) << order << " " << f;
+      EXPECT_NEAR(wave(middle, 0), gain_of(LowPass::spline, order, 0.06, f), 1e-6) << order << " " << f;
     }
 }
 

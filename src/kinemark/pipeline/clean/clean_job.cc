@@ -46,7 +46,7 @@ struct CleanFiles {
 /// A recording that was smoothed before is smoothed anew from what went in then, where it is there. What is
 /// said about it; empty where nothing was smoothed.
 std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
-  const std::string filters = data::describe_filters(markers);
+  std::string filters = data::describe_filters(markers);
   if (filters.empty()) return "";
   if (job.filter.method == trajectory::FilterMethod::none) return filters;
   const auto covariances = !markers.covariance.empty();

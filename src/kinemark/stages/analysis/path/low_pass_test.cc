@@ -17,8 +17,9 @@ using math::SeriesMatrix;
 
 SeriesMatrix wave(std::int64_t n, double frequency) {
   SeriesMatrix out(n, 1);
+  const std::int64_t middle = n / 2;
   for (std::int64_t i = 0; i < n; ++i)
-    out(i, 0) = std::cos(2.0 * std::numbers::pi * frequency * static_cast<double>(i - n / 2));
+    out(i, 0) = std::cos(2.0 * std::numbers::pi * frequency * static_cast<double>(i - middle));
   return out;
 }
 

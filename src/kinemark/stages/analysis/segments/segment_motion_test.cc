@@ -377,10 +377,10 @@ const UsedParameter* used(const SegmentMotion& motion, const std::string& name) 
 }
 
 SegmentDefinition with_parameters(std::vector<SegmentDefinition::Parameter> parameters,
-                                  std::vector<std::string> values) {
+                                  const std::vector<std::string>& values) {
   auto d = two_segments();
   d.parameters = std::move(parameters);
-  for (auto& value : values)
+  for (const auto& value : values)
     d.values.push_back({.name = "of " + value, .quantity = SubjectQuantity::length, .formula = of(value)});
   return d;
 }

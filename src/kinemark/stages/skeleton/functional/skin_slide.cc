@@ -155,8 +155,9 @@ class SlideFit {
     right_ = design.transpose() * gap;
     const auto X = model.blocks.leftCols<6>();
     Matrix6 plain = X.transpose() * X;
+    const Eigen::Index blocks = rows / 3;
     plain.diagonal().array() +=
-        1e-4 * static_cast<double>(rows / 3) / (data::kJointPriorSd_m * data::kJointPriorSd_m);
+        1e-4 * static_cast<double>(blocks) / (data::kJointPriorSd_m * data::kJointPriorSd_m);
     solve_ = plain.inverse();
     carried_ = solve_ * X.transpose() * model.blocks.rightCols(kGapSize - 6);
   }
