@@ -10,10 +10,39 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/wide.h"
-#include "kinemark/math/cardinal_spline.h"
 
 namespace kinemark::math {
 namespace {
+
+// Coefficients of the m-th difference, that of the latest sample last: (1, -2, 1) for m = 2.
+std::vector<double> difference_coefficients(int order) {
+  std::vector<double> c{1.0};
+  for (int m = 0; m < order; ++m) {
+    c.push_back(0.0);
+    for (std::size_t i = c.size() - 1; i > 0; --i) c[i] = c[i - 1] - c[i];
+    c[0] = -c[0];
+  }
+  return c;
+}
+
+// The cardinal B-spline of order 2m at the integers `lag` away from its middle, lag 0 to m - 1. By the
+// recurrence in the order, from the hat function of order 2 at integers and halves alike: exact fractions.
+std::vector<double> spline_at_integers(int order) {
+  const int degree = 2 * order - 1;
+  // values[k]: of the spline of the present order at k (k = 1 .. order - 1).
+  std::vector<double> values{0.0, 1.0};
+  for (int d = 2; d <= degree; ++d) {  // from degree d - 1 (order d) to degree d (order d + 1)
+    std::vector<double> next(at(d + 1), 0.0);
+    for (int k = 1; k <= d; ++k) {
+      const double here = k < static_cast<int>(values.size()) ? values[at(k)] : 0.0;
+      next[at(k)] = (k * here + (d + 1 - k) * values[at(k - 1)]) / d;
+    }
+    values = std::move(next);
+  }
+  std::vector<double> out;
+  for (int lag = 0; lag < order; ++lag) out.push_back(values[at(order + lag)]);
+  return out;
+}
 
 // Missing samples by straight lines between their neighbours, flat at the ends: any values would do, these
 // keep the digits.

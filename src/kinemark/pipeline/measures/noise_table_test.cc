@@ -10,7 +10,8 @@
 namespace kinemark::pipeline {
 namespace {
 
-TEST(NoisesJson, OfAFilterHasItsFormAndCutOff) {
+// The noise of a marker behind a quintic spline at 6.1 Hz.
+analysis::PathNoise splined() {
   analysis::PathNoise noise{.subject = "KNE", .source = analysis::NoiseSource::spectrum, .rate_hz = 100.0};
   noise.model = {.kind = math::NoiseKind::filtered,
                  .form = math::LowPass::spline,
@@ -18,6 +19,11 @@ TEST(NoisesJson, OfAFilterHasItsFormAndCutOff) {
                  .variance = 1e-8,
                  .half = 0.07};
   noise.cutoff_hz = {.low = 5.8, .middle = 6.1, .high = 6.4};
+  return noise;
+}
+
+TEST(NoisesJson, OfAFilterHasItsFormAndCutOff) {
+  auto noise = splined();
   noise.slow_sd_m = {.low = 1e-4, .middle = 1.2e-4, .high = 1.4e-4};
   const auto json = noises_json({&noise, 1});
   ASSERT_EQ(json.size(), 1u);
@@ -34,13 +40,7 @@ TEST(NoisesJson, OfAFilterHasItsFormAndCutOff) {
 }
 
 TEST(NoisesJson, SaysWhichMarkersAgreeOnAFilter) {
-  analysis::PathNoise noise{.subject = "KNE", .source = analysis::NoiseSource::spectrum, .rate_hz = 100.0};
-  noise.model = {.kind = math::NoiseKind::filtered,
-                 .form = math::LowPass::spline,
-                 .order = 3,
-                 .variance = 1e-8,
-                 .half = 0.07};
-  noise.cutoff_hz = {.low = 5.8, .middle = 6.1, .high = 6.4};
+  const auto noise = splined();
   std::vector<analysis::PathNoise> markers(4, noise);
   markers[3].cutoff_hz = {.low = 11.8, .middle = 12.1, .high = 12.4};
   auto json = noises_json(markers);

@@ -226,16 +226,12 @@ class Explainer {
     const auto shown = analysis::shown_parameters(d_, input_, options_);
     if (!shown) return std::unexpected(shown.error());
     std::vector<Candidate> list;
-    const auto add = [&](const ShownParameter& p) {
-      list.push_back({.parameter = p});
-      out.differing.push_back(p);
-    };
     for (const auto& p : *shown) {
       const bool length = p.quantity == SubjectQuantity::length;
       if (!is_static() && p.spread > (length ? kVaries_m : kVaries_rad)) out.varying.push_back(p);
       const double finest = std::max(3.0 * p.spread, length ? kFinest_m : kFinest_rad);
       if (std::isfinite(p.used) && std::abs(p.value - p.used) > finest && p.disagreement < finest + kVaries_m)
-        add(p);
+        list.push_back({.parameter = p});
     }
     // What was measured in the static trial where a file has another value; choices that nobody made.
     for (const auto& used : motion.parameters) {
@@ -254,7 +250,7 @@ class Explainer {
             other.value = known.value;
             break;
           }
-      if (std::abs(other.value - other.used) > kFinest_rad) add(other);
+      if (std::abs(other.value - other.used) > kFinest_rad) list.push_back({.parameter = other});
     }
     for (const auto& p : d_.points) {
       const auto difference = std::ranges::find(out.outputs, p.name, &ComparedOutput::name);

@@ -38,7 +38,6 @@ struct OutputComparison {
   std::vector<ComparedOutput> outputs;            ///< in the order of the definition
   Explanation explanation;                        ///< empty where they agree, and where nothing explains it
   std::vector<analysis::ShownParameter> varying;  ///< of a moving trial: markers changed since the model ran
-  std::vector<analysis::ShownParameter> differing;  ///< otherwise shown than used, whether it explains or not
   bool static_outputs =
       false;  ///< the file's bones are those of a static trial, and this was not taken for one
 

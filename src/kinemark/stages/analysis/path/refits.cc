@@ -160,11 +160,6 @@ SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen,
   return out;
 }
 
-SeriesMatrix simulated_recording(const Recording& recording, const SeriesMatrix& path, std::uint64_t seed,
-                                 std::uint64_t stream, std::int64_t number) {
-  return simulated(path, noise_of(recording, seed, stream), number, 1);
-}
-
 double noise_let_through(const Recording& recording, std::int64_t number) {
   const auto& draws = recording.noise->draws;
   const auto& model = draws[at(number % std::ssize(draws))];

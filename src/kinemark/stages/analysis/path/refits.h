@@ -82,10 +82,6 @@ void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::i
                     std::uint64_t seed, std::uint64_t stream,
                     const std::function<void(std::int64_t, const SeriesMatrix&, const SeriesMatrix&)>& visit);
 
-/// A recording of `path` as number k of for_each_batch() has it, unsmoothed.
-[[nodiscard]] SeriesMatrix simulated_recording(const Recording& recording, const SeriesMatrix& path,
-                                               std::uint64_t seed, std::uint64_t stream, std::int64_t number);
-
 /// Noise of model number k that the smoother at kLessSmooth lets through: variance of a smoothed sample, m^2.
 [[nodiscard]] double noise_let_through(const Recording& recording, std::int64_t number);
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "kinemark/core/index.h"
@@ -93,9 +93,11 @@ Prediction predict(const MatrixXd& X, const MatrixXd& Y,
   double mean = 0.0, variance = 0.0;
   for (const double s : share) mean += s / n;
   for (const double s : share) variance += (s - mean) * (s - mean) / (n - 1.0);
+  const double t = mean / (std::sqrt(variance / n) + 1e-12);
+  if (!std::isfinite(t)) return out;
   out.explained = mean;
   out.alike = std::ranges::count_if(share, [](double s) { return s > 0.0; });
-  out.p_value = student_beyond(mean / (std::sqrt(variance / n) + 1e-12), static_cast<int>(share.size()) - 1);
+  out.p_value = boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1.0), t));
   return out;
 }
 
@@ -109,21 +111,6 @@ MatrixXd scaled_terms(const internal::Posture& posture) {
 double mm(double m) { return 1e3 * m; }
 
 }  // namespace
-
-double student_beyond(double t, int freedom) {
-  if (t < 0.0) return 1.0 - student_beyond(-t, freedom);
-  // Abramowitz & Stegun 26.7.3 and 26.7.4.
-  const double angle = std::atan(t / std::sqrt(static_cast<double>(freedom)));
-  const double c = std::cos(angle), s = std::sin(angle);
-  const bool odd = freedom % 2 == 1;
-  double term = odd ? c : 1.0, sum = freedom > 1 ? term : 0.0;
-  for (int k = odd ? 3 : 2; k <= freedom - 2; k += 2) {
-    term *= c * c * (k - 1.0) / k;
-    sum += term;
-  }
-  const double within = odd ? 2.0 / std::numbers::pi * (angle + s * sum) : s * sum;
-  return 0.5 * (1.0 - within);
-}
 
 SkinEvidence find_skin(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
                        const RelativeMotion& motion, const JointFit& score) {

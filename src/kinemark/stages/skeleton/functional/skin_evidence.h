@@ -41,7 +41,4 @@ struct SkinEvidence {
 /// joint's covariance (for a hinge: across its axis).
 [[nodiscard]] data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide& slide);
 
-/// P(T > t) of Student's t with a whole number of degrees of freedom, 1 or more.
-[[nodiscard]] double student_beyond(double t, int freedom);
-
 }  // namespace kinemark::skeleton

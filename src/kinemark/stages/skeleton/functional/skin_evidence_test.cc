@@ -32,15 +32,6 @@ bool says(const data::SkinAccount& account, const char* words) {
   return account.description.find(words) != std::string::npos;
 }
 
-TEST(SkinEvidence, StudentIsThatOfTheTables) {
-  EXPECT_NEAR(student_beyond(12.706, 1), 0.025, 1e-5);
-  EXPECT_NEAR(student_beyond(4.303, 2), 0.025, 1e-5);
-  EXPECT_NEAR(student_beyond(2.998, 7), 0.01, 1e-5);
-  EXPECT_NEAR(student_beyond(2.764, 10), 0.01, 1e-5);
-  EXPECT_NEAR(student_beyond(0.0, 5), 0.5, 1e-15);
-  EXPECT_NEAR(student_beyond(-2.998, 7), 0.99, 1e-5);
-}
-
 TEST(SkinEvidence, SkinIsSaidWhereMarkersSlideTheSameInEveryMovement) {
   for (const bool hinge : {false, true})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
