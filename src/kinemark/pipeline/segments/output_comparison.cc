@@ -140,13 +140,13 @@ class FileOutputs {
   }
   [[nodiscard]] std::optional<Vector3d> marker_at(std::int64_t m, std::int64_t f) const {
     if (!input_.markers->present(f, m)) return std::nullopt;
-    const Vector3d x = input_.markers->x(f, m);
+    Vector3d x = input_.markers->x(f, m);
     if (x.isZero(0.0)) return std::nullopt;
     return x;
   }
   [[nodiscard]] std::optional<Vector3d> modelled_at(std::size_t c, std::int64_t f) const {
     const double* x = channel_at(c, f);
-    const Vector3d point =
+    Vector3d point =
         io::metres_per_unit(recording_.channels.units[c]).value_or(1e-3) * Vector3d(x[0], x[1], x[2]);
     if (!point.allFinite() || point.isZero(0.0)) return std::nullopt;
     return point;
@@ -187,7 +187,7 @@ class Explainer {
  public:
   Explainer(const SegmentDefinition& d, const SegmentInput& input, analysis::SegmentOptions options,
             const FileOutputs& outputs)
-      : d_(d), input_(input), options_(options), outputs_(outputs) {
+      : d_(d), input_(input), options_(std::move(options)), outputs_(outputs) {
     options_.deviations = false;
   }
 
