@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemark/core/text.h"
+#include "kinemark/stages/motion/foundations/stillness.h"
 
 namespace kinemark::pipeline {
 
@@ -15,6 +16,12 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& file,
                                                        const data::Trajectories& still,
                                                        std::span<const data::Trajectories* const> movements,
                                                        JobOutcome& outcome) {
+  std::vector<std::string> names;
+  for (const auto& marker : body.markers) names.push_back(marker.name);
+  if (const auto unrest = motion::find_unrest(still, names))
+    outcome.warnings.push_back(
+        fmt::format("{}; a posture that is taken from all of it is a mean of different ones",
+                    motion::describe(*unrest, file)));
   auto judgement = motion::judge_foundation(body, still, movements);
   if (!judgement) return fail_at(file, judgement.error());
   if (judgement->judged.empty()) return judgement;

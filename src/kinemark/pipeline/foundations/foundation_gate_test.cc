@@ -54,6 +54,23 @@ TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
   EXPECT_EQ(json["movements"], 0);
 }
 
+TEST(FoundationGate, SaysWhereTheTrialMoves) {
+  const auto body = motion::body_of_names(kNames);
+  auto trial = data::Trajectories::all_missing(kNames, {.rate_hz = 100.0, .frames = 20});
+  for (std::int64_t f = 0; f < trial.frames(); ++f)
+    for (std::int64_t m = 0; m < trial.markers(); ++m) {
+      trial.x(f, m) = standing().x(0, m);
+      if (f >= 10 && kNames[at(m)] == "LANK") trial.x(f, m) += Vector3d(-0.2, 0.2, 0.0);
+      trial.state[trial.index(f, m)] = data::SampleState::measured;
+    }
+  JobOutcome outcome;
+  ASSERT_TRUE(judge_static_trial("cal.c3d", body, trial, {}, outcome));
+  ASSERT_FALSE(outcome.warnings.empty());
+  EXPECT_THAT(outcome.warnings[0], HasSubstr("cal.c3d is not still"));
+  EXPECT_THAT(outcome.warnings[0],
+              HasSubstr("a posture that is taken from all of it is a mean of different ones"));
+}
+
 TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
   auto trial = standing();
   const auto toe = trial.find("LTOE"), heel = trial.find("LHEE");

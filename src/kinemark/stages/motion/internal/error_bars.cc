@@ -17,6 +17,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
 #include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/internal/profile_errors.h"
 
 namespace kinemark::motion {
 namespace {
@@ -29,7 +30,9 @@ constexpr double kBlindRotation =
     1.0 / 0.003;  // rad of error per m of marker error beyond which a coordinate is not determined
 constexpr double kBlindTranslation = 20.0;  // m per m
 constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar is not valid
+constexpr double kVague = 0.03;             // rad or m; of what is known better a linear error bar is enough
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
+constexpr double kLeastSd_m = 0.3e-3;       // of a marker
 constexpr double kBlindFloor = 1e-13;  // lower: even a small share of an undetermined direction must show
 
 /// One thread's view of one frame: pose, visible markers, inverse normal matrices.
@@ -169,7 +172,31 @@ void add_equations(Frame& frame, const std::vector<int>& segment_of_body, const 
       for (std::size_t b = a + 1; b < member.size(); ++b) add_row(member[a], member[b], 2.0);
 }
 
+/// 1/m^2 of the markers that some frame has, 0 for the others.
+VectorXd information_of_seen(const internal::Problem& problem, const data::Trajectories& markers,
+                             const MarkerVariances& variances) {
+  VectorXd information = information_of(problem.model, variances);
+  for (Eigen::Index m = 0; m < information.size(); ++m) {
+    bool seen = false;
+    for (std::int64_t f = 0; f < problem.frames && !seen; ++f)
+      seen = problem.data_marker[at(m)] >= 0 &&
+             markers.present(problem.first_frame + f, problem.data_marker[at(m)]);
+    if (!seen) information[m] = 0.0;
+  }
+  return information;
+}
+
 }  // namespace
+
+VectorXd information_of(const model::Model& model, const MarkerVariances& variances) {
+  VectorXd information(model.marker_count());
+  for (Eigen::Index m = 0; m < information.size(); ++m) {
+    const int body = model.markers()[at(m)].body;
+    const double v = variances.own[m] + (body >= 0 ? variances.common[body] : 0.0);
+    information[m] = 1.0 / std::max(v, kLeastSd_m * kLeastSd_m);
+  }
+  return information;
+}
 
 MarkerVariances estimate_variances(const internal::Problem& problem, const data::Trajectories& markers,
                                    const MatrixXd& states, int threads) {
@@ -238,10 +265,12 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
   motion.q_sd.assign(motion.q.size(), std::numeric_limits<double>::quiet_NaN());
   motion.determined.assign(motion.q.size(), 0);
   std::vector<std::uint8_t> open(motion.q.size(), 1);
+  const VectorXd all = information_of_seen(problem, markers, variances);
   parallel_for(problem.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
     Frame frame(problem);
+    internal::ProfileErrors profile(problem);
     MatrixXd unit_H, unit_K, B, rows, segment;
-    VectorXd seen(M), spread(M);
+    VectorXd seen(M), spread(M), information(M), variance(n);
     for (std::int64_t f = begin; f < end; ++f) {
       frame.visit(markers, states, f);
       frame.q = Eigen::Map<const VectorXd>(motion.q.data() + motion.index(f, 0), n);
@@ -279,9 +308,19 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
         B.noalias() += variances.common[b] * segment.transpose() * segment;
       }
       rows.noalias() = frame.E * frame.K;
+      bool lost = false, vague = false;
+      for (int m = 0; m < M; ++m) {
+        information[m] = frame.weight[m] > 0.0 ? all[m] : 0.0;
+        lost = lost || information[m] != all[m];
+      }
+      for (int c = 0; c < n; ++c) {
+        variance[c] = rows.row(c).dot(B * rows.row(c).transpose());
+        vague = vague || !determined[c] || variance[c] > kVague * kVague;
+      }
+      if (lost && vague) profile.add(frame.x, frame.y, information, all, frame.E, variance);
       for (int c = 0; c < n; ++c) {
         if (!determined[c]) continue;
-        const double sd = std::sqrt(std::max(0.0, rows.row(c).dot(B * rows.row(c).transpose())));
+        const double sd = std::sqrt(std::max(0.0, variance[c]));
         if (sd <= kLargestSd)
           motion.q_sd[motion.index(f, c)] = sd;
         else

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik_options.h"
 
 namespace kinemark::data {
@@ -32,6 +33,9 @@ struct MarkerVariances {
   Eigen::VectorXd own;     ///< M
   Eigen::VectorXd common;  ///< per body of the model, 0 where it carries fewer than two used markers
 };
+
+/// 1/m^2 of each marker (M) per axis, all its errors taken together; a marker has 0.3 mm at least.
+[[nodiscard]] Eigen::VectorXd information_of(const model::Model& model, const MarkerVariances& variances);
 
 /// Estimate the variances from the residuals at the solved states (one column per frame). Every k-th frame is
 /// used, 300 at most. Markers whose residuals carry no information get the pooled variance.

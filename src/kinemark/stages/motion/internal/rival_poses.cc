@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/rival_poses.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +12,7 @@
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/speed_covariance.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -31,16 +30,14 @@ constexpr double kDiffers = 0.06;      // rad or m, and ...
 constexpr double kDiffersInSd = 3.0;   // ... so many deviations: another pose
 constexpr double kWorse = 36.0;        // chi-square by which a rival may fit worse
 constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' errors last for many frames
-constexpr std::size_t kMostRivals = 14;
-constexpr double kLeastSd_m = 0.3e-3;  // of a marker
+constexpr std::size_t kMostRivals = 8;
 constexpr int kRoundsOfRivals = 2;
 constexpr double kSearchEvery_s = 0.05;  // between searches rivals are followed
 constexpr double kSearchAlike_s = 0.2;   // while the same markers are seen
 constexpr double kNearInSteps = 4.0;     // so near a start leads to the same pose
-constexpr double kShutLoopSd_m = 1e-5;
-constexpr double kStepShare = 0.9;   // quantile of the steps of a speed
-constexpr double kLeastStep = 2e-3;  // rad or m
-constexpr double kDoubt = 2e-3;      // probability of rivals from which on a coordinate is not determined
+constexpr double kStepShare = 0.9;       // quantile of the steps of a speed
+constexpr double kLeastStep = 2e-3;      // rad or m
+constexpr double kDoubt = 2e-3;          // probability of rivals from which on a coordinate is not determined
 constexpr double kLeastProbability = 1e-9;
 constexpr double kAlongOpen =
     0.3;  // rad or m of something open between two poses: both lie on one valley, and ...
@@ -66,17 +63,13 @@ class Rivals {
         pattern_(loose.pattern),
         solved_(solved),
         solver_(problem, options),
+        covariance_(problem),
         w_(problem.model),
         y_(3, problem.model.marker_count()),
         weight_(problem.model.marker_count()),
         information_(problem.model.marker_count()),
-        all_(problem.model.marker_count()),
+        all_(information_of(problem.model, variances)),
         of_frame_(at(problem.frames)) {
-    for (Eigen::Index m = 0; m < all_.size(); ++m) {
-      const int body = problem.model.markers()[at(m)].body;
-      const double v = variances.own[m] + (body >= 0 ? variances.common[body] : 0.0);
-      all_[m] = 1.0 / std::max(v, kLeastSd_m * kLeastSd_m);
-    }
     const auto frames_in = [&](double time_s) {
       return std::max<std::int64_t>(1, std::llround(std::min(time_s * markers.time.rate_hz, 1e6)));
     };
@@ -194,32 +187,11 @@ class Rivals {
     for (Eigen::Index m = 0; m < weight_.size(); ++m) information_[m] = weight_[m] > 0.0 ? all_[m] : 0.0;
   }
 
-  /// Covariance of the speeds by markers of these weights, in the pose last visited.
-  void invert(const VectorXd& information, MatrixXd& K) {
-    const auto& model = problem_.model;
-    model::marker_normal_matrix(model, w_, information, H_);
-    if (!model.point_constraints().empty()) {
-      model::point_constraint_jacobian(model, w_, C_);
-      H_.noalias() += C_.transpose() * C_ / (kShutLoopSd_m * kShutLoopSd_m);
-    }
-    for (Eigen::Index i = 0; i < H_.rows(); ++i) {
-      if (!problem_.fixed_speed[at(i)]) {
-        H_(i, i) += 1e-2;  // nothing is vaguer than 10 rad or m
-        continue;
-      }
-      H_.row(i).setZero();
-      H_.col(i).setZero();
-      H_(i, i) = 1e12;
-    }
-    llt_.compute(H_);
-    K.setIdentity(H_.rows(), H_.cols());
-    llt_.solveInPlace(K);
-  }
-
   Candidate candidate(const VectorXd& state) {
     Candidate c{.state = state, .variance = {}};
     model::kinematics(problem_.model, w_, state);
-    invert(information_, K_);
+    covariance_.factor(w_, information_);
+    covariance_.invert(K_);
     c.variance = K_.diagonal();
     for (Eigen::Index m = 0; m < weight_.size(); ++m)
       if (information_[m] > 0.0)
@@ -231,7 +203,8 @@ class Rivals {
   /// K_ is that of `now`.
   void find_directions(const Candidate& now) {
     model::kinematics(problem_.model, w_, now.state);
-    invert(all_, whole_);
+    covariance_.factor(w_, all_);
+    covariance_.invert(whole_);
     const auto& at_loose = loose_.speeds[at(pattern_[at(frame_)])];
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
@@ -366,11 +339,11 @@ class Rivals {
   std::vector<std::int64_t> pattern_;  // of `loose`, -1 in frames that are not looked at
   const SolvedFrames& solved_;
   FrameSolver solver_;
+  SpeedCovariance covariance_;
   model::Workspace w_;
   Eigen::Matrix3Xd y_;
   VectorXd weight_, information_, all_, step_, x_, start_, move_;
-  MatrixXd H_, K_, whole_, C_;
-  Eigen::LLT<MatrixXd> llt_;
+  MatrixXd K_, whole_;
   std::int64_t frame_ = 0, every_ = 1, alike_ = 1;
   std::vector<VectorXd> directions_;
   std::vector<std::vector<Candidate>> of_frame_;

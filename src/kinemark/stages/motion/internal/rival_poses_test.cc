@@ -131,16 +131,12 @@ TEST_F(RivalPoses, BetweenStretchedArmsNobodyKnowsAndItIsSaid) {
   const auto result = solve_ik(model, markers).value();
   const std::int64_t middle = (first + last) / 2;
   for (int c = 0; c < 2; ++c) EXPECT_EQ(result.motion.determined[result.motion.index(middle, c)], 0);
-  // Near the stretched arm one frame lies 5.9 deviations off, and is called determined.
-  int beyond = 0;
   for (std::int64_t f = 0; f < 300; ++f)
     for (int c = 0; c < 2; ++c) {
       const auto i = result.motion.index(f, c);
       if (result.motion.determined[i] == 0) continue;
-      EXPECT_LT(off(result, f, c, true), 7.0 * result.motion.q_sd[i]) << f << " " << c;
-      beyond += off(result, f, c, true) > 5.0 * result.motion.q_sd[i];
+      EXPECT_LT(off(result, f, c, true), 5.0 * result.motion.q_sd[i]) << f << " " << c;
     }
-  EXPECT_LE(beyond, 2) << "two angles of 600";
 }
 
 TEST_F(RivalPoses, DoubtWidensByTheShareAndEndsDetermination) {

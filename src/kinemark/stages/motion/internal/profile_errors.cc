@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/profile_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/problem.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kWeak = 0.03;          // rad or m: what is known better is linear enough
+constexpr double kLooser = 2.0;         // times the variance with all markers: it lost what held it
+constexpr double kMostMoved = 1.5;      // rad or m, of a direction's largest part
+constexpr std::size_t kMost = 12;       // directions
+constexpr double kMovesNothing = 1e-9;  // rad or m of all other speeds: no marker that is seen moves with it
+constexpr double kFirst = 2.0;  // deviations, the first place to ask; each further one is 1.6 times as far
+constexpr double kFurther = 1.6;
+constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
+constexpr int kMostSteps = 20;
+constexpr double kSettled = 1e-3;  // rad or m, of the last step
+
+}  // namespace
+
+ProfileErrors::ProfileErrors(const Problem& problem)
+    : problem_(problem),
+      w_(problem.model),
+      covariance_(problem),
+      residual_(3, problem.model.marker_count()),
+      step_(problem.model.speed_count()),
+      q_(problem.model.coordinate_count()) {}
+
+/// Pivoted Cholesky factors of K: each is one standard deviation of what the ones before it leave open.
+void ProfileErrors::find_directions() {
+  directions_.clear();
+  while (directions_.size() < kMost) {
+    Eigen::Index i = 0;
+    const double most =
+        (K_.diagonal().array() > kLooser * whole_.array()).select(K_.diagonal(), 0.0).maxCoeff(&i);
+    if (!(most > kWeak * kWeak)) return;
+    VectorXd v = K_.col(i) / std::sqrt(most);
+    K_.noalias() -= v * v.transpose();
+    const double own = std::exchange(v[i], 0.0);
+    if (!(v.cwiseAbs().maxCoeff() > kMovesNothing)) continue;
+    v[i] = own;
+    directions_.push_back({.speed = i, .along = std::move(v)});
+  }
+}
+
+/// Chi-square of a state; leaves the workspace there.
+double ProfileErrors::residuals(const VectorXd& state) {
+  model::kinematics(problem_.model, w_, state);
+  residual_ = *y_ - w_.marker;
+  double chi_square = 0.0;
+  for (Eigen::Index m = 0; m < information_->size(); ++m)
+    if ((*information_)[m] > 0.0) chi_square += (*information_)[m] * residual_.col(m).squaredNorm();
+  return chi_square;
+}
+
+/// Gauss-Newton steps with one speed held; false where they do not settle.
+bool ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
+  for (int k = 0; k < kMostSteps; ++k) {
+    residuals(state);
+    model::clear_forces(w_);
+    model::add_marker_forces(problem_.model, w_, *information_, residual_);
+    model::project_forces(problem_.model, w_, step_);
+    covariance_.factor(w_, *information_, held);
+    covariance_.solve(step_);
+    const double longest = step_.cwiseAbs().maxCoeff();
+    if (!std::isfinite(longest)) return false;
+    if (longest > 0.5) step_ *= 0.5 / longest;
+    model::integrate(problem_.model, state, step_);
+    if (longest < kSettled) return true;
+  }
+  return false;
+}
+
+/// Ask at places ever further along one direction; lacks_ becomes what they show.
+void ProfileErrors::profile(const Direction& direction, double sign) {
+  const auto& v = direction.along;
+  const double farthest = kMostMoved / v.cwiseAbs().maxCoeff();
+  double before = 0.0;
+  moved_ = best_;
+  for (double s = std::min(kFirst, farthest);; s = std::min(kFurther * s, farthest)) {
+    step_ = sign * (s - before) * v;
+    model::integrate(problem_.model, moved_, step_);
+    if (!settle(moved_, direction.speed)) return;
+    const double rise = residuals(moved_) - chi_square_;
+    if (!(rise < kEnough)) return;
+    model::coordinates_from_state(problem_.model, moved_, q_best_, q_);
+    for (Eigen::Index c = 0; c < q_.size(); ++c) {
+      const double gone = q_[c] - q_best_[c], linear = linear_[c];
+      lacks_[c] = std::max(lacks_[c], gone * gone / std::max(rise, 1.0) - linear * linear);
+    }
+    if (s >= farthest) return;
+    before = s;
+  }
+}
+
+void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const VectorXd& information,
+                        const VectorXd& all, const Eigen::MatrixXd& E, VectorXd& variance) {
+  y_ = &y;
+  information_ = &information;
+  model::kinematics(problem_.model, w_, x);
+  covariance_.factor(w_, all);
+  covariance_.invert(K_);
+  whole_ = K_.diagonal();
+  covariance_.factor(w_, information);
+  covariance_.invert(K_);
+  find_directions();
+  if (directions_.empty()) return;
+  best_ = x;
+  settle(best_, -1);
+  chi_square_ = residuals(best_);
+  q_best_.resize(q_.size());
+  q_best_.setZero();
+  model::coordinates_from_state(problem_.model, best_, q_best_, q_best_);
+  for (const auto& direction : directions_) {
+    linear_.noalias() = E * direction.along;
+    lacks_.setZero(q_.size());
+    for (const double sign : {-1.0, 1.0}) profile(direction, sign);
+    variance += lacks_;
+  }
+}
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Where few markers are seen, a direction of the pose is known to ten degrees or not at all, and the poses
+// that fit lie along a curve that noise may have bent: a linear error bar is too narrow. This one goes along
+// the curve and asks the markers how far. Theory: docs/theory/error-bars.md
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/internal/speed_covariance.h"
+
+namespace kinemark::motion::internal {
+
+struct Problem;
+
+/// Profiles the poses that fit one frame; use it for one frame after the other.
+class ProfileErrors {
+ public:
+  explicit ProfileErrors(const Problem& problem);
+
+  /// What the variance of each coordinate lacks to first order, rad^2 or m^2, is added to `variance` (n).
+  ///
+  /// Along each direction of the pose known less well than 0.03 rad (m), with twice the variance that all
+  /// markers would leave or more: the speed that it moves most is held at places to both sides, the others
+  /// are solved anew, and chi-square rises by D. A coordinate that went by d has a deviation of d /
+  /// sqrt(max(D, 1)) at least (profile likelihood); what that is above the linear one is added. Places beyond
+  /// D = 16, the limits of the coordinate and 1.5 rad (m) are not asked. Costs up to 50 Newton steps for each
+  /// of up to eight directions, and one where all directions are known well.
+  ///
+  /// @param x            state that was solved
+  /// @param y            3 x M, m
+  /// @param information  M, 1/m^2 of each marker, 0 where it is not seen
+  /// @param all          M, the same with every marker that other frames have
+  /// @param E            n x nv, coordinates by speeds at x
+  void add(const Eigen::VectorXd& x, const Eigen::Matrix3Xd& y, const Eigen::VectorXd& information,
+           const Eigen::VectorXd& all, const Eigen::MatrixXd& E, Eigen::VectorXd& variance);
+
+ private:
+  struct Direction {
+    Eigen::Index speed = 0;
+    Eigen::VectorXd along;  ///< one standard deviation
+  };
+
+  void find_directions();
+  bool settle(Eigen::VectorXd& state, Eigen::Index held);
+  void profile(const Direction& direction, double sign);
+  double residuals(const Eigen::VectorXd& state);
+
+  const Problem& problem_;
+  model::Workspace w_;
+  SpeedCovariance covariance_;
+  const Eigen::Matrix3Xd* y_ = nullptr;
+  const Eigen::VectorXd* information_ = nullptr;
+  Eigen::Matrix3Xd residual_;
+  Eigen::MatrixXd K_;
+  Eigen::VectorXd whole_, best_, moved_, step_, q_, q_best_, linear_, lacks_;
+  double chi_square_ = 0.0;
+  std::vector<Direction> directions_;
+};
+
+}  // namespace kinemark::motion::internal

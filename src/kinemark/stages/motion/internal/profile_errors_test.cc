@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/internal/profile_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/internal/problem.h"
+
+namespace kinemark::motion::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSd_m = 0.005;
+
+/// Two hinges about z, a marker on each body: `upper_lever_m` beside the first axis, 0.3 m beside the second.
+data::ModelDescription two_hinges(double upper_lever_m) {
+  data::ModelDescription m;
+  m.name = "two hinges";
+  for (const char* name : {"upper", "fore"})
+    m.bodies.push_back({.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity() * 0.01});
+  for (const char* name : {"shoulder", "elbow"})
+    m.coordinates.push_back({.name = name, .range_min = -3.1, .range_max = 3.1, .clamped = true});
+  const auto hinge = [](int c) {
+    return data::AxisDescription{.is_rotation = true, .axis = Vector3d::UnitZ(), .coordinate_idx = c};
+  };
+  m.joints = {{.name = "shoulder", .child_body_idx = 0, .axes = {hinge(0)}},
+              {.name = "elbow",
+               .parent_body_idx = 0,
+               .child_body_idx = 1,
+               .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0}},
+               .axes = {hinge(1)}}};
+  m.markers = {{.name = "U", .body_idx = 0, .x_in_body = {upper_lever_m, 0.0, 0.0}},
+               {.name = "H", .body_idx = 1, .x_in_body = {0.3, 0.0, 0.0}}};
+  return m;
+}
+
+/// What is added to the variances of shoulder and elbow with markers where the model has them at `pose`.
+Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const Eigen::Vector2d& seen) {
+  const auto model = model::Model::compile(two_hinges(upper_lever_m)).value();
+  const auto markers =
+      data::Trajectories::all_missing({"U", "H"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
+  auto all = markers;
+  model::Workspace w(model);
+  const Eigen::VectorXd x = model::state_from_coordinates(model, pose);
+  model::kinematics(model, w, x);
+  for (int m = 0; m < 2; ++m) all.x(0, m) = w.marker.col(m);
+  const auto problem = make_problem(model, all, {}).value();
+  ProfileErrors profile(problem);
+  Eigen::VectorXd variance = Eigen::Vector2d::Zero();
+  profile.add(x, w.marker, seen / (kSd_m * kSd_m), Eigen::Vector2d::Ones() / (kSd_m * kSd_m),
+              Eigen::Matrix2d::Identity(), variance);
+  return variance;
+}
+
+TEST(ProfileErrors, AddNothingWhereNoMarkerIsLostOrLeversAreLong) {
+  EXPECT_EQ(lacks(0.01, {0.4, 1.0}, {1.0, 1.0}), Eigen::VectorXd(Eigen::Vector2d::Zero()));
+  EXPECT_EQ(lacks(0.3, {0.4, 1.0}, {1.0, 0.0})[0], 0.0);
+}
+
+TEST(ProfileErrors, OfOneHingeAreThoseOfItsChord) {
+  // Chi-square rises by (2 r sin(a / 2) / sd)^2 as the marker goes along its chord; the linear deviation is
+  // sd / r.
+  const double r = 0.01, farthest = 1.5;
+  const double rise = std::pow(2.0 * r * std::sin(0.5 * farthest) / kSd_m, 2);
+  const auto added = lacks(r, {0.4, 1.0}, {1.0, 0.0});
+  EXPECT_NEAR(added[0], farthest * farthest / rise - std::pow(kSd_m / r, 2), 2e-3);
+  EXPECT_GT(added[0], 0.04);
+  EXPECT_EQ(added[1], 0.0) << "no marker moves with the elbow: it is open, and nothing follows it";
+}
+
+TEST(ProfileErrors, OfAnArmThatNoiseBentReachItsMirrorPose) {
+  // The hand alone, 0.6 m from the shoulder but for a bend of 0.2 rad: to first order the elbow is known to
+  // 0.17 rad. The arm may be straight, or bent to the other side, and the shoulder follows by half of it.
+  const double bend = 0.2, linear = kSd_m / (0.3 * std::sin(0.5 * bend));
+  const auto added = lacks(0.3, {0.4, bend}, {0.0, 1.0});
+  EXPECT_GE(std::sqrt(added[1] + linear * linear), 2.0 * bend - 0.02) << "the mirror pose fits as well";
+  EXPECT_GE(std::sqrt(added[0] + 0.25 * linear * linear), bend - 0.02);
+}
+
+}  // namespace
+}  // namespace kinemark::motion::internal
