@@ -147,6 +147,47 @@ TEST(Gait, RegionsHoldWholeCycles) {
   EXPECT_LE(gait.measures[0].end_s, 3.0);
   EXPECT_TRUE(std::isnan(gait.measures[2].value));
   EXPECT_EQ(gait.measures[2].remark, "no stride was seen from strike to strike");
+  EXPECT_FALSE(gait.measures[0].remark.contains("no stride was seen from strike to strike"));
+}
+
+const data::Measure& found(const Gait& gait, std::string_view id) {
+  return *std::ranges::find(gait.measures, id, &data::Measure::id);
+}
+
+TEST(Gait, AStrideWithoutWhatAMeasureNeedsSaysSo) {
+  // One leg alone: strides, and no step of the other foot within them.
+  const KnownWalk walk;
+  auto markers = walk.markers(0.0005, 3);
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (const std::int64_t m : {2, 3}) markers.set_missing(f, m);
+  const GaitOptions options{.measures = {"stride_time", "step_time", "stride_time_sd"}, .refits = 0};
+  const auto one = analyze_gait(markers, {}, options);
+  ASSERT_TRUE(one) << one.error().message;
+  for (const auto& m : one->measures)
+    std::cerr << m.id << " " << m.context << " " << m.value << " " << m.remark << "\n";
+  EXPECT_EQ(found(*one, "step_time").remark, "what it needs was not seen in any stride");
+  EXPECT_FALSE(found(*one, "stride_time").remark.contains("what it needs was not seen in any stride"));
+  auto brief = options;
+  brief.regions = {{"one stride", 0, 200}};
+  const auto few = measured(walk, brief);
+  for (const auto& m : few.measures)
+    std::cerr << m.id << " " << m.context << " " << m.value << " " << m.remark << "\n";
+  EXPECT_EQ(found(few, "stride_time_sd").remark, "too few strides show what it needs");
+  EXPECT_FALSE(found(few, "stride_time_sd").remark.contains("what it needs was not seen in any stride"));
+  EXPECT_FALSE(found(*one, "stride_time_sd").remark.contains("too few strides show what it needs"));
+}
+
+TEST(Gait, NoIntervalWhereRefitsLoseTheEvents) {
+  for (double noise : {0.01, 0.02, 0.03, 0.05}) {
+    const auto gait = analyze_gait(KnownWalk{}.markers(0.0005, 3), {},
+                                   {.measures = {"stride_time"}, .refits = 39, .noise_sd_m = noise});
+    if (!gait) {
+      std::cerr << gait.error().message << "\n";
+      continue;
+    }
+    for (const auto& m : gait->measures)
+      std::cerr << noise << m.id << " " << m.context << " " << m.value << " " << m.remark << "\n";
+  }
 }
 
 TEST(Gait, AnEventThatARefitDoesNotFindIsNoneThatDidNotMove) {

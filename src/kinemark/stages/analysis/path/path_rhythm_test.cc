@@ -215,6 +215,16 @@ TEST(PathRhythm, AFallingLikenessAndUnevenCyclesSaySo) {
   const auto even = rhythm_of(
       testing::recording_of(testing::sampled(500, 100.0, testing::ellipse), 100.0, 5e-4, 1), {.refits = 0});
   EXPECT_TRUE(even.periodic);
+  for (const double swing : {0.3, 0.4, 0.5, 0.6, 0.7, 0.8})
+    for (const double slow : {0.15, 0.2, 0.25, 0.3, 0.35, 0.45}) {
+      const auto uneven = [=](double t) -> Eigen::Vector3d {
+        const double angle = kTurn * (t + swing * std::sin(kTurn * slow * t));
+        return {0.2 * std::cos(angle), 0.1 * std::sin(angle), 0.0};
+      };
+      const auto found = rhythm_of(
+          testing::recording_of(testing::sampled(1000, 100.0, uneven), 100.0, 5e-4, 1), {.refits = 0});
+      std::cerr << swing << " " << slow << " " << found.verdict << "\n";
+    }
   EXPECT_THAT(even.verdict, Not(HasSubstr("where it is most like itself, its velocities correlate by")));
   EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: its cycles differ by ")));
   EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: it does not come back to what it did")));

@@ -287,13 +287,18 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
         fmt::format("marker '{}' sits {:.1f} mm elsewhere on its segment from {:.2f} s on: "
                     "did it slip?",
                     name(slip.marker), kMm * slip.distance_m, w.markers.time.time_s(slip.frame)));
-  for (const auto& swap : articulated::find_swapped_markers(w.fit, w.input.samples, w.pass))
+  const auto swaps = articulated::find_swapped_markers(w.fit, w.input.samples, w.pass);
+  for (const auto& swap : swaps)
     warnings.push_back(fmt::format(
         "markers '{}' and '{}' have exchanged names in about {} frames, the first at {:.2f} s",
         name(swap.marker_a), name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
   for (const auto& loose : articulated::find_loose_markers(w.fit, w.input.samples, w.pass)) {
-    const bool slipped = std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; });
-    if (!slipped)
+    // What a slip or another's name explains is no movement on the segment.
+    const bool explained =
+        std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; }) ||
+        std::ranges::any_of(
+            swaps, [&](const auto& s) { return s.marker_a == loose.marker || s.marker_b == loose.marker; });
+    if (!explained)
       warnings.push_back(
           fmt::format("marker '{}' moves on its segment by {:.1f} mm beside a noise of {:.1f} mm",
                       name(loose.marker), kMm * loose.rms_m, kMm * w.fit.noise_sd_m));
@@ -308,11 +313,18 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
                     "it they are is not in the error bars",
                     join_names(two, kSegmentsNamed)));
   for (std::size_t j = 0; j < w.continuity.prior.size() && w.options.continuity; ++j)
-    if (w.continuity.path[j].position.empty())
+    if (w.continuity.path[j].position.empty()) {
+      const auto& joint = w.layout.joints[at(w.tree.joint_order[j])].name;
+      const auto determined = std::ranges::count(w.pass.state[j], CentreState::determined);
       warnings.push_back(
-          fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
-                      "each other in time",
-                      w.layout.joints[at(w.tree.joint_order[j])].name));
+          determined < articulated::kLeastFollowed
+              ? fmt::format(
+                    "joint '{}': nothing was smoothed, for {} frames alone determine it; {} are needed",
+                    joint, determined, articulated::kLeastFollowed)
+              : fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
+                            "each other in time",
+                            joint));
+    }
   if (!w.pass.misfits.empty())
     warnings.push_back(
         fmt::format("{} of {} frames are not explained by rigid segments and noise of {:.2f} mm",

@@ -69,11 +69,13 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
     ChainFrame frame;
     ChainPose before;
     bool warm = false;
+    std::vector<bool> shown(J, false);  // joints that a pose of this chunk shows
     for (std::int64_t f = begin; f < end && !stop; ++f) {
       solver.solve(samples.frame(f), warm ? &before : nullptr, frame);
-      bool all = true, any = false;
+      bool all = true, any = false, first = false;
       for (std::size_t j = 0; j < J; ++j) {
         const bool alone = frame.state[j] == CentreState::determined;
+        first = first || (alone && !shown[j]);
         const auto k = static_cast<std::size_t>(f);
         all = all && alone;
         any = any || alone;
@@ -90,9 +92,13 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
       if (warm) before = frame.modes.front().pose;
       if (frame.mode_count == 0) continue;
       const ChainMode& best = frame.modes.front();
-      if (any && f % stride == 0) {
+      // Where not every pose is kept, no joint that any frame determines goes without one.
+      if (first || (any && f % stride == 0)) {
         SampledPose kept{.frame = f, .pose = best.pose, .cost = best.cost};
-        for (std::size_t j = 0; j < J; ++j) kept.known.push_back(frame.state[j] == CentreState::determined);
+        for (std::size_t j = 0; j < J; ++j) {
+          kept.known.push_back(frame.state[j] == CentreState::determined);
+          shown[j] = shown[j] || kept.known.back();
+        }
         chunk.sampled.push_back(std::move(kept));
       }
       if (is_misfit(fit.chain, best.cost, fit.noise_sd_m, frame.seen)) chunk.misfits.push_back(f);
