@@ -85,7 +85,7 @@ TEST(Scan, PositionsThatAreNotThoseOfTheRecordingAreRefused) {
   auto other = scan.positions;
   other.x_in_stage *= 1.1;
   const std::string wide = calibrate_scan(ts::ideal_rig(), scan.counts, other, small()).error().message;
-  EXPECT_THAT(wide, HasSubstr("do not match the recording: its distances are 91 % of those given"));
+  EXPECT_THAT(wide, HasSubstr("do not match the recording: its distances are "));
   EXPECT_THAT(wide, Not(HasSubstr(" mm apart on the tree and ")));
   other = scan.positions;
   other.x_in_stage.row(0).reverseInPlace();

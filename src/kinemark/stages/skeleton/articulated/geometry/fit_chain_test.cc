@@ -219,7 +219,7 @@ TEST(FitChain, LeavesOutAMarkerThatIsNeverSeen) {
 TEST(FitChain, FewFramesThatShowAllAreSaidToBeFew) {
   RandomChain limb = make_random_chain({.segments = 3, .frames = 60});
   for (int f = 12; f < 60; ++f)
-    for (int m = 0; m < 2; ++m) hide(limb.samples, f, 3 * (f % 3) + m);
+    for (int m = 0; m < 3; ++m) hide(limb.samples, f, 3 * (f % 3) + m);  // no segment but two of three
   const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid, 3));
   ASSERT_TRUE(fit.has_value()) << fit.error().message;
   EXPECT_THAT(
@@ -229,20 +229,19 @@ TEST(FitChain, FewFramesThatShowAllAreSaidToBeFew) {
 
 // The joint hardly moves: a joint on the other side of the markers' plane explains the frames as well.
 TEST(FitChain, AJointThatHardlyMovesHasAMirror) {
-  for (double rad : {0.0, 0.01, 0.02, 0.05, 0.1}) {
-    RandomChain limb = make_random_chain({.frames = 60});
-    Random random(4, 4);
-    for (ChainPose& pose : limb.pose)
-      pose.rotation[1] = pose.rotation[0] * math::exp_so3(rad * Vector3d(random.gaussian(), random.gaussian(),
-                                                                         random.gaussian()));
-    redraw(limb, 0.001, 3);
-    const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid));
-    std::cerr << rad << " " << (fit ? fit->mirror_margin : -1) << "\n";
-    if (fit)
-      for (auto& w : fit->warnings) std::cerr << w << "\n";
-    else
-      std::cerr << fit.error().message << "\n";
+  RandomChain limb = make_random_chain({.frames = 60});
+  Random random(4, 4);
+  for (ChainPose& pose : limb.pose) {
+    Vector3d turn;
+    for (double& rad : turn) rad = 0.02 * random.gaussian();
+    pose.rotation[1] = pose.rotation[0] * math::exp_so3(turn);
   }
+  redraw(limb, 0.001, 3);
+  const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid));
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_THAT(fit->warnings,
+              Contains("A mirrored geometry fits nearly as well; which side of its markers a joint "
+                       "lies on is not known."));
 }
 
 // Lengths and shapes are the limb's, wherever the lab's axes are; only rounding differs.
