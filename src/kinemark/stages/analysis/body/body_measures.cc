@@ -125,8 +125,9 @@ class BodyMeasurement {
     if (std::ranges::none_of(smoothers_, [](const auto& s) { return s.has_value(); }))
       return fail(Code::bad_input, "no coordinate is free to move and determined in 30 frames or more");
     if (!without.empty())
-      out.notes.push_back("not measured, as fewer than 30 of their samples are determined: " +
-                          join_names(without, 8));
+      out.notes.push_back(
+          "not measured, as fewer than 30 of their samples are determined or no smoother fits them: " +
+          join_names(without, 8));
     if (!disagree.empty())
       out.notes.push_back(
           "samples differ by more than 15 % more from each other than their deviations "

@@ -170,7 +170,9 @@ TEST(BodyMeasures, WhatIsNotDeterminedIsNotSaid) {
                     .stretches = {{.name = "all", .count = 416}, {.name = "gap", .first = 105, .count = 30}},
                     .refits = 39})
           .value();
-  EXPECT_THAT(out.notes, Contains(HasSubstr("fewer than 30 of their samples are determined: slide")));
+  EXPECT_THAT(
+      out.notes,
+      Contains(HasSubstr("fewer than 30 of their samples are determined or no smoother fits them: slide")));
   const auto& range = find(out, "joint_range", "hip_l", "all");
   EXPECT_TRUE(std::isfinite(range.value));
   EXPECT_EQ(range.interval.kind, IntervalKind::none);

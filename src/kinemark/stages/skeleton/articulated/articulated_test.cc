@@ -268,12 +268,13 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   EXPECT_THAT(fit.skeleton.warnings, Each(Not(HasSubstr("a hinge was asked for, but no axis can be seen"))));
 }
 
-// Eight frames show both segments, all others the one or the other.
+// Eight frames show both segments; in the others a marker of each is left, from which no pose can be had.
 TEST(FitArticulated, AJointOfEightFramesIsNotSmoothed) {
   Limb limb =
       make_limb({.frames = 100, .markers_per_segment = 4, .stagger_m = 0.02, .rotation_hz = 0.5, .seed = 15});
   for (std::int64_t f = 0; f < 100; ++f)
-    for (std::int64_t m = 0; m < 4 && f % 13 != 0; ++m) limb.markers.set_missing(f, m + (f % 2 == 0 ? 0 : 4));
+    for (std::int64_t m = 0; m < 8; ++m)
+      if (f % 13 != 0 && m % 4 != 0) limb.markers.set_missing(f, m);
   auto options = alone(SegmentKind::solid);
   options.continuity = true;
   const auto fit = fit_articulated(limb.markers, limb.layout, options);
@@ -282,33 +283,6 @@ TEST(FitArticulated, AJointOfEightFramesIsNotSmoothed) {
   EXPECT_THAT(fit->skeleton.warnings,
               Contains("joint 'j0': nothing was smoothed, for 8 frames alone determine it; 10 are needed"));
   EXPECT_THAT(fit->skeleton.warnings, Each(Not(HasSubstr("the determined frames do not follow"))));
-}
-
-TEST(FitArticulated, AJointThatNoFrameDeterminesSaysSo) {
-  for (int per : {3, 4})
-    for (int variant : {0, 1, 2}) {
-      Limb limb = make_limb({.frames = 200, .markers_per_segment = per, .stagger_m = 0.02, .seed = 15});
-      for (std::int64_t f = 0; f < 200; ++f) {
-        if (f % 2 == 0) {
-          for (std::int64_t m = 0; m < per; ++m) limb.markers.set_missing(f, m + (f % 4 == 0 ? 0 : per));
-        } else {
-          for (std::int64_t s = 0; s < 2; ++s)
-            for (std::int64_t m = 0; m < per; ++m) {
-              const std::int64_t keep = variant == 1 && s == 0 ? 1 : 2;
-              const std::int64_t turn = (m + f / 2) % per;
-              if (turn >= keep) limb.markers.set_missing(f, s * per + m);
-            }
-        }
-      }
-      auto options = alone(variant == 2 ? SegmentKind::line : SegmentKind::solid);
-      const auto fit = fit_articulated(limb.markers, limb.layout, options);
-      if (!fit) {
-        std::cerr << fit.error().message << "\n";
-        continue;
-      }
-      std::cerr << fit->skeleton.joints[0].description << " " << fit->joints[0].determined << "\n";
-      for (auto& w : fit->skeleton.warnings) std::cerr << w << "\n";
-    }
 }
 
 TEST(FitArticulated, AMarkerWithoutAPositionIsLeftOutByName) {
