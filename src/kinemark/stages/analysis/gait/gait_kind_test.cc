@@ -149,7 +149,6 @@ TEST(GaitKind, WhatIsNoLocomotionIsSaidWhy) {
       if (!smoother) continue;
       const auto events = find_marker_events(*smoother, which);
       if (!events) continue;
-      std::cerr << stride << " " << duration << " " << events->kind.not_gait << "\n";
       few = few || events->kind.not_gait == "the feet land and leave 2 times in all; need 3" ||
             events->kind.not_gait == "the feet land and leave 1 times in all; need 3";
     }
