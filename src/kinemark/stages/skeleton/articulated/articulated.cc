@@ -36,6 +36,7 @@ using Eigen::Vector3d;
 constexpr double kRobustDof =
     30.0;  // of Student's t: lowers weights beyond some five SDs, costs nothing below
 constexpr double kMm = 1e3;
+constexpr double kKnown_m = 0.01;  // a centre with a larger SD is not known
 constexpr std::size_t kSegmentsNamed = 8;
 
 /// Everything that is known on the direction, in the chain's order of segments and joints.
@@ -117,6 +118,9 @@ std::string describe_motion(const articulated::ObservedMotion& seen, bool hinge,
   if (hinge)
     return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
                        seen.axis_sd_rad * kDegPerRad);
+  if (common_sd_m >= kKnown_m)
+    return fmt::format("{:.0f} deg of motion: centre not known in its segments ({:.0f} mm)", deg,
+                       kMm * common_sd_m);
   return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
                      kMm * common_sd_m);
 }

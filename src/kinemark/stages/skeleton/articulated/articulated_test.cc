@@ -87,7 +87,8 @@ TEST(FitArticulated, StaysAtTheBoundForSolidSegments) {
   EXPECT_THAT(fit.skeleton.joints[0].description,
               Not(AnyOf(HasSubstr("no frame determines it by its own markers"),
                         HasSubstr("no more than noise: neither axis nor centre known"),
-                        HasSubstr("deg of motion: axis direction known to"))));
+                        HasSubstr("deg of motion: axis direction known to"),
+                        HasSubstr("deg of motion: centre not known in its segments"))));
   EXPECT_GT(fit.skeleton.joints[0].range_of_motion_rad, 2.5);
 }
 
@@ -266,6 +267,15 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   EXPECT_GT(fit.skeleton.centre_covariance(100, 0).trace(), 0.03 * 0.03);
   EXPECT_THAT(joint.description, HasSubstr("position along it not"));
   EXPECT_THAT(fit.skeleton.warnings, Each(Not(HasSubstr("a hinge was asked for, but no axis can be seen"))));
+}
+
+// Two straight segments that never bend: the joint may lie anywhere along them.
+TEST(FitArticulated, LinesThatNeverBendDoNotShowTheirJoint) {
+  const Limb limb = make_limb({.frames = 60, .rotation_hz = 0.5, .rotation_rad = 0.0, .seed = 16});
+  const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::line)).value();
+  EXPECT_THAT(fit.skeleton.joints[0].description,
+              HasSubstr("deg of motion: centre not known in its segments ("));
+  EXPECT_THAT(fit.skeleton.joints[0].description, Not(HasSubstr("deg of motion: centre known to")));
 }
 
 // Eight frames show both segments; in the others a marker of each is left, from which no pose can be had.
