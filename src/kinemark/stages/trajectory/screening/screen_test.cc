@@ -71,13 +71,13 @@ TEST(Screen, ZerosAreMissingSamples) {
   for (std::int64_t f = 50; f <= 53; ++f) t.x(f, 2).setZero();
   expect(only(t), FindingKind::zero, 2, 50, 53);
   EXPECT_THAT(only(t).description,
-              HasSubstr("marker 'M2' is exactly at the origin in frames 50 to 53; the samples beside are "));
+              HasSubstr("marker 'M2' is exactly at the origin in frames 50 to 53; the nearest sample is "));
   EXPECT_THAT(only(t).description, Not(HasSubstr("it is never seen anywhere else")));
   Trajectories always = testing::walker();
   for (std::int64_t f = 0; f < always.frames(); ++f) always.x(f, 5).setZero();
   expect(only(always), FindingKind::zero, 5, 0, always.frames() - 1);
   EXPECT_THAT(only(always).description, HasSubstr("it is never seen anywhere else"));
-  EXPECT_THAT(only(always).description, Not(HasSubstr("the samples beside are ")));
+  EXPECT_THAT(only(always).description, Not(HasSubstr("the nearest sample is ")));
 }
 
 TEST(Screen, PassingThroughTheOriginIsNoZero) {
