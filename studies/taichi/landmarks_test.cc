@@ -67,9 +67,11 @@ TEST(PrepareLandmarks, GapsStayGaps) {
   const auto gap = out.find(recorded.names[3]), late = out.find(recorded.names[4]);
   EXPECT_FALSE(out.present(0, late));
   EXPECT_TRUE(out.present(1, late));
+  EXPECT_FALSE(out.made_by(0, late) == "cubic spline through the frames");
   for (std::int64_t f = 0; f < out.frames(); ++f) {
     const double at = (out.time.time_s(f) - 0.5) * 179.0;
     EXPECT_EQ(out.present(f, gap), at <= 99.0 || at >= 140.0) << f;
+    EXPECT_EQ(out.made_by(f, gap) == "cubic spline through the frames", out.present(f, gap)) << f;
   }
   EXPECT_TRUE(out.validate());
 }

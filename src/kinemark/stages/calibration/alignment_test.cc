@@ -14,7 +14,9 @@ namespace kinemark::calibration {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace ts = testing_support;
 
 /// The ideal rig with its second camera rotated (rad, about its own right, down, forward) and shifted (m, its
@@ -33,7 +35,7 @@ data::Rig moved_b(const Vector3d& rotation, const Vector3d& shift) {
 TEST(Alignment, PerfectRigsNeedNothing) {
   const auto a = compare_alignment(ts::ideal_rig(), ts::ideal_rig()).value();
   EXPECT_TRUE(a.aligned);
-  EXPECT_THAT(a.next, HasSubstr("nothing"));
+  EXPECT_EQ(a.next, "nothing: all cameras are within tolerance");
   EXPECT_LT(a.cameras[1].shift_m.norm(), 1e-9);
 }
 
@@ -55,6 +57,52 @@ TEST(Alignment, SaysWhichWayToTurnAndMove) {
   const auto back = compare_alignment(ts::ideal_rig(), moved_b(Vector3d::Zero(), {0, 0, -0.02})).value();
   EXPECT_NEAR(back.cameras[1].shift_m.z(), -forward.cameras[1].shift_m.z(), 1e-3);
   EXPECT_THAT(forward.next, ::testing::AnyOf(HasSubstr("mm"), HasSubstr("deg")));
+  EXPECT_THAT(forward.next, Not(HasSubstr("nothing: all cameras are within tolerance")));
+}
+
+/// Three times the first camera, which hold the world fast, and the second.
+data::Rig held(data::Rig rig) {
+  rig.cameras = {rig.cameras[0], rig.cameras[0], rig.cameras[0], rig.cameras[1]};
+  return rig;
+}
+
+/// A point of the wanted rig's last camera, as the one found sees it.
+Vector3d seen_by(const data::Rig& found, const Vector3d& x_in_wanted) {
+  return found.cameras[3].cam_from_world *
+         (held(ts::ideal_rig()).cameras[3].cam_from_world.inverse() * x_in_wanted);
+}
+
+TEST(Alignment, WhatIsSeenOnOneSideIsPannedToIt) {
+  for (const double rad : {0.02, -0.02}) {
+    const auto found = held(moved_b({0.0, rad, 0.0}, Vector3d::Zero()));
+    const auto a = compare_alignment(held(ts::ideal_rig()), found, {.shift_tolerance_m = 1.0}).value();
+    const bool right = seen_by(found, {0.0, 0.0, 3.0}).x() > 0.0;
+    EXPECT_THAT(a.next, AllOf(HasSubstr("camera 'B': "),
+                              HasSubstr(right ? "pan it to the right by" : "pan it to the left by")));
+    EXPECT_THAT(a.next, Not(HasSubstr(right ? "pan it to the left" : "pan it to the right")));
+    EXPECT_THAT(a.next, Not(HasSubstr("camera 'B': move it ")));
+  }
+}
+
+TEST(Alignment, ARollIsUndone) {
+  for (const double rad : {0.02, -0.02}) {
+    const auto found = held(moved_b({0.0, 0.0, rad}, Vector3d::Zero()));
+    const auto a = compare_alignment(held(ts::ideal_rig()), found, {.shift_tolerance_m = 1.0}).value();
+    // What is to the right appears lower where the image is turned clockwise: the camera turns after it.
+    const bool clockwise = seen_by(found, {0.5, 0.0, 3.0}).y() > 0.0;
+    EXPECT_THAT(a.next, HasSubstr(clockwise ? "roll it clockwise by" : "roll it counter-clockwise by"));
+    EXPECT_THAT(a.next, Not(HasSubstr(clockwise ? "roll it counter-clockwise" : "roll it clockwise")));
+  }
+}
+
+TEST(Alignment, AShiftIsMovedBack) {
+  const auto next = [](const Vector3d& shift) {
+    return compare_alignment(held(ts::ideal_rig()), held(moved_b(Vector3d::Zero(), shift)),
+                             {.rotation_tolerance_deg = 90.0})
+        ->next;
+  };
+  EXPECT_THAT(next({0.0, 0.0, 0.05}), AllOf(HasSubstr("camera 'B': move it "), HasSubstr(" mm back")));
+  EXPECT_THAT(next({0.0, 0.0, -0.05}), AllOf(HasSubstr("camera 'B': move it "), HasSubstr(" mm forward")));
 }
 
 TEST(Alignment, FindsItFromTheTree) {

@@ -72,6 +72,7 @@ class BodyMeasurement {
     if (auto s = prepare(out); !s) return s;
     auto estimate = version([](const CoordinateSmoother& c, Index) { return c.estimate(); });
     if (!estimate) return std::unexpected(estimate.error());
+    momentum_known_ = estimate->momentum.rows() > 0 && estimate->momentum.allFinite();
     contact_ = feet_on_ground(*estimate, record_.up, record_.time.rate_hz);
     if (record_.contact.rows() > 0) contact_ = contact_.array() || record_.contact.array();
     plan(*estimate);
@@ -124,8 +125,9 @@ class BodyMeasurement {
     if (std::ranges::none_of(smoothers_, [](const auto& s) { return s.has_value(); }))
       return fail(Code::bad_input, "no coordinate is free to move and determined in 30 frames or more");
     if (!without.empty())
-      out.notes.push_back("not measured, as fewer than 30 of their samples are determined: " +
-                          join_names(without, 8));
+      out.notes.push_back(
+          "not measured, as fewer than 30 of their samples are determined or no smoother fits them: " +
+          join_names(without, 8));
     if (!disagree.empty())
       out.notes.push_back(
           "samples differ by more than 15 % more from each other than their deviations "
@@ -285,9 +287,19 @@ class BodyMeasurement {
     if (one && std::isfinite(smoothers_[at(slot.a)]->cut_off_hz()))
       out = fmt::format("smoothed at {:.3g} Hz", kLessSmooth * smoothers_[at(slot.a)]->cut_off_hz());
     else
-      out = one ? "as it is" : "each coordinate smoothed by itself";
+      out = one || !rests_on_smoothed(slot) ? "as it is" : "each coordinate smoothed by itself";
     if (options_.refits > 0) out += fmt::format(", {} refits", options_.refits);
     return out;
+  }
+
+  // Whether any of what a measure of several coordinates rests on was smoothed.
+  [[nodiscard]] bool rests_on_smoothed(const Slot& slot) const {
+    const auto is_smoothed = [](const std::optional<CoordinateSmoother>& s) {
+      return s && std::isfinite(s->cut_off_hz());
+    };
+    if (slot.definition->scope == BodyScope::pair)
+      return is_smoothed(smoothers_[at(slot.a)]) || is_smoothed(smoothers_[at(slot.b)]);
+    return std::ranges::any_of(smoothers_, is_smoothed);
   }
 
   // Whether anything tells of errors: of the coordinate, of the pair, of any.
@@ -320,7 +332,9 @@ class BodyMeasurement {
       case BodyScope::side:
         return "the foot does not stand, or the body does not travel at 0.2 m/s";
       default:
-        return "what it is compared with is not known";
+        return momentum_known_ && slot.definition->what.quantity == data::Quantity::angular_momentum
+                   ? "what it is compared with is not known"
+                   : "the motion of the mass centre is not known throughout";
     }
   }
 
@@ -431,6 +445,7 @@ class BodyMeasurement {
   std::vector<BodyStretch> stretches_;
   std::vector<std::optional<CoordinateSmoother>> smoothers_;
   Eigen::MatrixX<bool> contact_;
+  bool momentum_known_ = false;  // in all frames
   std::vector<Slot> slots_;
 };
 

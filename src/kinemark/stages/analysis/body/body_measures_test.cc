@@ -170,7 +170,9 @@ TEST(BodyMeasures, WhatIsNotDeterminedIsNotSaid) {
                     .stretches = {{.name = "all", .count = 416}, {.name = "gap", .first = 105, .count = 30}},
                     .refits = 39})
           .value();
-  EXPECT_THAT(out.notes, Contains(HasSubstr("fewer than 30 of their samples are determined: slide")));
+  EXPECT_THAT(
+      out.notes,
+      Contains(HasSubstr("fewer than 30 of their samples are determined or no smoother fits them: slide")));
   const auto& range = find(out, "joint_range", "hip_l", "all");
   EXPECT_TRUE(std::isfinite(range.value));
   EXPECT_EQ(range.interval.kind, IntervalKind::none);
@@ -219,6 +221,8 @@ TEST(BodyMeasures, ReasonsAreSaidWhereTheyAreSoAlone) {
     EXPECT_THAT(m.remark, Not(HasSubstr("the samples show no noise"))) << id;
     EXPECT_THAT(m.remark, Not(HasSubstr("it moves by less than half of its errors"))) << id;
     EXPECT_THAT(m.remark, Not(HasSubstr("part of the stretch is at rest"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("no interval: too many of the refits do not determine it"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("the interval is too wide to support a claim"))) << id;
   }
 }
 
@@ -262,6 +266,87 @@ TEST(BodyMeasures, APairOneOfWhichRestsHasNoPhase) {
   EXPECT_THAT(still.measures.at(0).remark, HasSubstr("one of the two does not move"));
   const auto moving = measure_body(swinging(0.0, 5), nothing, options).value();
   EXPECT_THAT(moving.measures.at(0).remark, Not(HasSubstr("one of the two does not move")));
+}
+
+TEST(BodyMeasures, OnlyWhatWasSmoothedIsSaidToBe) {
+  const BodyMeasureOptions options{.measures = {"relative_phase"}, .pairs = {{0, 1}}, .refits = 0};
+  EXPECT_EQ(measure_body(swinging(0.01, 5), nothing, options).value().measures.at(0).method,
+            "each coordinate smoothed by itself");
+  EXPECT_THAT(measure_body(swinging(0.0, 5), nothing, options).value().measures.at(0).method,
+              Not(HasSubstr("each coordinate smoothed by itself")));
+}
+
+TEST(BodyMeasures, AWorkThatComesAndGoesIsTooWideAClaim) {
+  const auto spring = [](BodySeries& series) -> Status {
+    series.tau = -20.0 * series.q;
+    return {};
+  };
+  const auto out = measure_body(swinging(0.01, 5), spring,
+                                {.measures = {"joint_work_net"}, .coordinates = {0}, .refits = 39})
+                       .value();
+  EXPECT_THAT(out.measures.at(0).remark, HasSubstr("the interval is too wide to support a claim"));
+}
+
+TEST(BodyMeasures, NoIntervalWhereRefitsDoNotDetermineIt) {
+  int calls = 0;
+  const auto tires = [&calls](BodySeries&) -> Status {
+    if (++calls > 20) return fail(Code::bad_input, "no more");
+    return {};
+  };
+  const auto out = measure_body(swinging(0.01, 5), tires,
+                                {.measures = {"joint_range"}, .coordinates = {0}, .refits = 39, .threads = 1})
+                       .value();
+  EXPECT_EQ(out.measures.at(0).remark, "no interval: too many of the refits do not determine it");
+  EXPECT_EQ(out.measures.at(0).interval.kind, IntervalKind::none);
+}
+
+/// A mass centre 1 m above feet that rest, which travels along x; `feet` and its momentum may be unknown.
+Mechanics upright(double speed, bool feet = true, bool momentum = true) {
+  return [=](BodySeries& series) -> Status {
+    const auto frames = series.q.rows();
+    series.centre.setZero(frames, 3);
+    series.centre.col(1).setOnes();
+    series.centre_velocity.setZero(frames, 3);
+    series.centre_velocity.col(0).setConstant(speed);
+    if (momentum) series.momentum = Eigen::VectorXd::LinSpaced(frames, 0.0, 1.0).replicate(1, 3);
+    if (feet)
+      for (auto& outline : series.outline) outline.assign(1, Eigen::MatrixX3d::Zero(frames, 3));
+    return {};
+  };
+}
+
+TEST(BodyMeasures, ALateralMarginNeedsAWalkerAndAFootThatStands) {
+  const BodyMeasureOptions options{.measures = {"margin_lateral"}, .refits = 0};
+  const auto record = swinging(0.01, 5);
+  const auto rests = measure_body(record, upright(0.0), options).value();
+  ASSERT_EQ(rests.measures.size(), 2U);
+  EXPECT_EQ(rests.measures[0].remark, "the foot does not stand, or the body does not travel at 0.2 m/s");
+  const auto walks = measure_body(record, upright(1.0), options).value();
+  EXPECT_TRUE(std::isfinite(walks.measures.at(0).value));
+  EXPECT_THAT(walks.measures[0].remark, Not(HasSubstr("the foot does not stand, or the body does not")));
+}
+
+TEST(BodyMeasures, AMomentumIsComparedWithWhatIsKnown) {
+  const BodyMeasureOptions options{.measures = {"angular_momentum_range_x"}, .normalized = true, .refits = 0};
+  const auto record = swinging(0.01, 5);
+  const auto airborne = measure_body(record, upright(1.0, false), options).value();
+  EXPECT_EQ(airborne.measures.at(0).remark, "what it is compared with is not known");
+  const auto whole = measure_body(record, upright(1.0), options).value();
+  EXPECT_TRUE(std::isfinite(whole.measures.at(0).value));
+  EXPECT_THAT(whole.measures[0].remark, Not(HasSubstr("the motion of the mass centre is not known")));
+  const auto unknown = measure_body(record, upright(1.0, true, false), options).value();
+  EXPECT_EQ(unknown.measures.at(0).remark, "the motion of the mass centre is not known throughout");
+  EXPECT_THAT(unknown.measures[0].remark, Not(HasSubstr("what it is compared with is not known")));
+}
+
+TEST(BodyMeasures, WhatMovesTheBodyUnseenIsNamed) {
+  const BodyMeasureOptions options{.measures = {"com_speed"}, .refits = 0};
+  auto record = swinging(0.01, 5);
+  EXPECT_THAT(measure_body(record, upright(1.0), options).value().measures.at(0).remark,
+              Not(HasSubstr("held where nothing fixes them: ")));
+  for (int f = 100; f < 150; ++f) record.determined(f, 1) = false;
+  EXPECT_THAT(measure_body(record, upright(1.0), options).value().measures.at(0).remark,
+              HasSubstr("held where nothing fixes them: knee_l"));
 }
 
 TEST(BodyMeasures, KineticsPerMass) {

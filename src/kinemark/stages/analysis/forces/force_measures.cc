@@ -249,6 +249,16 @@ class ForceMeasurement {
     for (std::size_t i = 0; i < asked.size(); ++i) put(*asked[i], like, values[i], deviations[i], series);
   }
 
+  // Why a measure has no value.
+  [[nodiscard]] static std::string no_value(const ForceDefinition& definition) {
+    if (definition.scope == ForceScope::sway) return "the centre of pressure does not move";
+    if (definition.what.quantity == data::Quantity::impulse)
+      return "no direction of travel: the centre of pressure runs by less than 20 mm or is not known";
+    return definition.what.quantity == data::Quantity::force_rate
+               ? "the load is above a fifth of its peak from the first frame on"
+               : "the load has no two humps";
+  }
+
   void put(const ForceDefinition& definition, data::Measure measure, double value,
            const std::vector<double>& deviations, const SmoothedSeries& series) {
     measure.id = definition.what.id;
@@ -257,11 +267,7 @@ class ForceMeasurement {
     measure.method = series.noisy() ? fmt::format("smoothed at {:.3g} Hz", series.cut_off_hz()) : "as it is";
     if (!std::isfinite(value)) {
       if (options_.measures.empty()) return;
-      measure.remark =
-          definition.what.quantity == data::Quantity::impulse
-              ? "the centre of pressure runs by less than 20 mm, and no direction of travel is known"
-          : definition.what.quantity == data::Quantity::force_rate ? "the load rises within a frame"
-                                                                   : "the load has no two humps";
+      measure.remark = no_value(definition);
       out_.measures.push_back(std::move(measure));
       return;
     }

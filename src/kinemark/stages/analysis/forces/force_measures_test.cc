@@ -18,6 +18,7 @@ namespace {
 using data::IntervalKind;
 using data::Measure;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kPlates_hz = 200.0;
 
@@ -161,6 +162,71 @@ TEST(ForceMeasures, WhatIsNotThereIsSaid) {
           .value();
   ASSERT_EQ(out.measures.size(), 1u);
   EXPECT_EQ(out.measures[0].region, "a");
+}
+
+/// A step with that load whose centre of pressure runs at `speed`, m/s.
+template <class Load>
+ForceMeasures step_of(const Load& load, double speed, double noise_n, std::vector<std::string> measures,
+                      std::int64_t refits = 0) {
+  const data::Wrenches plates{
+      .time = {.rate_hz = kPlates_hz, .frames = 400},
+      .items = {plate_of(
+          400, load, step_along, [=](double t) { return Eigen::Vector2d(0.1, speed * (t - 0.5)); }, noise_n,
+          0.0, 3)}};
+  return measure_forces(plates, {.measures = std::move(measures), .refits = refits}).value();
+}
+
+/// Two humps, the deeper the valley between them the larger `depth`.
+auto humps(double depth) {
+  return [=](double t) {
+    const double u = std::numbers::pi * (t - 0.5) / kStep_s;
+    return u < 0.0 || u > std::numbers::pi ? 0.0 : 800.0 * (std::sin(u) + depth * std::sin(3.0 * u));
+  };
+}
+
+TEST(ForceMeasures, AStepWithoutAValueSaysWhy) {
+  const std::vector<std::string> asked{"grf_braking_impulse", "grf_loading_rate", "grf_valley"};
+  const auto block = [](double t) { return t < 0.5 || t > 1.2 ? 0.0 : 600.0; };
+  const auto abrupt = step_of(block, 0.0, 0.0, asked);
+  EXPECT_EQ(got(abrupt, "grf_braking_impulse").remark,
+            "no direction of travel: the centre of pressure runs by less than 20 mm or is not known");
+  EXPECT_EQ(got(abrupt, "grf_loading_rate").remark,
+            "the load is above a fifth of its peak from the first frame on");
+  EXPECT_EQ(got(step_of(humps(0.0), 0.3, 0.0, asked), "grf_valley").remark, "the load has no two humps");
+  const auto good = step_of(step_load, 0.3, 0.0, asked);
+  EXPECT_THAT(got(good, "grf_braking_impulse").remark, Not(HasSubstr("no direction of travel: the centre")));
+  EXPECT_THAT(got(good, "grf_loading_rate").remark, Not(HasSubstr("the load is above a fifth of its peak")));
+  EXPECT_THAT(got(good, "grf_valley").remark, Not(HasSubstr("the load has no two humps")));
+}
+
+/// Both plates' centres of pressure at one place.
+data::Wrenches still() {
+  auto out = stand(0.0, 1);
+  for (auto& plate : out.items)
+    for (std::size_t i = 0; i < plate.point.size(); ++i) plate.point[i] = i % 3 == 0 ? 0.25 : 0.0;
+  return out;
+}
+
+TEST(ForceMeasures, SwayThatIsNoneHasNoFrequency) {
+  const ForceMeasureOptions options{.measures = {"cop_mean_frequency"}, .refits = 0};
+  EXPECT_EQ(got(measure_forces(still(), options).value(), "cop_mean_frequency").remark,
+            "the centre of pressure does not move");
+  EXPECT_THAT(got(measure_forces(stand(0.0, 1), options).value(), "cop_mean_frequency").remark,
+              Not(HasSubstr("the centre of pressure does not move")));
+}
+
+TEST(ForceMeasures, ReasonsForNoIntervalAreThoseOfTheStep) {
+  const std::vector<std::string> asked{"grf_valley"};
+  EXPECT_EQ(got(step_of(step_load, 0.3, 4.0, asked), "grf_valley").remark, "no interval was asked for");
+  EXPECT_EQ(got(measure_forces(still(), {.measures = {"cop_path"}, .refits = 39}).value(), "cop_path").remark,
+            "no interval: the samples show no noise");
+  const std::string noisy = got(step_of(step_load, 0.3, 4.0, asked, 39), "grf_valley").remark;
+  EXPECT_THAT(noisy, Not(HasSubstr("no interval was asked for")));
+  EXPECT_THAT(noisy, Not(HasSubstr("no interval: the samples show no noise")));
+  EXPECT_THAT(noisy, Not(HasSubstr("too many of the refits do not determine it")));
+  // Humps so low that noise makes them or takes them away.
+  const std::string flat = got(step_of(humps(0.176), 0.3, 40.0, asked, 39), "grf_valley").remark;
+  EXPECT_EQ(flat, "no interval: too many of the refits do not determine it");
 }
 
 }  // namespace

@@ -173,8 +173,12 @@ class GaitMeasurement {
     measure.method =
         fmt::format("{} stride{}, {} refits", cycles.size(), cycles.size() == 1 ? "" : "s", options_.refits);
     if (!std::isfinite(value)) {
-      measure.remark = cycles.empty() ? "no stride was seen from strike to strike"
-                                      : "what it needs was not seen in any stride";
+      if (cycles.empty())
+        measure.remark = definition.of_other ? "no stride of the other foot was seen whole"
+                                             : "no stride was seen from strike to strike";
+      else
+        measure.remark = definition.squared ? "too few strides show what it needs"
+                                            : "what it needs was not seen in any stride";
     } else if (options_.refits > 0) {
       const auto pivoted = definition.squared ? pivot_of_square(value, deviations, options_.level)
                                               : pivot(value, deviations, options_.level);

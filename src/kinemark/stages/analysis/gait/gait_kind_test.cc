@@ -137,6 +137,22 @@ TEST(GaitKind, WhatIsNoLocomotionIsSaidWhy) {
   for (std::int64_t f = 0; f < walk.frames(); ++f)
     for (const std::int64_t m : {2, 3}) jumps.x(f, m) = walk.x(f, m - 2) + Eigen::Vector3d(0.05, -0.1, 0.0);
   EXPECT_EQ(judged(jumps).kind.not_gait, "both feet land together, as in a jump");
+  // Strolls of which little is seen: some of them show a step or two.
+  bool few = false;
+  for (const double stride : {1.6, 2.2, 3.0})
+    for (const double duration : {1.0, 1.5, 2.2}) {
+      KnownWalk stroll;
+      stroll.speed_m_per_s = 0.35, stroll.stride_s = stride, stroll.duration_s = duration;
+      const auto brief = stroll.markers(0.0003, 3);
+      const auto which = find_gait_markers(brief).value();
+      auto smoother = GaitSmoother::create(brief, which, 0.0);
+      if (!smoother) continue;
+      const auto events = find_marker_events(*smoother, which);
+      if (!events) continue;
+      few = few || events->kind.not_gait == "the feet land and leave 2 times in all; need 3" ||
+            events->kind.not_gait == "the feet land and leave 1 times in all; need 3";
+    }
+  EXPECT_TRUE(few);
 }
 
 TEST(GaitKind, WithoutHeelsAndPelvisTheDirectionIsNotSaid) {

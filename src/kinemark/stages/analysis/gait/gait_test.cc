@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
@@ -147,6 +149,43 @@ TEST(Gait, RegionsHoldWholeCycles) {
   EXPECT_LE(gait.measures[0].end_s, 3.0);
   EXPECT_TRUE(std::isnan(gait.measures[2].value));
   EXPECT_EQ(gait.measures[2].remark, "no stride was seen from strike to strike");
+  EXPECT_FALSE(gait.measures[0].remark.contains("no stride was seen from strike to strike"));
+}
+
+std::string remark_of(const Gait& gait, std::string_view id, std::string_view context) {
+  for (const auto& m : gait.measures)
+    if (m.id == id && m.context == context) return m.remark;
+  return "none";
+}
+
+TEST(Gait, AStrideWithoutWhatAMeasureNeedsSaysSo) {
+  // The left leg alone: strides, and no step of the other foot within them.
+  auto markers = KnownWalk{}.markers(0.0005, 3);
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (const std::int64_t m : {2, 3}) markers.set_missing(f, m);
+  GaitOptions options{.measures = {"stride_time", "step_time", "stride_time_sd"}, .refits = 0};
+  const auto one = analyze_gait(markers, {}, options).value();
+  EXPECT_EQ(remark_of(one, "step_time", "Right"), "what it needs was not seen in any stride");
+  EXPECT_EQ(remark_of(one, "step_time", "Left"), "no stride of the other foot was seen whole");
+  EXPECT_FALSE(remark_of(one, "step_time", "Left").contains("no stride was seen from strike to strike"));
+  EXPECT_FALSE(remark_of(one, "step_time", "Right").contains("no stride of the other foot was seen"));
+  EXPECT_FALSE(remark_of(one, "stride_time", "Left").contains("what it needs was not seen in any stride"));
+  EXPECT_FALSE(remark_of(one, "stride_time_sd", "Left").contains("too few strides show what it needs"));
+  options.regions = {{"one stride", 0, 200}};
+  const auto few = measured({}, options);
+  EXPECT_EQ(remark_of(few, "stride_time_sd", "Left"), "too few strides show what it needs");
+  EXPECT_FALSE(remark_of(few, "stride_time_sd", "Left").contains("what it needs was not seen in any"));
+}
+
+// The region ends where the stride does: as often as not a refit's stride ends beyond it.
+TEST(Gait, NoIntervalWhereRefitsLoseTheStride) {
+  GaitOptions options{.measures = {"stride_time"}, .refits = 39};
+  const auto whole = measured({}, options);
+  EXPECT_FALSE(remark_of(whole, "stride_time", "Left").contains("more than a tenth of the refits do not"));
+  const auto first = std::ranges::find(whole.cycles, Side::left, &GaitCycle::side);
+  options.regions = {{"tight", 0, static_cast<std::int64_t>(std::ceil(100.0 * first->end_s))}};
+  EXPECT_EQ(remark_of(measured({}, options), "stride_time", "Left"),
+            "no interval: more than a tenth of the refits do not determine it");
 }
 
 TEST(Gait, AnEventThatARefitDoesNotFindIsNoneThatDidNotMove) {

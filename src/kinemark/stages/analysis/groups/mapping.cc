@@ -157,8 +157,11 @@ Result<Mapping> map_curves(std::span<const data::CycleCurves> groups, const Mapp
   mapping.threshold = threshold_of(heights, options.alpha);
   if (std::isnan(mapping.threshold)) {
     mapping.remark =
-        fmt::format("{} arrangements of so few curves cannot show a difference at {}; add curves",
-                    arrangements.count(), options.alpha);
+        static_cast<double>(arrangements.count()) < arrangements.possible()
+            ? fmt::format("{} arrangements of all that there are cannot show a difference at {}; take more",
+                          arrangements.count(), options.alpha)
+            : fmt::format("{} arrangements of so few curves cannot show a difference at {}; add curves",
+                          arrangements.count(), options.alpha);
     return mapping;
   }
   judge_stretches(mapping, statistic, arrangements, side);

@@ -79,6 +79,19 @@ TEST(MapCurves, SaysWhenSoFewCurvesCannotShowAnything) {
   EXPECT_TRUE(mapping->stretches.empty());
 }
 
+TEST(MapCurves, FewArrangementsOfManyCurvesAreNotFewCurves) {
+  Random random(3, 1);
+  const std::vector<data::CycleCurves> groups{random_curves(random, 8, 10.0, 11),
+                                              random_curves(random, 8, 10.0, 11)};
+  const auto few = map_curves(groups, {.design = Design::two_sample, .alpha = 0.01, .arrangements = 20});
+  EXPECT_EQ(few->remark, "20 arrangements of all that there are cannot show a difference at 0.01; take more");
+  EXPECT_FALSE(few->remark.contains("arrangements of so few curves cannot show"));
+  const auto many = map_curves(groups, {.design = Design::two_sample, .alpha = 0.01, .arrangements = 400});
+  EXPECT_FALSE(many->remark.contains("cannot show a difference at"));
+  EXPECT_FALSE(many->remark.contains("arrangements of all that there are cannot"));
+  EXPECT_FALSE(many->remark.contains("no point can be tested: at each one"));
+}
+
 TEST(MapCurves, ErrorOverTheWholeCurveIsKept) {
   // 400 null sets: 5 % is 20, and 5 SD of a binomial are 22.
   int found = 0;

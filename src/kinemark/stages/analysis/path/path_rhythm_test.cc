@@ -127,6 +127,7 @@ TEST(PathRhythm, SaysWhyAMovementHasNoCycles) {
   const auto reach = testing::recording_of(testing::sampled(170, 100.0, testing::reach), 100.0, 5e-4, 1);
   const auto found = rhythm_of(reach);
   EXPECT_FALSE(found.periodic);
+  EXPECT_THAT(found.verdict, Not(HasSubstr(" whole cycle")));
   EXPECT_THAT(found.verdict, StartsWith("not periodic: "));
   EXPECT_THAT(found.verdict, HasSubstr("1 movement between rests"));
   EXPECT_TRUE(std::isnan(found.period_s));
@@ -135,6 +136,22 @@ TEST(PathRhythm, SaysWhyAMovementHasNoCycles) {
   const auto none = rhythm_of(still);
   EXPECT_TRUE(none.events.empty());
   EXPECT_THAT(none.verdict, HasSubstr("less than half the noise"));
+}
+
+// The longer an ellipse is followed the more of it is seen: somewhere between, it is like itself and no two
+// are whole.
+TEST(PathRhythm, OneWholeCycleIsTooFew) {
+  int said = 0;
+  for (int frames = 100; frames <= 400; frames += 20) {
+    const auto found =
+        rhythm_of(testing::recording_of(testing::sampled(frames, 100.0, testing::ellipse), 100.0, 5e-4, 1),
+                  {.refits = 0});
+    const bool one = found.verdict.starts_with("not periodic: 1 whole cycle of ") ||
+                     found.verdict.starts_with("not periodic: 0 whole cycles of ");
+    EXPECT_FALSE(one && found.periodic);
+    said += one ? 1 : 0;
+  }
+  EXPECT_GT(said, 0);
 }
 
 TEST(PathRhythm, AWalkHasItsCyclesWithoutTheWay) {
@@ -202,6 +219,23 @@ TEST(PathRhythm, MethodsSayByWhatEventsWereFound) {
   }
 }
 
+// Up and down once a second as ever, and to and fro in its own time.
+TEST(PathRhythm, ALikeMovementMayHaveUnevenCycles) {
+  bool said = false;
+  for (const double swing : {0.40, 0.42, 0.44, 0.46}) {
+    const auto uneven = [=](double t) -> Eigen::Vector3d {
+      return {0.2 * std::cos(kTurn * (t + swing * std::sin(kTurn * 0.37 * t))), 0.0,
+              0.12 * std::cos(kTurn * t)};
+    };
+    const auto found = rhythm_of(testing::recording_of(testing::sampled(1000, 100.0, uneven), 100.0, 5e-4, 1),
+                                 {.refits = 0});
+    const bool differ = found.verdict.starts_with("not periodic: its cycles differ by ");
+    EXPECT_FALSE(differ && found.periodic);
+    said = said || differ;
+  }
+  EXPECT_TRUE(said);
+}
+
 TEST(PathRhythm, AFallingLikenessAndUnevenCyclesSaySo) {
   // Six frequencies that have no period together: its velocity is like itself by 0.19 at most.
   const auto wander = [](double t) -> Eigen::Vector3d {
@@ -212,11 +246,20 @@ TEST(PathRhythm, AFallingLikenessAndUnevenCyclesSaySo) {
   const auto unlike =
       rhythm_of(testing::recording_of(testing::sampled(700, 100.0, wander), 100.0, 5e-4, 1), {.refits = 0});
   EXPECT_THAT(unlike.verdict, HasSubstr("s, where it is most like itself, its velocities correlate by "));
+  // Turns that hasten and slow down twice in ten seconds.
+  const auto hastening = [](double t) -> Eigen::Vector3d {
+    const double angle = kTurn * (t + 0.5 * std::sin(kTurn * 0.2 * t));
+    return {0.2 * std::cos(angle), 0.1 * std::sin(angle), 0.0};
+  };
+  const auto never = rhythm_of(
+      testing::recording_of(testing::sampled(1000, 100.0, hastening), 100.0, 5e-4, 1), {.refits = 0});
+  EXPECT_THAT(never.verdict, HasSubstr("not periodic: it does not come back to what it did"));
   const auto even = rhythm_of(
       testing::recording_of(testing::sampled(500, 100.0, testing::ellipse), 100.0, 5e-4, 1), {.refits = 0});
   EXPECT_TRUE(even.periodic);
   EXPECT_THAT(even.verdict, Not(HasSubstr("where it is most like itself, its velocities correlate by")));
   EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: its cycles differ by ")));
+  EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: ")));
   EXPECT_THAT(even.verdict, Not(HasSubstr("not periodic: it does not come back to what it did")));
 }
 

@@ -15,7 +15,12 @@
 namespace kinemark::motion {
 namespace {
 
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 using testing_body::record;
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
@@ -45,6 +50,9 @@ TEST(Track, FollowsCleanMarkersToTheTrueAngles) {
   EXPECT_TRUE(result->undetermined_coordinates.empty());
   EXPECT_EQ(result->free_speeds, 12);
   EXPECT_EQ(result->rank, std::vector<int>(150, 12));
+  EXPECT_THAT(result->fit.findings, IsEmpty());
+  EXPECT_THAT(result->fit.warnings, IsEmpty());
+  EXPECT_THAT(result->fit.excluded, IsEmpty());
   EXPECT_TRUE(result->motion.validate());
   for (const auto status : result->motion.status) EXPECT_EQ(status, data::FrameStatus::converged);
 }
@@ -376,13 +384,14 @@ TEST(Track, ABlankStretchIsAFailureAndNoPerfectFit) {
   auto markers = record(model, 200);
   for (std::int64_t f = 80; f < 120; ++f)
     for (std::int64_t m = 0; m < 14; ++m) markers.set_missing(f, m);
-  EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.85, .last_time_s = 1.15}),
-              HasSubstr("no tracked marker is seen between 0.85 and 1.15 s"));
+  const std::string blank = refusal(model, markers, {.first_time_s = 0.85, .last_time_s = 1.15});
+  EXPECT_THAT(blank, HasSubstr("no tracked marker is seen between 0.85 and 1.15 s"));
+  EXPECT_THAT(blank, Not(HasSubstr("seen in enough frames in a row to be followed")));
   // One frame alone cannot be followed either.
   markers.x(100, 3) = Eigen::Vector3d(0.1, 0.2, 0.3);
   markers.state[markers.index(100, 3)] = data::SampleState::measured;
   EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.85, .last_time_s = 1.15}),
-              HasSubstr("no tracked marker is seen in enough frames in a row"));
+              HasSubstr("no tracked marker is seen in enough frames in a row to be followed between"));
   EXPECT_EQ(refusal(model, markers, {.first_time_s = 0.5, .last_time_s = 1.15}), "");
 }
 
@@ -453,6 +462,8 @@ TEST(Track, GoalsOutOfReachAreFlaggedAndNeverAnExplosion) {
   ASSERT_EQ(track.fit.findings.size(), 1U);
   EXPECT_EQ(track.fit.findings[0].kind, data::FindingKind::flagged);
   EXPECT_EQ(track.fit.findings[0].size, static_cast<double>(track.flagged_frames));
+  EXPECT_THAT(track.fit.findings[0].detail,
+              HasSubstr("the goals were out of reach, or the body ran away and was started anew ("));
   for (const double v : track.motion.qd) ASSERT_LT(std::abs(v), 2e3);
   EXPECT_NEAR(track.motion.q[track.motion.index(115, 9)], testing_body::coordinates(model, 115)[9], 5e-3);
 }
@@ -499,6 +510,22 @@ TEST(Track, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(model, markers, {.first_time_s = 0.04}), HasSubstr("one frame"));
 }
 
+TEST(Track, SaysWhyAMarkerIsNotTracked) {
+  const auto model = body();
+  auto markers = record(model, 20);
+  for (std::int64_t f = 0; f < 20; ++f) markers.set_missing(f, markers.find("F1"));
+  const auto track =
+      track_markers(model, markers,
+                    {.levels = {{.markers = {"T1", "T2", "T3", "F1", "F2"}}}, .error_bars = false})
+          .value();
+  EXPECT_THAT(track.fit.warnings,
+              Contains("marker 'F1' of level 1 is not in the recording, never seen, or weighs 0"));
+  EXPECT_THAT(track.fit.warnings,
+              Each(Not(HasSubstr("marker 'F2' of level 1 is not in the recording, never"))));
+  EXPECT_THAT(track.fit.excluded_as("in no level"), Contains("T4"));
+  EXPECT_THAT(track.fit.excluded_as("its body is welded to the ground"), IsEmpty());
+}
+
 TEST(Track, NeedsMassesAndMarkersThatCanMove) {
   auto massless = testing_body::description();
   for (auto& b : massless.bodies) {
@@ -519,7 +546,9 @@ TEST(Track, NeedsMassesAndMarkersThatCanMove) {
   const auto track = track_markers(model, markers, {.error_bars = false});
   ASSERT_TRUE(track) << track.error().message;
   EXPECT_EQ(track->fit.markers.size(), 13U);
-  EXPECT_THAT(track->fit.warnings, ::testing::Contains(HasSubstr("'T1'")));
+  EXPECT_THAT(track->fit.warnings,
+              ElementsAre("marker 'T1' sits on a body that is welded to the ground and is left out"));
+  EXPECT_THAT(track->fit.excluded_as("its body is welded to the ground"), ElementsAre("T1"));
 }
 
 }  // namespace

@@ -62,6 +62,12 @@ bool moves_its_centre(const data::JointDescription& joint) {
                              [](const auto& axis) { return !axis.is_rotation && axis.coordinate_idx >= 0; });
 }
 
+/// Its centre is known in a segment of which it is known how it lies on its body.
+bool has_centre(const data::SkeletonJoint& joint, const OnBody& parent, const OnBody& child) {
+  return (parent.posed && joint.centre_in_parent.allFinite()) ||
+         (child.posed && joint.centre_in_child.allFinite());
+}
+
 }  // namespace
 
 MeasuredJoints match_joints(const data::ModelDescription& model, const data::Skeleton& skeleton) {
@@ -122,7 +128,8 @@ MeasuredJoints match_joints(const data::ModelDescription& model, const data::Ske
                             .covariance = C});
     }
     if (out.joints.size() == before)
-      leave_out(joint, "its centre has no covariance");
+      leave_out(joint, has_centre(joint, *parent, *child) ? "its centre has no covariance"
+                                                          : "its centre is not known");
     else
       out.names.push_back(between->name);
   }

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
@@ -19,8 +20,11 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ::testing::AnyOf;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing_leg::leg;
 using testing_leg::sizes_and_hip;
 
@@ -61,6 +65,7 @@ TEST(MatchJoints, finds_the_joint_between_two_bodies_whichever_is_called_the_par
   auto skeleton = skeleton_of(leg(), 0.002);
   const auto found = match_joints(leg(), skeleton);
   EXPECT_THAT(found.names, ElementsAre("hip_r"));
+  EXPECT_THAT(found.left_out, Each(Not(HasSubstr("Joint 'hip' is not used: "))));
   ASSERT_EQ(found.joints.size(), 2U);
   EXPECT_TRUE(found.joints[0].in_parent);
   EXPECT_THAT(found.joints[0].markers, ElementsAre(0, 1, 2));
@@ -92,7 +97,10 @@ TEST(MatchJoints, says_of_each_joint_that_is_not_used_why) {
   skeleton.joints[0].child_segment = 1;
   for (auto* C : {&skeleton.joints[0].covariance_in_parent, &skeleton.joints[0].covariance_in_child})
     C->setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_THAT(match_joints(leg(), skeleton).left_out, ElementsAre(HasSubstr("has no covariance")));
+  EXPECT_THAT(match_joints(leg(), skeleton).left_out, ElementsAre(HasSubstr("its centre has no covariance")));
+  for (auto* centre : {&skeleton.joints[0].centre_in_parent, &skeleton.joints[0].centre_in_child})
+    centre->setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(match_joints(leg(), skeleton).left_out, ElementsAre(HasSubstr("its centre is not known")));
   skeleton = skeleton_of(leg(), 0.002);
   skeleton.joints.pop_back();
   skeleton.markers[0] = "unknown";
@@ -104,6 +112,23 @@ TEST(MatchJoints, says_of_each_joint_that_is_not_used_why) {
   skeleton.markers[1] = "unknown";
   EXPECT_THAT(match_joints(leg(), skeleton).left_out,
               ElementsAre(HasSubstr("segment 'pelvis' has fewer than two markers")));
+}
+
+// Each reason is one of its own: the sentence of one joint names what is so of it, and nothing else.
+TEST(MatchJoints, a_joint_is_left_out_for_its_own_reason_alone) {
+  const auto skeleton = skeleton_of(leg(), 0.002);
+  const std::string knee = match_joints(leg(), skeleton).left_out.at(0);
+  EXPECT_THAT(knee, HasSubstr("the centre of 'knee_r' moves in the model"));
+  EXPECT_THAT(
+      knee, Not(AnyOf(HasSubstr("has fewer than two markers on one body of the model"),
+                      HasSubstr("both its segments sit on '"), HasSubstr("no joint of the model connects '"),
+                      HasSubstr("neither of its segments has three markers"))));
+  EXPECT_THAT(knee,
+              Not(AnyOf(HasSubstr("its centre has no covariance"), HasSubstr("its centre is not known"))));
+  auto apart = skeleton;
+  apart.joints.pop_back();
+  apart.joints[0].child_segment = 2;
+  EXPECT_THAT(match_joints(leg(), apart).left_out.at(0), Not(HasSubstr("' moves in the model")));
 }
 
 // Nobody moves: without the functional hip its position stays as the model has it.

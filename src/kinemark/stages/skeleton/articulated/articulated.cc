@@ -36,6 +36,7 @@ using Eigen::Vector3d;
 constexpr double kRobustDof =
     30.0;  // of Student's t: lowers weights beyond some five SDs, costs nothing below
 constexpr double kMm = 1e3;
+constexpr double kKnown_m = 0.01;  // a centre with a larger SD is not known
 constexpr std::size_t kSegmentsNamed = 8;
 
 /// Everything that is known on the direction, in the chain's order of segments and joints.
@@ -117,6 +118,9 @@ std::string describe_motion(const articulated::ObservedMotion& seen, bool hinge,
   if (hinge)
     return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
                        seen.axis_sd_rad * kDegPerRad);
+  if (common_sd_m >= kKnown_m)
+    return fmt::format("{:.0f} deg of motion: centre not known in its segments ({:.0f} mm)", deg,
+                       kMm * common_sd_m);
   return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
                      kMm * common_sd_m);
 }
@@ -287,13 +291,18 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
         fmt::format("marker '{}' sits {:.1f} mm elsewhere on its segment from {:.2f} s on: "
                     "did it slip?",
                     name(slip.marker), kMm * slip.distance_m, w.markers.time.time_s(slip.frame)));
-  for (const auto& swap : articulated::find_swapped_markers(w.fit, w.input.samples, w.pass))
+  const auto swaps = articulated::find_swapped_markers(w.fit, w.input.samples, w.pass);
+  for (const auto& swap : swaps)
     warnings.push_back(fmt::format(
         "markers '{}' and '{}' have exchanged names in about {} frames, the first at {:.2f} s",
         name(swap.marker_a), name(swap.marker_b), swap.frames, w.markers.time.time_s(swap.first_frame)));
   for (const auto& loose : articulated::find_loose_markers(w.fit, w.input.samples, w.pass)) {
-    const bool slipped = std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; });
-    if (!slipped)
+    // What a slip or another's name explains is no movement on the segment.
+    const bool explained =
+        std::ranges::any_of(slips, [&](const auto& s) { return s.marker == loose.marker; }) ||
+        std::ranges::any_of(
+            swaps, [&](const auto& s) { return s.marker_a == loose.marker || s.marker_b == loose.marker; });
+    if (!explained)
       warnings.push_back(
           fmt::format("marker '{}' moves on its segment by {:.1f} mm beside a noise of {:.1f} mm",
                       name(loose.marker), kMm * loose.rms_m, kMm * w.fit.noise_sd_m));
@@ -308,11 +317,18 @@ void write_warnings(const Work& w, data::Skeleton& skeleton) {
                     "it they are is not in the error bars",
                     join_names(two, kSegmentsNamed)));
   for (std::size_t j = 0; j < w.continuity.prior.size() && w.options.continuity; ++j)
-    if (w.continuity.path[j].position.empty())
+    if (w.continuity.path[j].position.empty()) {
+      const auto& joint = w.layout.joints[at(w.tree.joint_order[j])].name;
+      const auto determined = std::ranges::count(w.pass.state[j], CentreState::determined);
       warnings.push_back(
-          fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
-                      "each other in time",
-                      w.layout.joints[at(w.tree.joint_order[j])].name));
+          determined < articulated::kLeastFollowed
+              ? fmt::format(
+                    "joint '{}': nothing was smoothed, for {} frames alone determine it; {} are needed",
+                    joint, determined, articulated::kLeastFollowed)
+              : fmt::format("joint '{}': nothing was smoothed, for the determined frames do not follow "
+                            "each other in time",
+                            joint));
+    }
   if (!w.pass.misfits.empty())
     warnings.push_back(
         fmt::format("{} of {} frames are not explained by rigid segments and noise of {:.2f} mm",

@@ -19,10 +19,12 @@ namespace {
 using data::CentreState;
 using data::SegmentKind;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::Contains;
 using testing::Each;
 using testing::Gt;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Lt;
 using testing::Not;
 using testing_limbs::Limb;
@@ -82,6 +84,11 @@ TEST(FitArticulated, StaysAtTheBoundForSolidSegments) {
   EXPECT_EQ(fit.joints[0].determined + fit.joints[0].ambiguous + fit.joints[0].undetermined, 200);
   EXPECT_GT(fit.joints[0].modes, fit.joints[0].ambiguous) << "an ambiguous frame shows two positions or more";
   EXPECT_THAT(fit.skeleton.joints[0].description, HasSubstr("deg of motion: centre known to"));
+  EXPECT_THAT(fit.skeleton.joints[0].description,
+              Not(AnyOf(HasSubstr("no frame determines it by its own markers"),
+                        HasSubstr("no more than noise: neither axis nor centre known"),
+                        HasSubstr("deg of motion: axis direction known to"),
+                        HasSubstr("deg of motion: centre not known in its segments"))));
   EXPECT_GT(fit.skeleton.joints[0].range_of_motion_rad, 2.5);
 }
 
@@ -126,6 +133,7 @@ TEST(FitArticulated, ContinuityAnswersEveryFrame) {
   EXPECT_EQ(path.joints[0].determined + path.joints[0].bridged, 400);
   EXPECT_GT(path.joints[0].bridged, 80);
   EXPECT_GT(path.joints[0].white_jerk, 0.0);
+  EXPECT_THAT(path.skeleton.warnings, Each(Not(HasSubstr("': nothing was smoothed, for"))));
   const double determined = rms(limb, path.skeleton, CentreState::determined, CentreState::determined);
   EXPECT_LT(determined, rms(limb, single.skeleton, CentreState::determined, CentreState::determined));
   EXPECT_LT(rms(limb, path.skeleton, CentreState::bridged, CentreState::bridged), 1.4 * determined);
@@ -143,7 +151,9 @@ TEST(FitArticulated, FramesThatDoNotFollowEachOtherAreNotSmoothed) {
   const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
   EXPECT_EQ(fit.skeleton.centre_in_world, single.skeleton.centre_in_world);
   EXPECT_EQ(fit.joints[0].white_jerk, 0.0);
-  EXPECT_THAT(fit.skeleton.warnings, Contains(HasSubstr("do not follow each other")));
+  EXPECT_THAT(fit.skeleton.warnings,
+              Contains(HasSubstr("': nothing was smoothed, for the determined frames do not follow")));
+  EXPECT_THAT(fit.skeleton.warnings, Each(Not(HasSubstr("frames alone determine it"))));
 }
 
 TEST(FitArticulated, SameBitsForAnyNumberOfThreads) {
@@ -189,7 +199,9 @@ TEST(FitArticulated, AHingeIsKnownButForItsPositionAlongTheAxis) {
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value();
   const data::SkeletonJoint& joint = fit.skeleton.joints[0];
   EXPECT_EQ(joint.kind, data::JointKind::hinge);
+  EXPECT_THAT(joint.description, HasSubstr("deg of motion: axis direction known to"));
   EXPECT_THAT(joint.description, HasSubstr("position along it not"));
+  EXPECT_THAT(joint.description, Not(HasSubstr("deg of motion: centre known to")));
   EXPECT_NEAR(joint.axis_in_parent.norm(), 1.0, 1e-9);
   EXPECT_LT(joint.axis_sd_rad, 0.02);
   EXPECT_NEAR(joint.range_of_motion_rad, 1.0, 0.1);
@@ -236,7 +248,9 @@ TEST(FitArticulated, LinesHaveNoHingeEvenWhenAsked) {
   options.joint = data::JointChoice::hinge;
   const auto fit = fit_articulated(limb.markers, limb.layout, options).value();
   EXPECT_EQ(fit.skeleton.joints[0].kind, data::JointKind::ball);
-  EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'j0'"), HasSubstr("no axis can be seen"))));
+  EXPECT_THAT(fit.skeleton.warnings,
+              Contains("joint 'j0': a hinge was asked for, but no axis can be seen; it "
+                       "is given as a ball joint"));
 }
 
 // The joint turns about every axis: who calls it a hinge is told nothing of its position along the main one.
@@ -252,6 +266,33 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
   EXPECT_GT(joint.axis_in_parent.dot(joint.covariance_in_parent * joint.axis_in_parent), 0.03 * 0.03);
   EXPECT_GT(fit.skeleton.centre_covariance(100, 0).trace(), 0.03 * 0.03);
   EXPECT_THAT(joint.description, HasSubstr("position along it not"));
+  EXPECT_THAT(fit.skeleton.warnings, Each(Not(HasSubstr("a hinge was asked for, but no axis can be seen"))));
+}
+
+// Two straight segments that never bend: the joint may lie anywhere along them.
+TEST(FitArticulated, LinesThatNeverBendDoNotShowTheirJoint) {
+  const Limb limb = make_limb({.frames = 60, .rotation_hz = 0.5, .rotation_rad = 0.0, .seed = 16});
+  const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::line)).value();
+  EXPECT_THAT(fit.skeleton.joints[0].description,
+              HasSubstr("deg of motion: centre not known in its segments ("));
+  EXPECT_THAT(fit.skeleton.joints[0].description, Not(HasSubstr("deg of motion: centre known to")));
+}
+
+// Eight frames show both segments; in the others a marker of each is left, from which no pose can be had.
+TEST(FitArticulated, AJointOfEightFramesIsNotSmoothed) {
+  Limb limb =
+      make_limb({.frames = 100, .markers_per_segment = 4, .stagger_m = 0.02, .rotation_hz = 0.5, .seed = 15});
+  for (std::int64_t f = 0; f < 100; ++f)
+    for (std::int64_t m = 0; m < 8; ++m)
+      if (f % 13 != 0 && m % 4 != 0) limb.markers.set_missing(f, m);
+  auto options = alone(SegmentKind::solid);
+  options.continuity = true;
+  const auto fit = fit_articulated(limb.markers, limb.layout, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->joints[0].determined, 8);
+  EXPECT_THAT(fit->skeleton.warnings,
+              Contains("joint 'j0': nothing was smoothed, for 8 frames alone determine it; 10 are needed"));
+  EXPECT_THAT(fit->skeleton.warnings, Each(Not(HasSubstr("the determined frames do not follow"))));
 }
 
 TEST(FitArticulated, AMarkerWithoutAPositionIsLeftOutByName) {
@@ -304,7 +345,9 @@ TEST(FitArticulated, FindsAMarkerThatSlipped) {
   }
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value();
   EXPECT_THAT(fit.skeleton.warnings,
-              Contains(AllOf(HasSubstr("'s0m1'"), HasSubstr("slip"), HasSubstr("2.0"))));
+              Contains(AllOf(HasSubstr("marker 's0m1' sits "),
+                             HasSubstr("mm elsewhere on its segment from 2.0"), HasSubstr("did it slip?"))));
+  EXPECT_THAT(fit.skeleton.warnings, Each(Not(HasSubstr("'s0m1' moves on its segment by"))));
   EXPECT_LT(rms(limb, fit.skeleton, CentreState::determined, CentreState::determined), 0.010);
 }
 
@@ -317,7 +360,20 @@ TEST(FitArticulated, FindsExchangedNames) {
     limb.markers.x(f, 6) = a;
   }
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value();
-  EXPECT_THAT(fit.skeleton.warnings, Contains(AllOf(HasSubstr("'s0m1' and 's1m2'"), HasSubstr("exchanged"))));
+  EXPECT_THAT(fit.skeleton.warnings,
+              Contains(HasSubstr(
+                  "markers 's0m1' and 's1m2' have exchanged names in about 6 frames, the first at 2.00 s")));
+  EXPECT_THAT(fit.skeleton.warnings,
+              Contains(HasSubstr("6 of 160 frames are not explained by rigid segments and noise of")));
+  EXPECT_THAT(fit.skeleton.warnings, Each(Not(AnyOf(HasSubstr("'s0m1' moves on its segment by"),
+                                                    HasSubstr("'s1m2' moves on its segment by")))));
+}
+
+TEST(FitArticulated, RigidSegmentsGiveNothingToWarnOf) {
+  const Limb limb =
+      make_limb({.frames = 240, .markers_per_segment = 5, .stagger_m = 0.03, .rotation_hz = 0.5, .seed = 9});
+  EXPECT_THAT(fit_articulated(limb.markers, limb.layout, alone(SegmentKind::solid)).value().skeleton.warnings,
+              IsEmpty());
 }
 
 TEST(FitArticulated, NeedsNoCompleteFrame) {
@@ -340,6 +396,7 @@ TEST(FitArticulated, SoftTissueGivesALooseMarkerANoiseOfItsOwn) {
   const auto plain = fit_articulated(limb.markers, limb.layout, options).value();
   options.soft_tissue = true;
   const auto soft = fit_articulated(limb.markers, limb.layout, options).value();
+  EXPECT_THAT(plain.skeleton.warnings, Contains(HasSubstr("marker 's1m1' moves on its segment by")));
   EXPECT_LT(rms(limb, soft.skeleton, CentreState::determined, CentreState::determined),
             0.7 * rms(limb, plain.skeleton, CentreState::determined, CentreState::determined));
   ASSERT_EQ(soft.marker_noise_sd_m.size(), 10U);

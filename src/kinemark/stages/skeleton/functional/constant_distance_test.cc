@@ -89,6 +89,12 @@ TEST(ConstantDistance, SaysWhenNoFrameIsComplete) {
   EXPECT_EQ(none.error().code, Code::bad_input);
   EXPECT_NE(none.error().message.find("no frames show all 6 markers"), std::string::npos)
       << none.error().message;
+  EXPECT_FALSE(none.error().message.contains("only one frame does"));
+  auto once = testing::make_chain({.frames = 40});
+  for (std::int64_t f = 1; f < 40; ++f) once.markers.set_missing(f, f % 6);
+  const auto one = fit(once);
+  ASSERT_FALSE(one);
+  EXPECT_TRUE(one.error().message.contains("only one frame does show all 6 markers")) << one.error().message;
   EXPECT_FALSE(fit(chain, {.complete_frames = 1}));
   EXPECT_FALSE(fit(chain, {.penalty_m = -1.0}));
 }

@@ -59,6 +59,7 @@ TEST(Functional, SidesAgreeOnExactData) {
       const auto skeleton = find_joints(chain.markers, chain.layout, {.method = method, .sides = sides});
       ASSERT_TRUE(skeleton);
       EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 1e-6);
+      EXPECT_TRUE(skeleton->warnings.empty());
       EXPECT_EQ(skeleton->joints[0].covariance_in_parent.allFinite(), sides != Sides::child);
       EXPECT_EQ(skeleton->joints[0].covariance_in_child.allFinite(), sides != Sides::parent);
     }
@@ -126,6 +127,26 @@ TEST(Functional, ConstantDistanceIsSelectable) {
   int ambiguous = 0;
   for (const auto state : skeleton->state) ambiguous += state == data::CentreState::ambiguous;
   EXPECT_GT(ambiguous, 0);
+  EXPECT_FALSE(skeleton->joints[0].description.contains("distances of the markers from the joint keep to"));
+}
+
+TEST(Functional, JointsOfLinesAreKnownByTheirDistancesAlone) {
+  const auto chain = make_chain({.stagger_m = 0.0, .noise_sd_m = 0.0005});
+  const auto skeleton =
+      find_joints(chain.markers, chain.layout, {.method = FunctionalMethod::constant_distance});
+  ASSERT_TRUE(skeleton) << skeleton.error().message;
+  EXPECT_TRUE(skeleton->joints[0].description.contains("distances of the markers from the joint keep to 0."))
+      << skeleton->joints[0].description;
+}
+
+TEST(Functional, OfAJointThatIsNotPlacedNothingIsKnown) {
+  auto chain = make_chain({.lengths_m = {0.150, 0.160, 0.150}, .per_segment = 4});
+  chain.layout.segments[1].markers.resize(2);
+  chain.layout.segments[2].markers.resize(2);
+  const auto skeleton = find_joints(chain.markers, chain.layout);
+  ASSERT_TRUE(skeleton) << skeleton.error().message;
+  EXPECT_FALSE(skeleton->joints[0].description.contains("nothing can be known"));
+  EXPECT_EQ(skeleton->joints[1].description, "nothing can be known");
 }
 
 std::string message_of(const Result<data::Skeleton>& skeleton) {
@@ -175,8 +196,12 @@ TEST(Functional, SwappedLabelsAreReportedAndLeftOut) {
   const auto skeleton = find_joints(chain.markers, chain.layout);
   ASSERT_TRUE(skeleton);
   ASSERT_EQ(skeleton->warnings.size(), 2U);
-  EXPECT_NE(skeleton->warnings[0].find("10 frames, first at 1.000 s"), std::string::npos)
+  EXPECT_NE(skeleton->warnings[0].find("do not keep their shape in 10 frames, first at 1.000 s"),
+            std::string::npos)
       << skeleton->warnings[0];
+  EXPECT_NE(skeleton->warnings[0].find(
+                " mm usually): labels swapped, or a marker elsewhere? These frames were left out."),
+            std::string::npos);
   EXPECT_LT(centre_error(*skeleton, chain, 0).rms_m, 0.003);
 }
 

@@ -100,17 +100,36 @@ void describe(const data::Trajectories& in, const Filled& filled, data::GapAccou
   std::ranges::stable_sort(account.weights, std::ranges::greater{}, &data::GapWeight::weight);
 }
 
+/// Why nothing could be made of a gap at all.
+std::string why_no_fill(const Filler& filler, const Filled& filled, const GapOptions& options) {
+  if (!filler.uses_neighbours()) return "no sample beside it to predict from";
+  if (filled.problem.windows() == 0) return "too few complete stretches to learn from";
+  return options.method == GapMethod::automatic
+             ? "no neighbours to learn from and no sample beside it to predict from"
+             : "no neighbours to learn from";
+}
+
 /// Why a fill is not good enough to be used, or "".
-std::string why_not_used(const Filled& filled, const GapSpan& gap, double sd_m, const GapOptions& options,
-                         double rate_hz) {
+std::string why_not_used(const Filler& filler, const Filled& filled, const GapSpan& gap, double sd_m,
+                         const GapOptions& options) {
+  const double rate_hz = filler.recording().rate_hz();
   const double length_s = static_cast<double>(gap.end - gap.first) / rate_hz;
   if (filled.problem.predictors.empty() && (gap.left == 0 || gap.right == 0) &&
       length_s > options.max_extrapolation_s * (1.0 + 1e-9))
-    return fmt::format("no sample on one side and no complete neighbours; at most {:.3g} s are extrapolated",
-                       options.max_extrapolation_s);
+    return filler.uses_neighbours()
+               ? fmt::format(
+                     "no sample on one side and no neighbours to learn from; at most {:.3g} s are "
+                     "extrapolated",
+                     options.max_extrapolation_s)
+               : fmt::format(
+                     "no sample on one side, and the method uses no neighbours; at most {:.3g} s are "
+                     "extrapolated",
+                     options.max_extrapolation_s);
   if (std::isinf(options.max_sd_m)) return {};
   if (std::isnan(sd_m))
-    return "too few complete stretches to learn from, so that its standard deviation is unknown";
+    return filled.problem.windows() == 0
+               ? "too few complete stretches to learn from, so that its standard deviation is unknown"
+               : "its standard deviation is unknown";
   if (sd_m > options.max_sd_m)
     return fmt::format("its standard deviation would be {:.1f} mm; at most {:.1f} mm is allowed", 1e3 * sd_m,
                        1e3 * options.max_sd_m);
@@ -173,13 +192,12 @@ void fill_one(const data::Trajectories& in, const Filler& filler, const std::vec
     data::GapAccount account = blank_account(in, piece.problem.span);
     describe(in, piece, account);
     if (piece.fills.empty()) {
-      why = account.windows == 0 ? "too few complete stretches to learn from"
-                                 : "no complete neighbour and no sample to predict from";
+      why = why_no_fill(filler, piece, options);
     } else {
       account.sd_m = std::sqrt(piece.combination.sd_m.squaredNorm() / static_cast<double>(account.frames()));
       account.max_sd_m = piece.combination.sd_m.maxCoeff();
-      if (!piece.combination.gap.allFinite()) why = "no method predicts a finite path";
-      if (why.empty()) why = why_not_used(piece, work.span, sd_m, options, in.time.rate_hz);
+      if (!piece.combination.gap.allFinite()) why = "the predicted path is not finite";
+      if (why.empty()) why = why_not_used(filler, piece, work.span, sd_m, options);
     }
     work.accounts.push_back(std::move(account));
   }

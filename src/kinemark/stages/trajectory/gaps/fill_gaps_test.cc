@@ -19,9 +19,11 @@ namespace {
 
 using data::SampleState;
 using data::Trajectories;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using testing::hide;
 using testing::moving_bodies;
+using ::testing::Not;
 using testing::rms_between;
 
 constexpr double kNoiseM = 2e-4;
@@ -200,7 +202,12 @@ TEST(FillGaps, LeavesOpenWhatIsTooLongOrTooUncertain) {
   EXPECT_THAT(uncertain.gaps.front().why_open, HasSubstr("standard deviation would be"));
   EXPECT_GT(uncertain.gaps.front().sd_m, 0.02);
   const GapResult longer = fill(t, {.max_gap_s = 1.0});
-  EXPECT_THAT(longer.gaps.front().why_open, HasSubstr("1.21 s long"));
+  EXPECT_THAT(longer.gaps.front().why_open, HasSubstr("1.21 s long; at most 1 s are filled"));
+  EXPECT_THAT(uncertain.gaps.front().why_open,
+              Not(AnyOf(HasSubstr("s long; at most"), HasSubstr("frames long; at most"),
+                        HasSubstr("too few complete stretches to learn from"),
+                        HasSubstr("its standard deviation is unknown"),
+                        HasSubstr("the predicted path is not finite"))));
   EXPECT_EQ(longer.trajectories.count_missing(), t.count_missing());
   EXPECT_EQ(fill(t, {.max_sd_m = kInfinity}).filled_frames(), 5 * 121);
 }
@@ -223,7 +230,50 @@ TEST(FillGaps, FillsTheEndsOfARecordingFromTheNeighboursOnly) {
   }
   const GapResult edge = fill(alone, {.max_sd_m = kInfinity});
   EXPECT_TRUE(edge.gaps[0].filled);  // 0.05 s at the start
-  EXPECT_THAT(edge.gaps[1].why_open, HasSubstr("extrapolated"));
+  EXPECT_THAT(edge.gaps[1].why_open,
+              HasSubstr("no sample on one side and no neighbours to learn from; at most"));
+  EXPECT_THAT(edge.gaps[1].why_open, Not(HasSubstr("the method uses no neighbours")));
+}
+
+TEST(FillGaps, AMethodWithoutNeighboursDoesNotMissThem) {
+  Trajectories t = moving_bodies({.noise_m = kNoiseM});
+  hide(t, 2, 540, 599);
+  const GapResult edge = fill(t, {.method = GapMethod::cubic, .max_sd_m = kInfinity});
+  EXPECT_THAT(only_gap(edge).why_open,
+              HasSubstr("no sample on one side, and the method uses no neighbours; at most 0.1 s"));
+  EXPECT_THAT(only_gap(edge).why_open, Not(HasSubstr("no neighbours to learn from")));
+}
+
+TEST(FillGaps, SaysWhatThereIsNothingToPredictFrom) {
+  // One marker; what is beside its gap was made by somebody else.
+  Trajectories t = Trajectories::all_missing({"alone"}, {.rate_hz = 100.0, .frames = 300});
+  const Trajectories bodies = moving_bodies({.frames = 300, .noise_m = kNoiseM});
+  for (std::int64_t f = 0; f < 300; ++f) {
+    t.x(f, 0) = bodies.x(f, 0);
+    t.state[t.index(f, 0)] = SampleState::measured;
+  }
+  hide(t, 0, 100, 109);
+  const auto why = [](const Trajectories& in, GapMethod method) {
+    return only_gap(fill(in, {.method = method, .max_sd_m = kInfinity})).why_open;
+  };
+  const std::string samples = why(t, GapMethod::regression);
+  EXPECT_EQ(samples, "no neighbours to learn from");
+  EXPECT_THAT(samples, Not(HasSubstr("no sample beside it to predict from")));
+  for (const std::int64_t f : {99, 110}) t.state[t.index(f, 0)] = SampleState::interpolated;
+  EXPECT_EQ(why(t, GapMethod::automatic),
+            "no neighbours to learn from and no sample beside it to predict from");
+  const std::string path = why(t, GapMethod::linear);
+  EXPECT_EQ(path, "no sample beside it to predict from");
+  EXPECT_THAT(path, Not(HasSubstr("no neighbours to learn from")));
+}
+
+TEST(FillGaps, FewSamplesHaveNothingToLearnFrom) {
+  Trajectories t = moving_bodies({.frames = 40, .noise_m = kNoiseM});
+  hide(t, 2, 8, 31);
+  EXPECT_EQ(only_gap(fill(t, {.method = GapMethod::regression})).why_open,
+            "too few complete stretches to learn from");
+  EXPECT_EQ(only_gap(fill(t)).why_open,
+            "too few complete stretches to learn from, so that its standard deviation is unknown");
 }
 
 TEST(FillGaps, SplitsAGapWhereTheNeighboursChangeAndTiesThePieces) {
@@ -276,7 +326,8 @@ TEST(FillGaps, FindsASwapInTheBodyAndIsNotMisledByIt) {
   EXPECT_EQ(r.swaps[0].partner, "b0m2");
   EXPECT_NEAR(static_cast<double>(r.swaps[0].first_frame), 210.0, 1.0);
   EXPECT_NEAR(static_cast<double>(r.swaps[0].last_frame), 289.0, 1.0);
-  EXPECT_THAT(r.swaps[0].description, HasSubstr("'b0m1' and 'b0m2'"));
+  EXPECT_THAT(r.swaps[0].description,
+              HasSubstr("markers 'b0m1' and 'b0m2' have exchanged labels in frames 2"));
   EXPECT_EQ(r.trajectories.x(250, 1), t.x(250, 1));  // reported, not changed
   EXPECT_LT(rms_between(r.trajectories, clean, 0, 230, 269), 3.0 * kNoiseM);
   EXPECT_TRUE(fill(moving_bodies({.noise_m = kNoiseM})).swaps.empty());
@@ -286,7 +337,7 @@ TEST(FillGaps, SurvivesAndExplainsBadInput) {
   const TimeBase clock{.rate_hz = 100.0, .frames = 50};
   const GapResult missing = fill(Trajectories::all_missing({"a", "b"}, clock));
   EXPECT_EQ(missing.gaps.size(), 2U);
-  EXPECT_THAT(missing.gaps[0].why_open, HasSubstr("never measured"));
+  EXPECT_EQ(missing.gaps[0].why_open, "the marker was never measured");
   EXPECT_TRUE(fill(Trajectories::all_missing({"a"}, {.rate_hz = 100.0, .frames = 1})).gaps.size() == 1);
   EXPECT_TRUE(fill(Trajectories::all_missing({"a"}, {.rate_hz = 100.0})).gaps.empty());
   EXPECT_TRUE(fill(Trajectories::all_missing({}, clock)).gaps.empty());
@@ -296,7 +347,8 @@ TEST(FillGaps, SurvivesAndExplainsBadInput) {
   single.state[20] = SampleState::measured;
   const GapResult r = fill(single);
   EXPECT_EQ(r.trajectories.count_missing(), 49);
-  EXPECT_EQ(r.gaps.size(), 2U);
+  ASSERT_EQ(r.gaps.size(), 2U);
+  EXPECT_THAT(r.gaps[0].why_open, Not(HasSubstr("the marker was never measured")));
 
   Trajectories still = moving_bodies({.frames = 300});  // nothing moves, every matrix is singular
   for (std::int64_t f = 0; f < 300; ++f)
@@ -321,6 +373,21 @@ TEST(FillGaps, APathBeyondAllNumbersStaysOpen) {
     EXPECT_TRUE(r.trajectories.validate());
     EXPECT_TRUE(only_gap(r).filled || !only_gap(r).why_open.empty());
   }
+  EXPECT_EQ(only_gap(fill(t, {.method = GapMethod::regression, .max_sd_m = kInfinity})).why_open,
+            "the predicted path is not finite");
+  EXPECT_EQ(only_gap(fill(t, {.method = GapMethod::cubic})).why_open, "its standard deviation is unknown");
+}
+
+TEST(FillGaps, AGapOfThousandsOfFramesIsTooLongForAnyLimit) {
+  const auto why = [](std::int64_t frames) {
+    Trajectories t = Trajectories::all_missing({"a"}, {.rate_hz = 100.0, .frames = frames + 2});
+    for (const std::int64_t f : {std::int64_t{0}, frames + 1})
+      t.state[t.index(f, 0)] = SampleState::measured, t.x(f, 0).setZero();
+    return only_gap(fill(t, {.method = GapMethod::linear, .max_gap_s = 100.0, .max_sd_m = kInfinity}))
+        .why_open;
+  };
+  EXPECT_EQ(why(4001), "4001 frames long; at most 4000 are filled");
+  EXPECT_EQ(why(4000), "");
 }
 
 TEST(FillGaps, EveryMethodCopesWithEveryRaggedRecording) {
@@ -345,6 +412,9 @@ TEST(FillGaps, DoesNothingUnlessAskedAndStopsWhenAsked) {
   const GapResult r = fill(t, {.method = GapMethod::none});
   EXPECT_EQ(r.trajectories.count_missing(), 11);
   EXPECT_FALSE(only_gap(r).filled);
+  EXPECT_EQ(only_gap(r).why_open, "filling was not asked for");
+  hide(t, 1, 111, 280);
+  EXPECT_THAT(only_gap(fill(t, {.max_gap_s = 1.0})).why_open, Not(HasSubstr("filling was not asked for")));
   const auto stopped = fill_gaps(t, {.progress = [](std::int64_t, std::int64_t) { return false; }});
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, Code::cancelled);

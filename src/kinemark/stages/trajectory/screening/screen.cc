@@ -111,7 +111,7 @@ Result<std::vector<data::Finding>> screen(const data::Trajectories& t, const Scr
   if (!options.duplicated_frames)
     std::erase_if(repeats, [](const auto& d) { return d.kind == FindingKind::duplicated_frame; });
   std::ranges::move(repeats, std::back_inserter(found));
-  if (options.clock_jumps && !frame_time_s.empty()) internal::find_clock_jumps(frame_time_s, found);
+  if (options.clock_jumps && !frame_time_s.empty()) internal::find_clock_jumps(t.time, frame_time_s, found);
   if (options.clock_jumps && frame_time_s.empty()) internal::find_leaps(rest, found);
   internal::Defects jumps;
   internal::find_swaps(rest, options, jumps);

@@ -21,6 +21,7 @@ using data::SampleState;
 using data::Trajectories;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 std::vector<data::Finding> found(const Trajectories& t, std::span<const double> times = {}) {
@@ -69,9 +70,14 @@ TEST(Screen, ZerosAreMissingSamples) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 50; f <= 53; ++f) t.x(f, 2).setZero();
   expect(only(t), FindingKind::zero, 2, 50, 53);
+  EXPECT_THAT(only(t).description,
+              HasSubstr("marker 'M2' is exactly at the origin in frames 50 to 53; the nearest sample is "));
+  EXPECT_THAT(only(t).description, Not(HasSubstr("it is never seen anywhere else")));
   Trajectories always = testing::walker();
   for (std::int64_t f = 0; f < always.frames(); ++f) always.x(f, 5).setZero();
   expect(only(always), FindingKind::zero, 5, 0, always.frames() - 1);
+  EXPECT_THAT(only(always).description, HasSubstr("it is never seen anywhere else"));
+  EXPECT_THAT(only(always).description, Not(HasSubstr("the nearest sample is ")));
 }
 
 TEST(Screen, PassingThroughTheOriginIsNoZero) {
@@ -84,6 +90,9 @@ TEST(Screen, AHeldValueIsStuck) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 201; f <= 230; ++f) t.x(f, 4) = t.x(200, 4);
   expect(only(t), FindingKind::stuck, 4, 200, 230);
+  EXPECT_THAT(
+      only(t).description,
+      HasSubstr("marker 'M4' holds one value, digit by digit, in frames 200 to 230; beside them it moves "));
   Trajectories to_the_end = testing::walker();
   for (std::int64_t f = 581; f < 600; ++f) to_the_end.x(f, 1) = to_the_end.x(580, 1);
   expect(only(to_the_end), FindingKind::stuck, 1, 580, 599);
@@ -103,6 +112,9 @@ TEST(Screen, RepeatedFramesAreDuplicated) {
   const auto findings = found(t);
   ASSERT_FALSE(findings.empty());
   expect(findings.front(), FindingKind::duplicated_frame, -1, 301, 302);
+  EXPECT_THAT(
+      findings.front().description,
+      HasSubstr("repeat frame 300 in frames 301 to 302, digit by digit, while 8 of them move right before"));
   for (const data::Finding& f : findings) EXPECT_NE(f.kind, FindingKind::stuck);
   const Trajectories out = reject_defects(t, findings).value();
   for (std::int64_t m = 0; m < t.markers(); ++m) {
@@ -133,14 +145,28 @@ TEST(Screen, AClockThatJumpsIsFoundFromItsTimes) {
   std::vector<double> times;
   for (int f = 0; f < 50; ++f) times.push_back(0.01 * f + (f >= 20 ? 0.03 : 0.0));
   expect(only(t, times), FindingKind::clock_jump, -1, 20, 20);
+  EXPECT_EQ(only(t, times).description, "frame 20 is 0.04 s after the one before, 4 times the usual 0.01 s");
   times[30] = times[29];
   times[40] = std::numeric_limits<double>::quiet_NaN();
   const auto findings = found(t, times);
   std::vector<std::int64_t> frames;
   for (const data::Finding& f : findings) frames.push_back(f.first_frame);
   EXPECT_EQ(frames, (std::vector<std::int64_t>{20, 30, 31, 40}));
+  EXPECT_EQ(findings.back().description, "frame 40 is at a time that is not a number");
+  EXPECT_THAT(findings.back().description, Not(HasSubstr("s after the one before, ")));
+  EXPECT_THAT(findings.front().description, Not(HasSubstr("at a time that is not a number")));
+  EXPECT_THAT(findings.front().description, Not(HasSubstr("this is no clock")));
   EXPECT_EQ(reject_defects(t, findings).value().x_in_world, t.x_in_world);
-  expect(only(t, std::vector<double>(50, 1.0)), FindingKind::clock_jump, -1, 0, 49);
+  const data::Finding stands = only(t, std::vector<double>(50, 1.0));
+  expect(stands, FindingKind::clock_jump, -1, 0, 49);
+  EXPECT_EQ(stands.description, "the times of most frames do not increase: this is no clock");
+  EXPECT_THAT(stands.description, Not(HasSubstr("no two frames that follow each other have times")));
+  const data::Finding none = only(t, std::vector<double>(50, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(none.description, "no two frames that follow each other have times: this is no clock");
+  EXPECT_THAT(none.description, Not(HasSubstr("the times of most frames do not increase")));
+  Trajectories from_one = t;
+  from_one.time.first_number = 1;
+  EXPECT_THAT(found(from_one, times).front().description, HasSubstr("frame 21 is "));
 }
 
 TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
@@ -151,7 +177,9 @@ TEST(Screen, LostFramesShowAsALeapOfAllMarkers) {
   const data::Finding f = only(t);
   expect(f, FindingKind::clock_jump, -1, 150, 150);
   EXPECT_EQ(f.size, 1.0) << "one frame lost";
-  EXPECT_THAT(f.description, HasSubstr("all 8 markers that are seen go "));
+  EXPECT_THAT(f.description, HasSubstr("between frames 149 and 150 all 8 markers that are seen go "));
+  EXPECT_THAT(f.description, HasSubstr(" times as far as in the frames beside: 1 lost there"));
+  EXPECT_THAT(f.description, Not(HasSubstr("instants between frames ")));
 }
 
 TEST(Screen, FramesLeftOutAgainAndAgainAreOneFinding) {
@@ -159,16 +187,36 @@ TEST(Screen, FramesLeftOutAgainAndAgainAreOneFinding) {
   Trajectories t = testing::walker({.frames = 500});
   for (std::int64_t f = 0; f < 500; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) = whole.x(f / 5 * 6 + f % 5, m);
-  EXPECT_THAT(only(t).description, HasSubstr("120 Hz from which every 6th frame was left out"));
+  EXPECT_THAT(only(t).description,
+              HasSubstr(" instants between frames 5 and 495 all markers that are seen go 2.0"));
+  EXPECT_THAT(only(t).description,
+              HasSubstr("times as far as in the frames beside, most often every 5 frames: 120 Hz from which "
+                        "every 6th frame was left out?"));
+  EXPECT_THAT(only(t).description, Not(HasSubstr("times as far as in the frames beside: ")));
+  // Two at a time: the rate that they would have had is another one.
+  const Trajectories fast = testing::walker({.frames = 700, .rate_hz = 140.0, .noise_m = 0.00002});
+  for (std::int64_t f = 0; f < 500; ++f)
+    for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) = fast.x(f / 5 * 7 + f % 5, m);
+  const auto twos = found(t);
+  ASSERT_FALSE(twos.empty());
+  EXPECT_THAT(twos.front().description, Not(HasSubstr("th frame was left out?")));
 }
 
 TEST(Screen, AMarkerInMillimetresAmongMetres) {
   Trajectories t = testing::walker();
   for (std::int64_t f = 0; f < t.frames(); ++f) t.x(f, 3) *= 1000.0;
   expect(only(t), FindingKind::unit_slip, 3, 0, t.frames() - 1);
+  EXPECT_THAT(only(t).description, HasSubstr(" m from the origin and moves by "));
+  EXPECT_THAT(only(t).description, Not(HasSubstr("divided by 1000 it joins the frames beside")));
   Trajectories part = testing::walker();
   for (std::int64_t f = 100; f < 140; ++f) part.x(f, 3) /= 1000.0;
   expect(only(part), FindingKind::unit_slip, 3, 100, 139);
+  EXPECT_EQ(
+      only(part).description,
+      "marker 'M3' is a thousand times too small in frames 100 to 139: times or divided by 1000 it joins "
+      "the frames beside");
+  EXPECT_THAT(only(part).description, Not(HasSubstr(" m from the origin and moves by ")));
+  EXPECT_THAT(only(part).description, Not(HasSubstr("markers that are seen change by a factor")));
 }
 
 TEST(Screen, ARecordingThatChangesItsUnitIsOneFinding) {
@@ -176,8 +224,15 @@ TEST(Screen, ARecordingThatChangesItsUnitIsOneFinding) {
   for (std::int64_t f = 480; f < 600; ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m) t.x(f, m) *= 1000.0;
   expect(only(t), FindingKind::unit_slip, -1, 480, 599);
-  for (double& x : t.x_in_world) x *= 1000.0;
-  EXPECT_THAT(found(t).front().description, HasSubstr("whole recording"));
+  EXPECT_EQ(only(t).description,
+            "all 8 markers that are seen change by a factor of a thousand in frames 480 to 599");
+  EXPECT_THAT(only(t).description, Not(HasSubstr("the unit of the whole recording is wrong")));
+  Trajectories large = testing::walker(), far = large;
+  for (double& x : large.x_in_world) x *= 1000.0;
+  EXPECT_THAT(only(large).description,
+              HasSubstr(" m from the origin (median): the unit of the whole recording is wrong"));
+  for (double& x : far.x_in_world) x += 1000.0;
+  EXPECT_THAT(found(far), IsEmpty()) << "of the size of a body, far from the origin";
 }
 
 TEST(Screen, ForcesKeptAsPointsAreNoUnitSlip) {
@@ -194,6 +249,8 @@ TEST(Screen, SpikesOfOneToThreeSamples) {
     Trajectories t = testing::walker();
     for (int i = 0; i < width; ++i) t.x(321 + i, 6) += Eigen::Vector3d(0.01, -0.015, 0.02);
     expect(only(t), FindingKind::spike, 6, 321, 320 + width);
+    EXPECT_THAT(only(t).description, HasSubstr("marker 'M6' leaves its path by 2"));
+    EXPECT_THAT(only(t).description, HasSubstr(" times what the samples beside leave it by"));
   }
 }
 

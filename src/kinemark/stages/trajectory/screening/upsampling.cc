@@ -151,12 +151,13 @@ void agree_on_factor(data::UpsamplingAccount& report) {
 }
 
 std::string sentence_of(const data::Upsampling& u, double rate_hz) {
+  if (u.blocks == 0)
+    return "Interpolation from a lower rate cannot be looked for: no block tells phases apart.";
   if (!u.found())
     return fmt::format(
-        "No interpolation from a lower rate was found: the best supposed phase leaves {:.2f} of what the "
-        "next best "
-        "leaves and wins {:.0f} % of {} blocks.",
-        u.ratio, 100.0 * u.agreement, u.blocks);
+        "No interpolation from a lower rate was found in {} blocks: the best supposed phase leaves {:.2f} of "
+        "what the next best leaves and wins {:.0f} % of those that tell.",
+        u.blocks, u.ratio, 100.0 * u.agreement);
   const std::string slips =
       u.runs.size() > 1 ? fmt::format(" The phase changes {} times.", u.runs.size() - 1) : std::string();
   return fmt::format(

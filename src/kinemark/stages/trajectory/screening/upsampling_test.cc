@@ -16,7 +16,9 @@ using data::InterpolationKernel;
 
 using data::SampleState;
 using data::Trajectories;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Trajectories linear_recording(int factor, int phase, std::int64_t frames = 1200) {
   Trajectories t = testing::walker({.frames = frames, .rate_hz = 60.0 * factor});
@@ -38,6 +40,10 @@ TEST(DetectUpsampling, FindsFactorAndPhaseOfEveryMarker) {
         EXPECT_GE(u.agreement, 0.97);
         EXPECT_LT(u.residual_m, 3.0 * u.rounding_m);
       }
+      EXPECT_THAT(report.sentences.front(),
+                  HasSubstr("(counted from 0); the others follow from them within"));
+      EXPECT_THAT(report.sentences.front(), Not(HasSubstr("No interpolation from a lower rate was found")));
+      EXPECT_THAT(report.sentences.front(), Not(HasSubstr(" The phase changes ")));
     }
 }
 
@@ -46,7 +52,9 @@ TEST(DetectUpsampling, LeavesAnHonestRecordingAlone) {
     const auto report = detect_upsampling(testing::walker({.frames = 900, .noise_m = noise})).value();
     EXPECT_FALSE(report.recording.found());
     for (const data::Upsampling& u : report.markers) EXPECT_EQ(u.factor, 1) << noise;
-    EXPECT_THAT(report.sentences.front(), HasSubstr("No interpolation"));
+    EXPECT_THAT(report.sentences.front(), HasSubstr("No interpolation from a lower rate was found in"));
+    EXPECT_THAT(report.sentences.front(), Not(HasSubstr("Interpolation from a lower rate cannot be looked")));
+    EXPECT_THAT(report.sentences.front(), Not(HasSubstr("others follow from them within")));
   }
 }
 
@@ -54,6 +62,20 @@ TEST(DetectUpsampling, SaysWhatItCannotSee) {
   const auto report = detect_upsampling(testing::walker()).value();
   EXPECT_THAT(report.sentences.back(), HasSubstr("low-pass"));
   EXPECT_THAT(report.sentences.back(), HasSubstr("band-limited"));
+}
+
+TEST(DetectUpsampling, TheSpectrumIsToldWhereThereIsOne) {
+  const auto open = detect_upsampling(testing::walker({.frames = 3000, .noise_m = 0.001})).value().sentences;
+  ASSERT_EQ(open.size(), 3U);
+  EXPECT_THAT(open[1], AllOf(HasSubstr("Spectrum: open; noise of "), HasSubstr(" mm near half the rate, "),
+                             HasSubstr(" mm in the middle of the band, content up to ")));
+  EXPECT_THAT(open[1], Not(HasSubstr("low-passed or model-generated")));
+  const auto model = detect_upsampling(testing::walker({.frames = 600, .noise_m = 0.0})).value().sentences;
+  EXPECT_THAT(model[1], HasSubstr("Spectrum: low-passed or model-generated; noise of"));
+  for (const auto& sentence : detect_upsampling(testing::walker({.frames = 60})).value().sentences)
+    EXPECT_THAT(sentence, Not(HasSubstr(" mm in the middle of the band")));
+  for (const auto& sentence : detect_upsampling(testing::walker({.frames = 60})).value().sentences)
+    EXPECT_THAT(sentence, Not(HasSubstr(", content up to ")));
 }
 
 TEST(DetectUpsampling, OneInterpolatedMarkerAmongHonestOnesIsNamed) {
@@ -117,6 +139,7 @@ TEST(DetectUpsampling, FollowsAPhaseThatSlips) {
   EXPECT_TRUE(report.recording.real(400));
   EXPECT_FALSE(report.recording.real(401));
   EXPECT_TRUE(report.recording.real(1199));
+  EXPECT_THAT(report.sentences.front(), HasSubstr(" blocks. The phase changes 1 times."));
 }
 
 TEST(DetectUpsampling, UsesPiecesOfALongRecordingAndFollowsAll) {
@@ -139,6 +162,8 @@ TEST(DetectUpsampling, OddInputIsAnswered) {
   const auto report = answer(still);
   EXPECT_FALSE(report.recording.found());
   EXPECT_EQ(report.recording.blocks, 0);
+  EXPECT_EQ(report.sentences.front(),
+            "Interpolation from a lower rate cannot be looked for: no block tells phases apart.");
 }
 
 TEST(DetectUpsampling, RefusesOptionsAndTrajectoriesThatDoNotHold) {

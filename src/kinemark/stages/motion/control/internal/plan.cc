@@ -48,9 +48,10 @@ Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model
   return level_of;
 }
 
-/// Which markers take part; the others get the weight 0.
+/// Which markers take part; the others get the weight 0, and `left_out` says why.
 Status choose_markers(const model::Model& model, const std::map<std::string, std::size_t>& level_of,
-                      IkOptions& options, std::vector<std::string>& warnings) {
+                      IkOptions& options, std::vector<std::string>& warnings,
+                      std::map<std::string, std::string>& left_out) {
   for (int m = 0; m < model.marker_count(); ++m) {
     const auto& name = model.description().markers[at(m)].name;
     const bool named = level_of.contains(name);
@@ -62,7 +63,10 @@ Status choose_markers(const model::Model& model, const std::map<std::string, std
                                 name));
       warnings.push_back(
           fmt::format("marker '{}' sits on a body that is welded to the ground and is left out", name));
-    } else if (named || level_of.contains("*")) {
+      left_out[name] = "its body is welded to the ground";
+    } else if (!named && !level_of.contains("*")) {
+      left_out[name] = "in no level";
+    } else {
       continue;
     }
     std::erase_if(options.marker_weights, [&](const MarkerWeight& w) { return w.marker == name; });
@@ -199,7 +203,8 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   ik.starts = options.starts;
   ik.threads = options.threads;
   std::vector<std::string> warnings;
-  if (auto status = choose_markers(model, *level_of, ik, warnings); !status)
+  std::map<std::string, std::string> left_out;
+  if (auto status = choose_markers(model, *level_of, ik, warnings, left_out); !status)
     return std::unexpected(status.error());
   auto rest = rest_coordinates(model, options);
   if (!rest) return std::unexpected(rest.error());
@@ -214,7 +219,8 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   auto& fit = plan.problem.fit;
   fit.warnings.insert(fit.warnings.end(), warnings.begin(), warnings.end());
   for (auto& marker : fit.excluded)
-    if (marker.why == data::kNoWeight) marker.why = fmt::format("in no level, or {}", data::kNoWeight);
+    if (const auto why = left_out.find(marker.name); marker.why == data::kNoWeight && why != left_out.end())
+      marker.why = why->second;
   plan.rate_hz = markers.time.rate_hz;
   plan.damping = {.damping = options.damping, .truncation = options.truncation};
   plan.feed_forward = options.feed_forward;

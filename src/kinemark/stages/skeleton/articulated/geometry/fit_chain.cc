@@ -296,8 +296,9 @@ Result<FittedChain> fit_chain(const ChainSamples& samples, const ChainLayout& la
       next = determined(all.size());
     if (next.size() < 20) {
       fit.warnings.emplace_back(
-          "Fewer than 20 frames determine all joints by themselves; the geometry rests on the frames that "
-          "show most markers.");
+          "Fewer than 20 of the frames that are used determine all joints by themselves; the geometry rests "
+          "on "
+          "those that show most markers.");
       if (round == 0) frames = pose(first);
       rounds.fit(frames, true);
       break;

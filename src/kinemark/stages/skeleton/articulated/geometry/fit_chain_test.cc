@@ -17,11 +17,14 @@ namespace {
 
 using data::CentreState;
 using data::SegmentKind;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing_limbs::hide;
 using testing_limbs::make_random_chain;
 using testing_limbs::move_lab;
 using testing_limbs::RandomChain;
+using testing_limbs::redraw;
 
 ChainFitOptions of_kind(SegmentKind kind, int segments = 2) {
   ChainFitOptions options;
@@ -40,6 +43,7 @@ TEST(FitChain, FindsExactDataExactly) {
     const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(kind, 3));
     ASSERT_TRUE(fit.has_value()) << fit.error().message;
     EXPECT_LT(fit->noise_sd_m, 1e-6);
+    EXPECT_THAT(fit->warnings, IsEmpty());
     EXPECT_NEAR(fit->lengths().at(0).length_m, 0.150, 1e-6);
     ChainSolver solver(*fit);
     ChainFrame frame;
@@ -94,7 +98,9 @@ TEST(FitChain, AGeometryThatIsNoBodysIsNotRefined) {
     });
     EXPECT_NEAR(fit->noise_sd_m, 0.01, 0.001);
     EXPECT_EQ(fit->refined, fit->warnings.empty());
-    said = std::ranges::any_of(fit->warnings, [](const auto& w) { return w.contains("was not refined"); });
+    said = std::ranges::any_of(fit->warnings, [](const auto& w) {
+      return w.contains("so far from what is expected that it was not refined");
+    });
     return asked;
   };
   const ChainFitOptions whole = of_kind(SegmentKind::solid);
@@ -199,13 +205,43 @@ TEST(FitChain, LeavesOutAMarkerThatIsNeverSeen) {
   const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid));
   ASSERT_TRUE(fit.has_value()) << fit.error().message;
   EXPECT_EQ(fit->marker_weight[3], 0.0);
-  EXPECT_THAT(fit->warnings, testing::Contains(HasSubstr("Marker 3")));
+  EXPECT_THAT(fit->warnings,
+              Contains("Marker 3 is not seen together with three others of its segment in three "
+                       "frames; it was left out."));
   EXPECT_NEAR(fit->noise_sd_m, 0.001, 1e-4);
   for (const bool in_parent : {true, false}) {
     const Matrix3d C = fit->joint_covariance(0, in_parent);
     EXPECT_TRUE(C.allFinite());
     EXPECT_LT(C.trace(), 0.001 * 0.001) << "200 frames of 1 mm";
   }
+}
+
+TEST(FitChain, FewFramesThatShowAllAreSaidToBeFew) {
+  RandomChain limb = make_random_chain({.segments = 3, .frames = 60});
+  for (int f = 12; f < 60; ++f)
+    for (int m = 0; m < 6; ++m) hide(limb.samples, f, m + (f % 2 == 0 ? 0 : 3));  // one end of the limb alone
+  const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid, 3));
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_THAT(
+      fit->warnings,
+      Contains(HasSubstr("Fewer than 20 of the frames that are used determine all joints by themselves")));
+}
+
+// The joint hardly moves: a joint on the other side of the markers' plane explains the frames as well.
+TEST(FitChain, AJointThatHardlyMovesHasAMirror) {
+  RandomChain limb = make_random_chain({.frames = 60});
+  Random random(4, 4);
+  for (ChainPose& pose : limb.pose) {
+    Vector3d turn;
+    for (double& rad : turn) rad = 0.02 * random.gaussian();
+    pose.rotation[1] = pose.rotation[0] * math::exp_so3(turn);
+  }
+  redraw(limb, 0.001, 3);
+  const auto fit = fit_chain(limb.samples, limb.chain.layout, of_kind(SegmentKind::solid));
+  ASSERT_TRUE(fit.has_value()) << fit.error().message;
+  EXPECT_THAT(fit->warnings,
+              Contains("A mirrored geometry fits nearly as well; which side of its markers a joint "
+                       "lies on is not known."));
 }
 
 // Lengths and shapes are the limb's, wherever the lab's axes are; only rounding differs.

@@ -183,7 +183,7 @@ Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, dou
   const std::size_t J = pass.points.size();
   Continuity continuity{.prior = std::vector<PathPrior>(J), .path = std::vector<SmoothedPath>(J)};
   for (std::size_t j = 0; j < J; ++j) {
-    if (std::ranges::count_if(pass.points[j], holds_a_position) < 10) continue;
+    if (std::ranges::count_if(pass.points[j], holds_a_position) < kLeastFollowed) continue;
     continuity.prior[j] = find_path_prior(pass.points[j], rate_hz);
     if (continuity.prior[j].follows)
       continuity.path[j] = smooth_path(pass.points[j], rate_hz, continuity.prior[j].white_jerk);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
@@ -11,8 +12,10 @@ namespace kinemark::skeleton::articulated {
 /// The joints' paths through time.
 struct Continuity {
   std::vector<PathPrior> prior;    ///< J; white_jerk 0 where nothing could be smoothed
-  std::vector<SmoothedPath> path;  ///< J; empty where the frames do not follow each other
+  std::vector<SmoothedPath> path;  ///< J; empty where the frames are few or do not follow each other
 };
+
+constexpr std::int64_t kLeastFollowed = 10;  ///< frames that determine a joint, for a path of it
 
 /// Smooth the determined frames alone; let that path choose among the positions that fit a flagged
 /// frame, or fill in what the frame leaves open; smooth again. Chosen frames gain information in

@@ -25,6 +25,7 @@ constexpr double kLightest = 1e-12;      // share of probability below which a m
 struct Chunk {
   std::vector<FlaggedFrame> flagged;
   std::vector<SampledPose> sampled;
+  std::vector<SampledPose> first;  ///< that determine a joint, between those that are sampled
   std::vector<std::int64_t> misfits;
 };
 
@@ -35,6 +36,24 @@ FlaggedFrame flag(std::int64_t f, const ChainFrame& frame) {
     if (frame.modes[i].weight > kLightest)
       out.modes.push_back({.centre = frame.modes[i].centre, .log_weight = std::log(frame.modes[i].weight)});
   return out;
+}
+
+/// No joint that some frame determines goes without a pose because its frames lie between the sampled ones.
+void show_every_joint(std::vector<Chunk>& chunks, std::size_t joints, RecordingPass& pass) {
+  std::vector<bool> shown(joints, false);
+  const auto show = [&](const SampledPose& pose) {
+    bool fresh = false;
+    for (std::size_t j = 0; j < joints; ++j) {
+      fresh = fresh || (pose.known[j] != 0 && !shown[j]);
+      shown[j] = shown[j] || pose.known[j] != 0;
+    }
+    return fresh;
+  };
+  for (const SampledPose& pose : pass.sampled) (void)show(pose);
+  for (Chunk& chunk : chunks)
+    for (SampledPose& pose : chunk.first)
+      if (show(pose)) pass.sampled.push_back(std::move(pose));
+  std::ranges::stable_sort(pass.sampled, {}, &SampledPose::frame);
 }
 
 }  // namespace
@@ -69,14 +88,16 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
     ChainFrame frame;
     ChainPose before;
     bool warm = false;
+    std::vector<bool> shown(J, false);
     for (std::int64_t f = begin; f < end && !stop; ++f) {
       solver.solve(samples.frame(f), warm ? &before : nullptr, frame);
-      bool all = true, any = false;
+      bool all = true, any = false, fresh = false;
       for (std::size_t j = 0; j < J; ++j) {
         const bool alone = frame.state[j] == CentreState::determined;
         const auto k = static_cast<std::size_t>(f);
         all = all && alone;
         any = any || alone;
+        fresh = fresh || (alone && !shown[j]);
         pass.state[j][k] = frame.state[j];
         if (frame.state[j] == CentreState::undetermined) continue;
         pass.points[j][k].position = frame.centre[j];
@@ -90,10 +111,13 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
       if (warm) before = frame.modes.front().pose;
       if (frame.mode_count == 0) continue;
       const ChainMode& best = frame.modes.front();
-      if (any && f % stride == 0) {
+      if (fresh || (any && f % stride == 0)) {
         SampledPose kept{.frame = f, .pose = best.pose, .cost = best.cost};
-        for (std::size_t j = 0; j < J; ++j) kept.known.push_back(frame.state[j] == CentreState::determined);
-        chunk.sampled.push_back(std::move(kept));
+        for (std::size_t j = 0; j < J; ++j) {
+          kept.known.push_back(frame.state[j] == CentreState::determined);
+          shown[j] = shown[j] || kept.known.back() != 0;
+        }
+        (f % stride == 0 ? chunk.sampled : chunk.first).push_back(std::move(kept));
       }
       if (is_misfit(fit.chain, best.cost, fit.noise_sd_m, frame.seen)) chunk.misfits.push_back(f);
     }
@@ -109,6 +133,7 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
     std::ranges::move(chunk.sampled, std::back_inserter(pass.sampled));
     std::ranges::move(chunk.misfits, std::back_inserter(pass.misfits));
   }
+  show_every_joint(chunks, J, pass);
   return pass;
 }
 

@@ -39,8 +39,8 @@ struct RecordingPass {
   std::vector<Array<double>> covariance;              ///< J of F x 6, m^2, with the geometry's part
   std::vector<Array<double>> common;                  ///< J of F x 6, m^2: the geometry's part alone
   std::vector<FlaggedFrame> flagged;                  ///< in order of time
-  std::vector<SampledPose> sampled;                   ///< up to 4,000, evenly spread
-  std::vector<std::int64_t> misfits;                  ///< frames that the geometry does not explain
+  std::vector<SampledPose> sampled;   ///< up to 4,000, evenly spread; of every joint that any frame shows
+  std::vector<std::int64_t> misfits;  ///< frames that the geometry does not explain
 };
 
 /// Upper triangle of a symmetric matrix, as data::Skeleton stores it.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -41,6 +42,20 @@ TEST(RecordingPass, EveryFrameOfAnyNumberOfThreadsIsTheSolversOwn) {
   }
   EXPECT_EQ(flagged, one.flagged.size());
   EXPECT_TRUE(one.misfits.empty());
+}
+
+// Of 4,001 frames every other one is sampled; the joint is seen in one between.
+TEST(RecordingPass, AJointSeenBetweenTheSampledFramesHasAPose) {
+  RandomChain limb = make_random_chain({.frames = 1});
+  const FittedChain fit = known_geometry(limb, 0.001);
+  ChainSamples long_one{.frames = 4001, .markers = limb.samples.markers, .x = {}};
+  long_one.x.assign(limb.samples.x.size() * 4001, std::nan(""));
+  const auto at = limb.samples.x.size() * 1301;
+  std::ranges::copy(limb.samples.x, long_one.x.begin() + static_cast<std::ptrdiff_t>(at));
+  const RecordingPass pass = pass_over(fit, long_one, 1, {}).value();
+  ASSERT_EQ(pass.sampled.size(), 1U);
+  EXPECT_EQ(pass.sampled[0].frame, 1301);
+  EXPECT_EQ(pass.sampled[0].known[0], 1);
 }
 
 TEST(RecordingPass, StopsWhenAsked) {

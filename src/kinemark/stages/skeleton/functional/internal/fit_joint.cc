@@ -59,15 +59,21 @@ std::optional<JointFit> fit_sides(const Samples& samples, const JointTask& task,
   if (want_child && child_possible) fit.in_child = take(task.child, task.parent, 1);
   fit.residual_rms_m = squares;
   if (fit.in_parent || fit.in_child) {
+    const auto placed_from = [](const SegmentPoses& used, const SegmentPoses& other) {
+      return fmt::format("'{}' {}, so the joint was placed from '{}' alone", other.name,
+                         other.known_frames > 0 ? "shows no centre" : "has no pose", used.name);
+    };
     if (want_parent && !fit.in_parent)
-      why = fmt::format("'{}' has no pose, so the joint was placed from '{}' alone", task.parent.name,
-                        task.child.name);
+      why = placed_from(task.child, task.parent);
     else if (want_child && !fit.in_child)
-      why = fmt::format("'{}' has no pose, so the joint was placed from '{}' alone", task.child.name,
-                        task.parent.name);
+      why = placed_from(task.parent, task.child);
     return fit;
   }
-  const SegmentPoses& none = !parent_possible && want_parent ? task.parent : task.child;
+  if ((want_parent && parent_possible) || (want_child && child_possible)) {
+    why = "the markers' paths in the segments show no centre";
+    return std::nullopt;
+  }
+  const SegmentPoses& none = want_parent ? task.parent : task.child;
   why = fmt::format(
       "no frame shows three markers of '{}' that are not on a line; without a pose of a segment "
       "these methods find no centre",
@@ -91,7 +97,9 @@ std::optional<JointFit> fit_joint(const Samples& samples, const JointTask& task,
   }
   const bool solid = task.parent.known_frames > 0 && task.child.known_frames > 0;
   auto fit = fit_sides(samples, task, options, kind, why);
-  if (fit && solid) why = "too few frames show both segments' poses at once; each side was fitted alone";
+  if (fit && solid && why.empty())
+    why = fmt::format("too few frames show both segments' poses at once; {} side was fitted alone",
+                      fit->in_parent && fit->in_child ? "each" : "one");
   if (fit) why += fmt::format(" ({})", fit->method);
   return fit;
 }

@@ -18,6 +18,7 @@ using data::JointKind;
 using ::testing::HasSubstr;
 using testing::JointSetup;
 using testing::make_chain;
+using ::testing::Not;
 using testing::Rotations;
 using testing::TestChain;
 
@@ -39,7 +40,7 @@ TEST(FitJoint, EveryMethodIsExactOnExactData) {
     std::string why;
     const auto fit = fit_joint(s.samples, s.task, {.method = method}, why);
     ASSERT_TRUE(fit.has_value()) << why;
-    EXPECT_TRUE(why.empty()) << why;
+    EXPECT_TRUE(why.empty()) << why;  // nothing to add where all is as it was asked for
     EXPECT_EQ(fit->kind, JointKind::ball);
     EXPECT_TRUE(fit->in_parent && fit->in_child);
     EXPECT_LT(worst_error(s, *fit, true), 1e-4) << to_string(method);
@@ -102,7 +103,7 @@ TEST(FitJoint, ASegmentWithoutPosesLeavesTheOtherSide) {
   const auto fit = fit_joint(s.samples, s.task, {}, why);
   ASSERT_TRUE(fit.has_value()) << why;
   EXPECT_TRUE(fit->in_parent && !fit->in_child);
-  EXPECT_THAT(why, HasSubstr("'s1' has no pose"));
+  EXPECT_THAT(why, HasSubstr("'s1' has no pose, so the joint was placed from 's0' alone"));
   EXPECT_THAT(why, HasSubstr("(Gamage-Lasenby)")) << "what was used instead of SCoRE";
   EXPECT_LT(worst_error(s, *fit, true), 0.003);
 }
@@ -112,7 +113,17 @@ TEST(FitJoint, SaysWhenNothingCanBePlaced) {
   std::string why;
   EXPECT_FALSE(
       fit_joint(s.samples, s.task, {.method = FunctionalMethod::gamage, .sides = Sides::child}, why));
-  EXPECT_THAT(why, HasSubstr("no frame shows three markers of 's1'"));
+  EXPECT_THAT(why, HasSubstr("no frame shows three markers of 's1' that are not on a line; without a pose"));
+  EXPECT_THAT(why, Not(HasSubstr("the markers' paths in the segments show no centre")));
+}
+
+TEST(FitJoint, OneFrameHasPosesAndNoCentre) {
+  const JointSetup s({.frames = 1, .per_segment = 4});
+  ASSERT_EQ(s.parent.known_frames + s.child.known_frames, 2);
+  std::string why;
+  EXPECT_FALSE(fit_joint(s.samples, s.task, {.method = FunctionalMethod::gamage}, why));
+  EXPECT_EQ(why, "the markers' paths in the segments show no centre");
+  EXPECT_THAT(why, Not(HasSubstr("that are not on a line; without a pose of a segment")));
 }
 
 TEST(FitJoint, SegmentsThatAreNeverSeenTogetherAreFittedOneByOne) {
@@ -128,7 +139,13 @@ TEST(FitJoint, SegmentsThatAreNeverSeenTogetherAreFittedOneByOne) {
   std::string why;
   const auto fit = fit_joint(s.samples, s.task, {.kind = data::JointChoice::ball}, why);
   ASSERT_TRUE(fit.has_value()) << why;
-  EXPECT_THAT(why, HasSubstr("too few frames show both segments' poses at once"));
+  EXPECT_EQ(why,
+            "too few frames show both segments' poses at once; each side was fitted alone (Gamage-Lasenby)");
+  EXPECT_THAT(why, Not(HasSubstr("so the joint was placed from '")));
+  std::string of_one;
+  EXPECT_TRUE(
+      fit_joint(s.samples, s.task, {.sides = Sides::parent, .kind = data::JointChoice::ball}, of_one));
+  EXPECT_THAT(of_one, HasSubstr("one side was fitted alone"));
   EXPECT_LT(worst_error(s, *fit, true), 1e-4);
   EXPECT_LT(worst_error(s, *fit, false), 1e-4);
 }

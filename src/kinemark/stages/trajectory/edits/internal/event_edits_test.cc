@@ -13,6 +13,7 @@ namespace {
 using data::Edit;
 using ::testing::HasSubstr;
 using testing::moving_trial;
+using ::testing::Not;
 
 Edit event(double time_s, double to_s = 0.0) {
   return {.label = "Foot Strike", .context = "Left", .time_s = time_s, .to_s = to_s};
@@ -54,6 +55,9 @@ TEST(EventEdits, WhatIsNotThereOrCannotBeIsSaid) {
               HasSubstr("no event 'Foot Strike' (Left) is at 5.41 s; the nearest of that name is at 5.4 s"));
   EXPECT_THAT(why_not(delete_event, {.label = "Foot Strike", .time_s = 5.4}),
               HasSubstr("no event 'Foot Strike' is at 5.4 s; there is none of that name"));
+  EXPECT_THAT(why_not(delete_event, event(5.41)), Not(HasSubstr("there is none of that name")));
+  EXPECT_THAT(why_not(delete_event, {.label = "Foot Strike", .time_s = 5.4}),
+              Not(HasSubstr("the nearest of that name is at")));
   EXPECT_THAT(why_not(move_event, event(5.4, 7.1)),
               HasSubstr("7.1 s lies outside the recording, which lasts from 5 to 6.99 s"));
   EXPECT_THAT(why_not(mark_event, event(4.9)), HasSubstr("lies outside"));

@@ -17,10 +17,12 @@ namespace {
 using data::Edit;
 using data::SampleState;
 using testing::bytes_of;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::moving_trial;
+using ::testing::Not;
 using testing::numbered_trial;
 
 using Verb = std::function<Status(data::Trial&, const Edit&)>;
@@ -187,6 +189,9 @@ TEST(MarkerEdits, FillSaysWhyNot) {
   EXPECT_THAT(
       notes,
       ElementsAre(HasSubstr("line 4: fill: the gap of '*12' in frames 501 to 600 stays open: no sample")));
+  notes.clear();
+  ASSERT_TRUE(fill(trial, {.marker = "LKNE", .method = "cubic", .line = 5}, {}, notes));
+  EXPECT_THAT(notes, Each(Not(HasSubstr(": fill: the gap of '"))));
 }
 
 TEST(MarkerEdits, UnfillTakesFilledSamplesAlone) {

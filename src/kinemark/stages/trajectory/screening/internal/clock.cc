@@ -28,27 +28,27 @@ Defect describe_many(const std::vector<Leap>& leaps, const data::Trajectories& t
     times.push_back(leaps[i].times);
     if (i > 0) spacing.push_back(static_cast<double>(leaps[i].frame - leaps[i - 1].frame));
   }
-  const double usual = median_of(spacing);
+  const double usual = median_of(spacing), far = median_of(times);
   const auto same = static_cast<std::size_t>(std::ranges::count(spacing, usual));
   std::string how = fmt::format("typically {:.0f} frames apart", usual);
-  if (2 * same >= spacing.size())
+  if (2 * same >= spacing.size() && std::round(far) == 2.0)  // one frame at a time
     how =
         fmt::format("most often every {:.0f} frames: {:.6g} Hz from which every {:.0f}th frame was left out?",
                     usual, t.time.rate_hz * (usual + 1.0) / usual, usual + 1.0);
-  return {.kind = FindingKind::clock_jump,
-          .first_frame = leaps.front().frame,
-          .last_frame = leaps.back().frame,
-          .confidence = 0.95,
-          .description = fmt::format(
-              "at {} instants between frames {} and {} all markers go {:.2f} times as far as in the "
-              "frames beside, {}",
-              leaps.size(), t.time.number(leaps.front().frame), t.time.number(leaps.back().frame),
-              median_of(times), how)};
+  return {
+      .kind = FindingKind::clock_jump,
+      .first_frame = leaps.front().frame,
+      .last_frame = leaps.back().frame,
+      .confidence = 0.95,
+      .description = fmt::format(
+          "at {} instants between frames {} and {} all markers that are seen go {:.2f} times as far as in "
+          "the frames beside, {}",
+          leaps.size(), t.time.number(leaps.front().frame), t.time.number(leaps.back().frame), far, how)};
 }
 
 }  // namespace
 
-void find_clock_jumps(std::span<const double> time_s, Defects& out) {
+void find_clock_jumps(const TimeBase& clock, std::span<const double> time_s, Defects& out) {
   std::vector<double> ticks;
   for (std::size_t f = 1; f < time_s.size(); ++f)
     if (std::isfinite(time_s[f] - time_s[f - 1])) ticks.push_back(time_s[f] - time_s[f - 1]);
@@ -59,7 +59,9 @@ void find_clock_jumps(std::span<const double> time_s, Defects& out) {
                      .first_frame = 0,
                      .last_frame = static_cast<std::int64_t>(time_s.size()) - 1,
                      .confidence = 0.999,
-                     .description = "the times of most frames do not increase: this is no clock"});
+                     .description = ticks.empty()
+                                        ? "no two frames that follow each other have times: this is no clock"
+                                        : "the times of most frames do not increase: this is no clock"});
     return;
   }
   for (std::size_t f = 0; f < time_s.size(); ++f) {
@@ -75,7 +77,7 @@ void find_clock_jumps(std::span<const double> time_s, Defects& out) {
                    .last_frame = frame,
                    .size = tick / usual - 1.0,
                    .confidence = 0.999,
-                   .description = fmt::format("frame {} is {}", frame, what)});
+                   .description = fmt::format("frame {} is {}", clock.number(frame), what)});
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/time_base.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
 
 namespace kinemark::trajectory::internal {
@@ -31,7 +32,7 @@ void find_unit_slips(const data::Trajectories& t, Defects& out);
 void find_duplicated_frames(const data::Trajectories& t, Defects& out);
 /// `out` holds the duplicated frames: repeats within them are not reported again.
 void find_stuck(const data::Trajectories& t, const ScreenOptions& options, Defects& out);
-void find_clock_jumps(std::span<const double> frame_time_s, Defects& out);
+void find_clock_jumps(const TimeBase& clock, std::span<const double> frame_time_s, Defects& out);
 /// The same from the markers, for files without recorded times.
 void find_leaps(const data::Trajectories& t, Defects& out);
 void find_swaps(const data::Trajectories& t, const ScreenOptions& options, Defects& out);

@@ -68,9 +68,9 @@ void find_zeros(const Trajectories& t, Defects& out) {
       while (f + 1 < t.frames() && is_zero(t, f + 1, m)) ++f;
       const double nearest = std::min(distance_beside(t, m, first, -1), distance_beside(t, m, f, 1));
       if (nearest < kAtOrigin) continue;
-      const std::string beside = std::isfinite(nearest)
-                                     ? fmt::format("the samples beside are {:.0f} mm away", 1e3 * nearest)
-                                     : std::string("it is never seen anywhere else");
+      const std::string beside =
+          std::isfinite(nearest) ? fmt::format("the nearest sample is {:.0f} mm away from it", 1e3 * nearest)
+                                 : std::string("it is never seen anywhere else");
       out.push_back({.kind = FindingKind::zero,
                      .marker = m,
                      .first_frame = first,

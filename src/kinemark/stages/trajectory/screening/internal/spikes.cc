@@ -97,10 +97,10 @@ void find_spikes(const Trajectories& t, const ScreenOptions& options, Defects& o
                          .size = s.height,
                          .confidence = confidence_of(s.ratio, 0.25 * kLeastRatio),
                          .description = fmt::format(
-                             "marker '{}' leaves its path by {:.1f} mm in {}, {:.0f} times what the "
-                             "samples beside leave it by",
+                             "marker '{}' leaves its path by {:.1f} mm in {}, at least {:.0f} times "
+                             "what the samples beside leave it by",
                              t.names[static_cast<std::size_t>(m)], 1e3 * s.height,
-                             describe_frames(t.time, f, last), s.ratio)});
+                             describe_frames(t.time, f, last), std::floor(s.ratio))});
         f = last;
         break;
       }

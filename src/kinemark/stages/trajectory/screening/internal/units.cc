@@ -19,6 +19,7 @@ constexpr double kNeighbour = 1.0;  // m, on the same body
 struct Extent {
   double distance = 0.0;  ///< median distance from the origin, m
   double spread = 0.0;    ///< median distance from its own middle, m
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
 };
 
 Extent extent_of(const data::Trajectories& t, std::int64_t marker) {
@@ -32,6 +33,7 @@ Extent extent_of(const data::Trajectories& t, std::int64_t marker) {
   const Eigen::Vector3d middle(median_of(axis[0]), median_of(axis[1]), median_of(axis[2]));
   Extent e;
   e.distance = median_of(distance);
+  e.middle = middle;
   for (double& d : distance) d = 0.0;
   std::size_t i = 0;
   for (std::int64_t f = 0; f < t.frames(); ++f)
@@ -176,6 +178,19 @@ bool goes_along(const data::Trajectories& t, std::int64_t marker, double scale, 
   return false;
 }
 
+/// Median distance of the markers from the middle of them all, or of a marker from its own where it is
+/// larger, m: a body far from the origin is no larger than one beside it.
+double size_of(const std::vector<Extent>& extents, double spread) {
+  std::array<std::vector<double>, 3> axis;
+  for (const Extent& e : extents)
+    for (std::size_t a = 0; a < 3 && e.distance > 0.0; ++a) axis[a].push_back(e.middle(static_cast<int>(a)));
+  const Eigen::Vector3d middle(median_of(axis[0]), median_of(axis[1]), median_of(axis[2]));
+  std::vector<double> apart;
+  for (const Extent& e : extents)
+    if (e.distance > 0.0) apart.push_back((e.middle - middle).norm());
+  return std::max(median_of(apart), spread);
+}
+
 /// Defects of all markers over the same frames are one defect of the recording.
 void merge_common(const data::Trajectories& t, Defects& slips) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
@@ -238,8 +253,10 @@ void find_unit_slips(const data::Trajectories& t, Defects& out) {
                            t.names[static_cast<std::size_t>(m)], e.distance, e.spread, distance, spread)});
     }
   }
-  // Markers are neither 200 m away nor all within 2 mm of the origin.
-  if (!distances.empty() && (distance > 200.0 || (distance < 0.002 && distance > 0.0)))
+  // Markers are neither 200 m away and metres apart by the dozen, nor all within 2 mm of the origin.
+  constexpr double kLargest = 20.0;  // m, of what is recorded at once
+  if (!distances.empty() &&
+      ((distance > 200.0 && size_of(extents, spread) > kLargest) || (distance < 0.002 && distance > 0.0)))
     slips.push_back(
         {.kind = FindingKind::unit_slip,
          .first_frame = 0,

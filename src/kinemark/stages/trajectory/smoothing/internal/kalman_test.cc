@@ -264,6 +264,8 @@ TEST(SmoothKalman, SaysWhatItChoseAndWhatItWasGiven) {
   EXPECT_NEAR(chosen.account.used.noise_sd_m / 0.001, 1.0, 0.2);
   EXPECT_EQ(chosen.account.criterion_name, "SURE, m^2");
   EXPECT_FALSE(chosen.account.description.contains(": as asked."));
+  EXPECT_TRUE(chosen.account.description.contains(" Hz, moved towards the best for velocities"))
+      << chosen.account.description;
   EXPECT_FALSE(chosen.account.description.contains("samples are too few to choose by."));
   EXPECT_FALSE(asked.account.description.contains("all orders and cut-offs tried"));
   EXPECT_FALSE(asked.account.description.contains("Hz, moved towards the best for velocities"));
