@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/joints/joints_job.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +21,10 @@
 
 namespace kinemark::pipeline {
 namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A chain written to a file, the truth, and a job that reads it.
 class JointsJobTest : public ::testing::Test {
@@ -65,6 +70,10 @@ TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 0);
+  for (const char* absent : {"samples that the recorder interpolated were left out.",
+                             "more defects like these.", "break their paths: frames are taken as poses",
+                             "Nothing can be said of", "' was placed in no frame."})
+    EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr(absent))));
   EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5);
   EXPECT_EQ(outcome->written.size(), 4U);
   const auto centres = io::read_markers(job.output / "centres.csv");
@@ -83,6 +92,56 @@ TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
   EXPECT_EQ(run_joints(job).error().code, Code::io) << "nothing is replaced unasked";
   job.force = true;
   EXPECT_TRUE(run_joints(job));
+}
+
+TEST_F(JointsJobTest, WhatTheRecorderMadeAndWhatIsSpoiltAreLeftOutAndSaid) {
+  make({.frames = 400, .markers_per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         for (std::int64_t f = 1; f + 1 < 400; f += 2)
+           for (std::int64_t m = 0; m < markers.markers(); ++m)
+             markers.x(f, m) = 0.5 * (markers.x(f - 1, m) + markers.x(f + 1, m));
+       });
+  write_segments();
+  const auto doubled = run_joints(job);
+  ASSERT_TRUE(doubled) << doubled.error().message;
+  EXPECT_THAT(doubled->warnings,
+              Contains(HasSubstr("samples that the recorder interpolated were left out.")));
+  make(kSolid, [](data::Trajectories& markers) {
+    for (std::int64_t k = 0; k < 8; ++k) markers.x(10 + 17 * k, k)[0] += 0.3;
+  });
+  const auto spoilt = run_joints(job);
+  ASSERT_TRUE(spoilt) << spoilt.error().message;
+  EXPECT_THAT(spoilt->warnings, Contains("Left out: 3 more defects like these."));
+}
+
+TEST_F(JointsJobTest, FramesThatFollowNoPathsArePosesOfTheirOwn) {
+  make(kSolid, [](data::Trajectories& markers) {
+    const auto before = markers;  // every frame from somewhere else in the recording
+    for (std::int64_t f = 0; f < 150; ++f)
+      for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m) = before.x((67 * f) % 150, m);
+  });
+  write_segments();
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("% of the samples break their paths: frames are taken as poses "
+                                 "of their own, and nothing was rejected.")));
+}
+
+TEST_F(JointsJobTest, OfSegmentsThatCannotBeSolvedItIsSaidThatNothingIsKnown) {
+  make({.frames = 240,
+        .lengths_m = {0.12, 0.15, 0.16},
+        .markers_per_segment = 4,
+        .stagger_m = 0.02,
+        .noise_sd_m = 0.001},
+       [](data::Trajectories& markers) {
+         for (std::int64_t f = 0; f < 240; ++f) markers.set_missing(f, f / 3 % 12);
+       });
+  job.method = "constant-distance";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("Nothing can be said of segments ")));
+  EXPECT_TRUE(outcome->skeleton.joints.empty());
 }
 
 TEST_F(JointsJobTest, FindsSegmentsItself) {
