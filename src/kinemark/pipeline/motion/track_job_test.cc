@@ -166,22 +166,29 @@ TEST_F(RunTrack, GoalsOutOfReachAreCountedAndThoseWithinAreNot) {
       if (gate.name == "flagged") return gate.sentence;
     return std::string();
   };
-  const auto within = flagged(run_track(job("within.mot")).value());
+  const auto begin_of = [](const std::string& name) {
+    auto j = job(name + ".mot");
+    j.options.last_time_s = 0.1;
+    j.options.error_bars = j.options.judge_samples = false;
+    return j;
+  };
+  const auto within = flagged(run_track(begin_of("within")).value());
+  EXPECT_FALSE(
+      ::testing::Value(within, ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach.*")))
+      << within;
   EXPECT_THAT(within, ::testing::StartsWith("0 of "));
-  EXPECT_FALSE(within.starts_with("31 of 31 frames are flagged: goals out of reach")) << within;
   auto trial = io::read_markers(at("in/truth.trc")).value();
   for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
-    for (std::int64_t m = 0; m < trial.markers.markers(); ++m) trial.markers.x(f, m) *= 1.5;
+    for (std::int64_t m = 0; m < trial.markers.markers(); ++m) trial.markers.x(f, m) *= 4.0;
   ASSERT_TRUE(io::write_markers(at("giant.trc"), trial, false));
-  auto giant = job("giant.mot");
+  auto giant = begin_of("giant");
   giant.markers = at("giant.trc");
-  giant.options.judge_samples = false;
   const auto outcome = run_track(giant);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 1);
-  EXPECT_THAT(flagged(*outcome),
-              HasSubstr("frames are flagged: goals out of reach, or a body that ran away ("));
-  EXPECT_THAT(flagged(*outcome), Not(::testing::StartsWith("0 of ")));
+  EXPECT_THAT(
+      flagged(*outcome),
+      ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach, or a body that ran away .*"));
 }
 
 TEST_F(RunTrack, StopsWhenAsked) {
