@@ -79,6 +79,8 @@ TEST_F(RunIk, AClosedLoopTellsItsWidestGapAndAModelWithoutOneTellsNone) {
   EXPECT_THAT(sentence_of_gate(without, "loop_gap"), Not(HasSubstr("The widest gap of a closed loop is")));
   EXPECT_THAT(sentence_of_gate(without, "mean_marker_offset"),
               Not(HasSubstr("No marker is seen in the time range.")));
+  EXPECT_THAT(sentence_of_gate(without, "marker_rms"),
+              Not(HasSubstr("How far measured and model markers are apart")));
 }
 
 TEST_F(RunIk, WhereNoMarkerIsSeenThatIsSaid) {
@@ -94,7 +96,10 @@ TEST_F(RunIk, WhereNoMarkerIsSeenThatIsSaid) {
   dark.options.last_time_s = trial.markers.time.time_s(17);
   const auto outcome = run_ik(dark);
   ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1);
   EXPECT_EQ(sentence_of_gate(*outcome, "mean_marker_offset"), "No marker is seen in the time range.");
+  EXPECT_EQ(sentence_of_gate(*outcome, "marker_rms"),
+            "How far measured and model markers are apart is not known: none is seen in the time range.");
 }
 
 TEST_F(RunIk, ForcesOfAFileAreInTheTorquesAndInTheAccount) {

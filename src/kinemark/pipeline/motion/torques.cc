@@ -48,27 +48,30 @@ std::string contacts_of(const std::string& wrench, const std::vector<motion::Con
   return text.empty() ? "on nothing" : "on " + text;
 }
 
-/// From where a force acts to the mass centre of the body that it was given to, along the floor, on average.
+/// From where a force acts to the mass centre of the body that it was given to, along the floor: the mean,
+/// weighted with the force. 0 for a force that is small all the time, whose place is not known well.
 double distance_m(const model::Model& model, const data::JointMotion& motion, const data::Wrench& wrench,
-                  const motion::Contact& contact) {
+                  const motion::Contact& contact, double small_n) {
   const auto& bodies = model.bodies();
   const auto body = std::ranges::find(bodies, contact.body, [&](const auto& one) {
     return model.description().bodies[at(one.description_idx)].name;
   });
   const Vector3d up = up_of(model).value_or(Vector3d::Zero());
   model::Workspace w(model);
-  double sum_m = 0.0;
-  std::int64_t count = 0;
+  double sum = 0.0, force_n = 0.0, most_n = 0.0;
   const std::int64_t stride = 1 + (contact.last_frame - contact.first_frame) / 20;
-  for (std::int64_t f = contact.first_frame; f <= contact.last_frame; f += stride, ++count) {
+  for (std::int64_t f = contact.first_frame; f <= contact.last_frame; f += stride) {
     const Eigen::Map<const Eigen::VectorXd> q(motion.q.data() + motion.index(f, 0), motion.size());
     model::kinematics(model, w, model::state_from_coordinates(model, q));
     const Vector3d apart =
         model::point_in_world(w, static_cast<int>(body - bodies.begin()), body->com_in_body) -
         Eigen::Map<const Vector3d>(wrench.point.data() + 3 * f);
-    sum_m += (apart - apart.dot(up) * up).norm();
+    const double size_n = Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f).norm();
+    sum += size_n * (apart - apart.dot(up) * up).norm();
+    force_n += size_n;
+    most_n = std::max(most_n, size_n);
   }
-  return sum_m / static_cast<double>(count);
+  return most_n > small_n ? sum / force_n : 0.0;
 }
 
 /// A plate's force is given to the foot nearest to it, however far that is.
@@ -76,14 +79,16 @@ void check_nearness(const model::Model& model, const data::JointMotion& motion,
                     const data::Wrenches& wrenches, const motion::DynamicsSummary& dynamics,
                     TorqueAccount& account) {
   constexpr double kFar_m = 0.5;  // a foot that bears a force has its mass centre nearer
+  constexpr double kSmall = 0.1;  // of the body weight
   for (const auto& wrench : wrenches.items) {
     if (!wrench.body.empty()) continue;
     const motion::Contact* farthest = nullptr;
     double most_m = kFar_m;
-    for (const auto& contact : dynamics.contacts)
-      if (contact.wrench == wrench.name)
-        if (const double apart_m = distance_m(model, motion, wrench, contact); apart_m > most_m)
-          most_m = apart_m, farthest = &contact;
+    for (const auto& contact : dynamics.contacts) {
+      if (contact.wrench != wrench.name) continue;
+      const double apart_m = distance_m(model, motion, wrench, contact, kSmall * dynamics.body_weight_n);
+      if (apart_m > most_m) most_m = apart_m, farthest = &contact;
+    }
     if (farthest != nullptr)
       account.warnings.push_back(fmt::format(
           "the force of '{}' acts {:.2f} m beside '{}', the body nearest to it, from {:.3f} to {:.3f} s: "

@@ -78,6 +78,7 @@ TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {
   }
   EXPECT_THAT(whole.summary.run.options,
               Not(Contains(Pair("determined in fewer than 95 % of the frames", HasSubstr("knee_angle_r")))));
+  EXPECT_THAT(whole.summary.run.options, Not(Contains(Pair(::testing::_, "not known without error bars"))));
   auto few = job("few.mot");
   few.options.levels = {{.markers = {"LASI", "RASI"}}};
   few.options.lock = motion::LockMode::off;
@@ -172,7 +173,10 @@ TEST_F(RunTrack, GoalsOutOfReachAreCountedAndThoseWithinAreNot) {
     j.options.error_bars = j.options.judge_samples = false;
     return j;
   };
-  const auto within = flagged(run_track(begin_of("within")).value());
+  const auto short_run = run_track(begin_of("within")).value();
+  EXPECT_THAT(short_run.summary.run.options,
+              Contains(Pair("determined in fewer than 95 % of the frames", "not known without error bars")));
+  const auto within = flagged(short_run);
   EXPECT_FALSE(
       ::testing::Value(within, ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach.*")))
       << within;
