@@ -91,8 +91,19 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
 TEST_F(CalibrateJobTest, GridLutAndScan) {
   auto job = bundle("lut.toml");
   job.method = CalibrateJob::Method::grid_lut;
-  job.inputs.erase(job.inputs.begin());
-  ASSERT_TRUE(run_calibrate(job));
+  auto recording = io::read_counts(lab("tree_poses.mcap")).value();
+  auto& counts = recording.counts;
+  const auto last = static_cast<std::size_t>(--counts.time.frames);
+  const auto one_less = [last](auto& values) { values.resize(values.size() / (last + 1) * last); };
+  one_less(counts.counts);
+  one_less(counts.flags);
+  one_less(counts.dark);
+  ASSERT_TRUE(io::write_counts(fresh("cut.mcap"), counts, recording.metadata, false));
+  job.inputs[0] = fresh("cut.mcap");
+  const auto tables = run_calibrate(job);
+  ASSERT_TRUE(tables) << tables.error().message;
+  EXPECT_THAT(tables->warnings,
+              Contains(HasSubstr("frames are of a pose that was not recorded to its end; not used")));
   EXPECT_EQ(io::read_rig(job.output)->cameras[1].table.nodes, 15);
   job = bundle("scan.toml");
   job.method = CalibrateJob::Method::scan;
@@ -116,19 +127,9 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   EXPECT_FALSE(json.contains("chi2_per_dof"));
   EXPECT_THAT(outcome->warnings,
               Not(Contains(HasSubstr("frames are of a pose that was not recorded to its end"))));
-  auto recording = io::read_counts(lab("tree_poses.mcap")).value();
-  auto& counts = recording.counts;
-  const auto last = static_cast<std::size_t>(--counts.time.frames);
-  const auto one_less = [last](auto& values) { values.resize(values.size() / (last + 1) * last); };
-  one_less(counts.counts);
-  one_less(counts.flags);
-  one_less(counts.dark);
-  ASSERT_TRUE(io::write_counts(fresh("cut.mcap"), counts, recording.metadata, false));
-  job.inputs = {fresh("cut.mcap")};
-  const auto cut = run_calibrate(job);
-  ASSERT_TRUE(cut) << cut.error().message;
-  EXPECT_THAT(cut->warnings,
-              Contains(HasSubstr("frames are of a pose that was not recorded to its end; not used")));
+  std::string judged;
+  for (const auto& gate : outcome->gates) judged += gate.sentence;
+  EXPECT_THAT(judged, Not(HasSubstr("chi2 per degree of freedom is")));
 }
 
 TEST_F(CalibrateJobTest, AModelThatTheCountsContradictIsAMissedGate) {
@@ -141,7 +142,6 @@ TEST_F(CalibrateJobTest, AModelThatTheCountsContradictIsAMissedGate) {
   ASSERT_EQ(refused->gates.size(), 1U);
   EXPECT_EQ(refused->gates[0].name, "chi2_per_dof");
   EXPECT_THAT(refused->gates[0].sentence, HasSubstr("calibration refused"));
-  EXPECT_THAT(refused->gates[0].sentence, Not(HasSubstr("chi2 per degree of freedom is")));
   EXPECT_FALSE(refused->bundle);
   EXPECT_TRUE(refused->written.empty());
   EXPECT_FALSE(fs::exists(job.output));
