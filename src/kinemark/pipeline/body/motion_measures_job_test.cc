@@ -10,9 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/body/body_record.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -87,6 +91,7 @@ TEST_F(RunMotionMeasures, IntervalsOfAnIkMotionAndItsFiles) {
   EXPECT_THAT(text, HasSubstr("Q.mot,,,Q,hip_flexion_r and knee_angle_r,"));
   EXPECT_EQ(outcome->inputs.size(), 3u) << "model, motion, deviations";
   EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("no standard deviations"))));
+  EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("coordinates were low-passed at"))));
   std::filesystem::remove(at("Q_sd.sto"));
   job.output.clear();
   EXPECT_THAT(run_motion_measures(job)->warnings,
@@ -122,8 +127,92 @@ TEST_F(RunMotionMeasures, LowPassedCoordinatesHaveNoIntervals) {
   job.measures = {"joint_range"};
   const auto outcome = run_motion_measures(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("low-passed at 6 Hz")));
+  EXPECT_THAT(outcome->warnings,
+              Contains("coordinates were low-passed at 6 Hz: what that leaves of their noise is "
+                       "not known, and there are no intervals"));
   EXPECT_EQ(outcome->measures[0].interval.kind, data::IntervalKind::none);
+}
+
+/// The motion, eight times as slow, at the same rate: 4 s.
+void slow_down(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const auto fast = io::read_table(from).value();
+  auto slow = fast;
+  slow.time_s.clear();
+  slow.values.clear();
+  for (std::int64_t i = 0; i <= 8 * (fast.rows() - 1); ++i) {
+    slow.time_s.push_back(static_cast<double>(i) / 60.0);
+    const auto row = std::min(i / 8, fast.rows() - 2);
+    const double share = static_cast<double>(i - 8 * row) / 8.0;
+    for (std::int64_t c = 0; c < std::ssize(fast.columns); ++c)
+      slow.values.push_back((1.0 - share) * fast(row, c) + share * fast(row + 1, c));
+  }
+  ASSERT_TRUE(io::write_table(to, slow, {.force = true}));
+}
+
+/// Somebody who walks for 6 s beside a plate that bears nothing.
+data::Trial walk_beside_a_plate() {
+  data::Trial trial;
+  trial.markers = analysis::testing::KnownWalk().markers(0.0005, 3);
+  data::ForcePlate plate{.type = 2, .channel_idx = {0, 1, 2, 3, 4, 5}};
+  plate.corners_in_world = {Eigen::Vector3d(9.2, 9.2, 0.0), Eigen::Vector3d(8.8, 9.2, 0.0),
+                            Eigen::Vector3d(8.8, 8.8, 0.0), Eigen::Vector3d(9.2, 8.8, 0.0)};
+  trial.force_plates.push_back(plate);
+  trial.analog = {.names = {"fx", "fy", "fz", "mx", "my", "mz"},
+                  .units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"},
+                  .rate_hz = 100.0,
+                  .samples = trial.markers.frames()};
+  trial.analog.values.assign(static_cast<std::size_t>(6 * trial.analog.samples), 0.0F);
+  return trial;
+}
+
+TEST_F(RunMotionMeasures, WhereStretchesAreFromAndWhichLieBeyondTheMotionIsSaid) {
+  slow_down(at("in/truth.mot"), at("slow.mot"));
+  auto trial = walk_beside_a_plate();
+  ASSERT_TRUE(io::write_markers(at("found.c3d"), trial, true));
+  auto job = measuring("slow.mot");
+  job.measures = {"joint_range"};
+  job.select = {"knee_angle_r"};
+  job.between = {"Foot Strike"};
+  job.forces = at("found.c3d");
+  const auto found = run_motion_measures(job);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->warnings, Contains("the events of feet are those that were found in found.c3d"));
+  EXPECT_THAT(found->warnings,
+              Contains(HasSubstr("stretches between events 'Foot Strike' reach beyond the motion and "
+                                 "are left out")));
+  for (const double t : {0.8, 2.0, 3.2})
+    trial.events.push_back({.label = "Turn", .context = "", .time_s = t});
+  ASSERT_TRUE(io::write_markers(at("own.c3d"), trial, true));
+  job.between = {"Turn"};
+  job.forces = at("own.c3d");
+  const auto own = run_motion_measures(job);
+  ASSERT_TRUE(own) << own.error().message;
+  EXPECT_EQ(own->measures.size(), 2u);
+  EXPECT_THAT(own->warnings, Not(Contains(HasSubstr("the events of feet are those that were found in"))));
+  EXPECT_THAT(own->warnings, Not(Contains(HasSubstr("' reach beyond the motion and are left out"))));
+}
+
+TEST_F(RunMotionMeasures, WhatAModelLacksForMassCentreAndMarginsIsSaid) {
+  const auto notes = [&](const auto& change) {
+    auto description = io::read_osim(at("in/model.osim")).value();
+    change(description);
+    const auto model = model::Model::compile(description).value();
+    const auto read = read_rated_motion(at("in/truth.mot"), model, 0.0).value();
+    return body_input(model, read, {}, false, 1).value().notes;
+  };
+  const auto whole = notes([](auto&) {});
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("has no masses: neither the mass centre nor"))));
+  EXPECT_THAT(whole, Not(Contains(HasSubstr("no marker of the model is on a foot of a side"))));
+  const auto light = notes([](auto& m) {
+    for (auto& body : m.bodies) body.mass = 0.0, body.inertia_about_com.setZero();
+  });
+  EXPECT_THAT(light,
+              Contains(HasSubstr("has no masses: neither the mass centre nor angular momentum is measured")));
+  EXPECT_THAT(light, Not(Contains(HasSubstr("no marker of the model is on a foot of a side"))));
+  const auto bare = notes([](auto& m) { m.markers.clear(); });
+  EXPECT_THAT(bare, Contains(HasSubstr(
+                        "no marker of the model is on a foot of a side (calcn_r, foot_l, toes_r): there "
+                        "are no margins of stability")));
 }
 
 TEST_F(RunMotionMeasures, RefusesInOneSentence) {

@@ -87,7 +87,11 @@ Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
           ? io::write_bvh
           : static_cast<Status (*)(const std::filesystem::path&, const io::PoseTree&, bool)>(io::write_glb);
   if (auto s = write(job.out, motion->poses, job.force); !s) return std::unexpected(s.error());
-  if (is_bvh) motion->notes.emplace_back("lengths are in cm and y is up, which a .bvh file cannot say");
+  if (is_bvh)
+    motion->notes.emplace_back(
+        motion->y_is_up ? "lengths are in cm and y is up, which a .bvh file cannot say"
+                        : "lengths are in cm, which a .bvh file cannot say; what is up is not known, "
+                          "as the model has no gravity");
   return std::move(motion->notes);
 }
 

@@ -164,6 +164,61 @@ TEST_F(ConvertFile, ABadInputLeavesNoOutput) {
   EXPECT_FALSE(std::filesystem::exists(at("never.trc")));
 }
 
+TEST_F(ConvertFile, WhatIsUpInASkeletonIsSaidWhereTheModelHasGravity) {
+  auto text = io::read_text(at("in/model.osim")).value();
+  const auto begin = text.find("<gravity>"), end = text.find("</gravity>");
+  ASSERT_NE(begin, std::string::npos);
+  text.replace(begin, end - begin, "<gravity>0 0 0");
+  ASSERT_TRUE(io::write_text(at("afloat.osim"), text, false));
+  ConvertJob job;
+  job.in = at("in/truth.mot");
+  for (const char* model : {"in/model.osim", "afloat.osim"}) {
+    job.model = at(model);
+    job.out = at(std::string(model) == "afloat.osim" ? "afloat.bvh" : "heavy.bvh");
+    const auto outcome = run_convert(job);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    if (job.out == at("afloat.bvh")) {
+      EXPECT_THAT(outcome->warnings,
+                  Contains(HasSubstr("cannot say; what is up is not known, as the model has")));
+      EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("lengths are in cm and y is up"))));
+    } else {
+      EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("what is up is not known, as the model has"))));
+    }
+  }
+}
+
+TEST_F(ConvertFile, ASceneIsTurnedWhereTheVerticalIsKnown) {
+  const auto on_plate = [](const Eigen::Vector3d& up) {
+    data::Trial trial;
+    trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = 4});
+    for (std::int64_t f = 0; f < 4; ++f) {
+      trial.markers.x(f, 0) = up;
+      trial.markers.state[trial.markers.index(f, 0)] = data::SampleState::measured;
+    }
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = up.cross(x);
+    data::ForcePlate plate{.type = 2, .channel_idx = {0, 1, 2, 3, 4, 5}};
+    plate.corners_in_world = {0.2 * x + 0.2 * y, -0.2 * x + 0.2 * y, -0.2 * x - 0.2 * y, 0.2 * x - 0.2 * y};
+    trial.force_plates.push_back(plate);
+    trial.analog = {.names = {"fx", "fy", "fz", "mx", "my", "mz"},
+                    .units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"},
+                    .rate_hz = 100.0,
+                    .samples = 4};
+    trial.analog.values.assign(24, 0.0F);
+    return trial;
+  };
+  const auto notes = [&](const data::Trial& trial, const std::string& name) {
+    EXPECT_TRUE(io::write_markers(at(name), trial, true));
+    return convert(at(name), at("scene.glb"), true).value().warnings;
+  };
+  const auto lying = notes(on_plate(Eigen::Vector3d::UnitZ()), "z.c3d");
+  EXPECT_THAT(lying, Contains("the recording was turned: z is up by the force plates, and y in a .glb"));
+  EXPECT_THAT(lying, Not(Contains(HasSubstr("which way is up is not known and y is taken"))));
+  const auto upright = notes(on_plate(Eigen::Vector3d::UnitY()), "y.c3d");
+  EXPECT_THAT(upright, Not(Contains(HasSubstr("the recording was turned:"))));
+  const auto unknown = notes(on_plate(Eigen::Vector3d::UnitZ()), "z.trc");
+  EXPECT_THAT(unknown, Contains(HasSubstr("which way is up is not known and y is taken, as a .glb has it")));
+}
+
 TEST_F(ConvertFile, AMotionBecomesASkeletonWithItsModelOnly) {
   ConvertJob job;
   job.in = at("in/truth.mot");

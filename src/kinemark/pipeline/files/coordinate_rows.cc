@@ -146,7 +146,8 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
         turns || (description.coordinates[at(c)].is_rotation && unit == 1.0 &&
                   *std::ranges::max_element(values, {}, [](double v) { return std::abs(v); }) > kManyTurns);
   }
-  if (std::ssize(absent) == model.coordinate_count())
+  if (std::ranges::none_of(description.coordinates,
+                           [&](const auto& coordinate) { return table.find(coordinate.name) >= 0; }))
     return fail(Code::bad_input,
                 fmt::format("none of its columns is a coordinate of model '{}'", description.name));
   note_couplings(model, table, out);

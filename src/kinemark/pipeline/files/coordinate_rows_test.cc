@@ -12,9 +12,11 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kBlank = std::numeric_limits<double>::quiet_NaN();
 
@@ -51,6 +53,8 @@ TEST(CoordinateRows, ColumnsInAnyOrderDegreesAndMetres) {
   EXPECT_EQ(read.q[1][1], 0.2);
   EXPECT_THAT(read.is_filled, ElementsAre(0, 0, 0, 0));
   EXPECT_THAT(read.notes, IsEmpty());
+  for (const char* absent : {"the default value:", "filled from those around them"})
+    EXPECT_THAT(read.notes, Not(Contains(HasSubstr(absent))));
 }
 
 TEST(CoordinateRows, WhatIsBlankIsFilledAndMarked) {
@@ -92,10 +96,23 @@ TEST(CoordinateRows, AColumnThatDoesNotFollowItsCouplingIsSaid) {
   const auto coupled = model::Model::compile(description).value();
   const double turn = 0.5 * kRadPerDeg;
   EXPECT_THAT(coordinate_rows(coupled, rows({"turn", "slide"}, {1, turn, 2, 2 * turn})).value().notes,
-              IsEmpty());
+              Not(Contains(HasSubstr("' and follows it; its own column is up to"))));
   EXPECT_THAT(
       coordinate_rows(coupled, rows({"turn", "slide"}, {1, turn, 2, 0.3})).value().notes,
       ElementsAre(HasSubstr("'slide' is coupled to 'turn' and follows it; its own column is up to 0.283 m")));
+}
+
+TEST(CoordinateRows, AModelWithACouplingNeedsAColumnToo) {
+  auto description = chain().description();
+  description.couplings.push_back({.name = "c",
+                                   .dependent_idx = 1,
+                                   .independent_idx = 0,
+                                   .function = math::ScalarFunction::linear(0.5, 0.0)});
+  const auto coupled = model::Model::compile(description).value();
+  const auto none = coordinate_rows(coupled, rows({"knee"}, {1, 2}));
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("none of its columns is a coordinate of model 'chain'"));
+  EXPECT_TRUE(coordinate_rows(coupled, rows({"turn"}, {1, 2})));
 }
 
 TEST(CoordinateRows, TimesMayBeRoundedToTheirDigits) {
@@ -115,9 +132,10 @@ TEST(CoordinateRows, DegreesThatAreNotSaidAreNoticed) {
   table.in_degrees = false;
   table.degrees_stated = false;
   EXPECT_THAT(coordinate_rows(chain(), table).value().notes,
-              ElementsAre(HasSubstr("were taken for radians")));
+              ElementsAre(HasSubstr("its angles were taken for radians")));
   table.values = {1, 90, 2, 90};
-  EXPECT_THAT(coordinate_rows(chain(), table).value().notes, IsEmpty())
+  EXPECT_THAT(coordinate_rows(chain(), table).value().notes,
+              Not(Contains(HasSubstr("its angles were taken for radians"))))
       << "small angles; lengths do not count";
   table.values = {30, 1, 60, 1};
   table.degrees_stated = true;
@@ -141,6 +159,9 @@ TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
   EXPECT_THAT(refused(hole),
               HasSubstr("row 5 is at 1.24 s, 0.21 s after the one before; rows that are evenly "
                         "spaced are needed, here by 0.01 s"));
+  auto rounded = rows({"turn"}, {1, 2, 3, 4});
+  rounded.time_s = {0.4, 0.417, 0.433, 0.45};
+  EXPECT_THAT(refused(rounded), Not(HasSubstr("rows that are evenly spaced are needed")));
   auto uneven = rows({"turn"}, {1, 2, 3, 4});
   uneven.time_s[2] += 0.003;
   EXPECT_THAT(refused(uneven), HasSubstr("row 3 is at 1.023 s, 0.013 s after the one before"));

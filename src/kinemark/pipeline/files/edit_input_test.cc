@@ -22,6 +22,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class EditInputTest : public ::testing::Test {
  protected:
@@ -86,6 +87,9 @@ TEST_F(EditInputTest, BesideMayBeAbsentANameMayNot) {
 
 TEST_F(EditInputTest, AnotherRecordingIsRefused) {
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
+  auto own = trial_;
+  const auto of_its_own = take_edits({.edits = journal_, .recording = recording_, .force = true}, own);
+  EXPECT_THAT(of_its_own->notes, Not(Contains(HasSubstr("' and were applied to another recording,"))));
   ASSERT_TRUE(io::write_text(recording_, *io::read_text(recording_) + "x", true));
   const auto before = trajectory::testing::bytes_of(trial_);
   const auto other = take(journal_);
@@ -93,7 +97,8 @@ TEST_F(EditInputTest, AnotherRecordingIsRefused) {
   EXPECT_EQ(other.error().code, Code::bad_input);
   EXPECT_THAT(other.error().message, HasSubstr("these edits are of 'walk.c3d'"));
   EXPECT_EQ(trajectory::testing::bytes_of(trial_), before);
-  EXPECT_THAT(take(journal_, true)->notes, Contains(HasSubstr("applied to another recording")));
+  EXPECT_THAT(take(journal_, true)->notes,
+              Contains(HasSubstr("these edits are of 'walk.c3d' and were applied to another recording,")));
 }
 
 TEST_F(EditInputTest, WhatCannotBeAppliedIsNamedWithItsLine) {

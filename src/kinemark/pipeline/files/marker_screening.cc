@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "kinemark/core/counted.h"
 #include "kinemark/core/enum_names.h"
 #include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/stages/trajectory/screening/real_samples.h"
@@ -63,9 +64,9 @@ void change_frames(data::Trial& trial, data::Trajectories markers, Screening& ou
   trial.camera_mask.clear();
   trial.first_frame = 1;
   if (!trial.analog.names.empty()) {
-    out.warnings.push_back(
-        fmt::format("{} analog channels were left out: they cannot be told by frames of {:g} Hz",
-                    trial.analog.names.size(), markers.time.rate_hz));
+    out.warnings.push_back(fmt::format(
+        "{} left out: samples belong to the frames as they were recorded, not to those of {:g} Hz",
+        counted(std::ssize(trial.analog.names), "analog channel"), markers.time.rate_hz));
     trial.analog = {};
     trial.force_plates.clear();
   }

@@ -12,9 +12,11 @@ namespace kinemark::pipeline {
 namespace {
 
 using data::SampleState;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Three markers on smooth paths, 0.5 mm of noise, at the times of the frames.
 data::Trial recording(std::int64_t frames = 400, double rate_hz = 100.0) {
@@ -122,8 +124,15 @@ TEST(ScreenMarkers, AnotherRateLeavesOutWhatBelongsToTheOldFrames) {
   EXPECT_DOUBLE_EQ(trial.markers.time.rate_hz, 50.0);
   EXPECT_TRUE(trial.analog.names.empty());
   EXPECT_EQ(trial.first_frame, 1);
-  EXPECT_THAT(found.warnings,
-              ElementsAre("1 analog channels were left out: they cannot be told by frames of 50 Hz"));
+  EXPECT_THAT(
+      found.warnings,
+      ElementsAre("1 analog channel left out: samples belong to the frames as they were recorded, not "
+                  "to those of 50 Hz"));
+  auto bare = doubled();
+  bare.analog = {};
+  const auto none = screen_markers(bare, {.recorder_made = RecorderMade::decimate}).value();
+  EXPECT_EQ(bare.markers.frames(), 200);
+  EXPECT_THAT(none.warnings, Not(Contains(HasSubstr("samples belong to the frames as they were recorded"))));
 }
 
 TEST(ScreenMarkers, MadeFirstFindsDefectsInWhatIsLeft) {
@@ -153,6 +162,12 @@ TEST(LeaveOutDefects, FiveAreSaidAndHowManyMore) {
   ASSERT_EQ(warnings.size(), 6u);
   EXPECT_THAT(warnings[0], ::testing::StartsWith("Left out: "));
   EXPECT_EQ(warnings[5], "Left out: 3 more defects like these.");
+  auto five = recording();
+  for (std::int64_t k = 0; k < 5; ++k) five.markers.x(40 + 40 * k, k % 3)[0] += 0.3;
+  warnings.clear();
+  ASSERT_TRUE(leave_out_defects(five, false, warnings));
+  EXPECT_EQ(warnings.size(), 5u);
+  EXPECT_THAT(warnings, Not(Contains(HasSubstr("more defects like these."))));
   EXPECT_EQ(count(spoilt, SampleState::rejected), 8);
 }
 

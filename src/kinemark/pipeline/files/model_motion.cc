@@ -54,6 +54,7 @@ Result<ModelMotion> move_model(data::ModelDescription description, const data::T
                                 .parent = body.parent,
                                 .end_in_body = end_of(model->description(), body.description_idx)});
   const Eigen::Matrix3d turned = y_up(*model, out.notes);
+  out.y_is_up = up_of(*model).has_value();
   out.poses.world_from_body.reserve(coordinates->q.size() * out.poses.bodies.size());
   model::Workspace w(*model);
   for (const auto& q : coordinates->q) {

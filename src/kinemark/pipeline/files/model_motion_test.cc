@@ -16,9 +16,11 @@ namespace kinemark::pipeline {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -105,6 +107,19 @@ TEST(MoveModel, AModelWithZUpIsTurned) {
   const auto motion = move_model(lying, table({"hip", "knee", "slide"}, {0, 0, 0, 0, 0, 0})).value();
   EXPECT_THAT(motion.notes, ElementsAre("the motion was turned: the model's up (z) became y"));
   EXPECT_LT((motion.poses.pose(0, 0).translation - Vector3d(0, 0, -1)).norm(), 1e-12);
+  EXPECT_TRUE(motion.y_is_up);
+}
+
+TEST(MoveModel, WithoutGravityNothingIsUpAndNothingIsTurned) {
+  const auto rest = table({"hip", "knee", "slide"}, {0, 0, 0, 0, 0, 0});
+  auto afloat = leg();
+  afloat.gravity.setZero();
+  for (const auto& [model, known] : {std::pair(leg(), true), std::pair(afloat, false)}) {
+    const auto motion = move_model(model, rest).value();
+    EXPECT_EQ(motion.y_is_up, known);
+    EXPECT_THAT(motion.notes, Not(Contains(HasSubstr("the motion was turned: the model's up"))));
+    EXPECT_LT((motion.poses.pose(0, 0).translation - Vector3d(0, 1, 0)).norm(), 1e-12);
+  }
 }
 
 TEST(MoveModel, ABodyEndsAtItsFarthestMarkerElseBeyondItsCentreOfMass) {

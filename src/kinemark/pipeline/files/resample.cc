@@ -198,8 +198,13 @@ Status resample(data::Trial& trial, double rate_hz) {
   grid.frames = static_cast<std::int64_t>(frames);
   if (const auto per = trial.analog.names.empty() ? 0 : samples_in_frame(trial.analog, rate_hz);
       per > 0 && trial.analog.samples / per < grid.frames) {
-    grid.frames = std::max<std::int64_t>(trial.analog.samples / per, 1);
-    trial.warnings.emplace_back("the last frame is left out: its analog samples are not all there");
+    const auto whole = std::max<std::int64_t>(trial.analog.samples / per, 1), left_out = grid.frames - whole;
+    grid.frames = whole;
+    if (left_out == 1)
+      trial.warnings.emplace_back("the last frame is left out: its analog samples are not all there");
+    else if (left_out > 1)
+      trial.warnings.push_back(
+          fmt::format("the last {} frames are left out: their analog samples are not all there", left_out));
   }
   const bool slower = rate_hz < time.rate_hz * (1.0 - 1e-9);
   const auto M = trial.markers.markers();

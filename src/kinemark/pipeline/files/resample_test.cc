@@ -17,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// A circle of 0.2 m, once a second.
 Eigen::Vector3d place(double time_s) {
@@ -60,11 +61,13 @@ TEST(Resample, TheSameRateAndWholeFractionsChangeNoBit) {
   ASSERT_TRUE(resample(t, 100.0));
   EXPECT_EQ(t.markers.x_in_world, before.markers.x_in_world);
   EXPECT_EQ(t.markers.state, before.markers.state);
+  EXPECT_THAT(t.warnings, Not(Contains(HasSubstr("resampled without a filter: what moves faster"))));
   ASSERT_TRUE(resample(t, 25.0));
   EXPECT_EQ(t.markers.frames(), 13);
   for (std::int64_t i = 0; i < 13; ++i) EXPECT_EQ(t.markers.x(i, 1), before.markers.x(4 * i, 1));
   EXPECT_THAT(t.markers.methods, IsEmpty());
-  EXPECT_THAT(t.warnings, Contains(HasSubstr("what moves faster than 12.5 Hz is folded")));
+  EXPECT_THAT(t.warnings,
+              Contains(HasSubstr("resampled without a filter: what moves faster than 12.5 Hz is folded")));
 }
 
 TEST(Resample, GapsStayGaps) {
@@ -134,9 +137,20 @@ TEST(Resample, AnalogSamplesKeepTheirRateOrAreLeftOut) {
   ASSERT_TRUE(resample(kept, 50.0));
   EXPECT_EQ(kept.markers.frames(), 5) << "120 samples are needed for 6 frames, and there are 110";
   EXPECT_EQ(kept.analog.samples, 100);
-  EXPECT_THAT(kept.warnings, Contains(HasSubstr("the last frame is left out")));
+  EXPECT_THAT(kept.warnings, Contains("the last frame is left out: its analog samples are not all there"));
+  EXPECT_THAT(kept.warnings, Not(Contains(HasSubstr("frames are left out: their analog samples"))));
+  kept = with_analog();
+  kept.analog.samples = 60;
+  kept.analog.values.resize(60);
+  ASSERT_TRUE(resample(kept, 50.0));
+  EXPECT_EQ(kept.markers.frames(), 3);
+  EXPECT_THAT(kept.warnings,
+              Contains("the last 3 frames are left out: their analog samples are not all there"));
+  EXPECT_THAT(kept.warnings, Not(Contains(HasSubstr("the last frame is left out: its"))));
   kept = with_analog();
   ASSERT_TRUE(resample(kept, 500.0));
+  EXPECT_THAT(kept.warnings, Not(Contains(HasSubstr("left out: no whole number of samples fits"))));
+  EXPECT_THAT(kept.warnings, Not(Contains(HasSubstr("the last frame is left out: its"))));
   EXPECT_EQ(kept.markers.frames(), 51);
   EXPECT_EQ(kept.analog.samples, 102);
   EXPECT_EQ(kept.analog.values.back(), 101.0);
@@ -144,7 +158,9 @@ TEST(Resample, AnalogSamplesKeepTheirRateOrAreLeftOut) {
   auto lost = with_analog();
   ASSERT_TRUE(resample(lost, 120.0));
   EXPECT_THAT(lost.force_plates, IsEmpty());
-  EXPECT_THAT(lost.warnings, Contains(HasSubstr("1 analog channel at 1000 Hz and 1 force plate left out")));
+  EXPECT_THAT(lost.warnings,
+              Contains("1 analog channel at 1000 Hz and 1 force plate left out: no whole number of "
+                       "samples fits a frame at 120 Hz"));
 }
 
 TEST(Resample, WhatCannotBeDoneIsRefused) {

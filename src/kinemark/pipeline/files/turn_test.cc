@@ -12,6 +12,9 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(ParseAxis, SixNamesAndNoOther) {
   EXPECT_EQ(parse_axis("x").value(), Vector3d::UnitX());
@@ -85,7 +88,17 @@ TEST(Turn, OfTheOutputsOfAModelOnlyPointsAreTurned) {
   turn(trial, parse_rotation("x -90").value());
   EXPECT_THAT(trial.channels.values,
               ::testing::ElementsAre(1, 2, 3, 4, 6, -5, 7, 8, 9, 10, 11, 12, 13, 15, -14, 16, 17, 18));
-  EXPECT_THAT(trial.warnings, ::testing::ElementsAre(::testing::HasSubstr("keep their axes")));
+  EXPECT_THAT(trial.warnings,
+              ::testing::ElementsAre("forces and moments among the outputs of a model keep their axes"));
+  data::Trial angles;
+  angles.channels = {.names = {"LKneeAngles"},
+                     .kinds = {angle},
+                     .units = {"deg"},
+                     .rate_hz = 10.0,
+                     .frames = 1,
+                     .values = {1, 2, 3}};
+  turn(angles, parse_rotation("x -90").value());
+  EXPECT_THAT(angles.warnings, Not(Contains(HasSubstr("forces and moments among the outputs"))));
 }
 
 TEST(Turn, WhatIsCarriedForOthersTurnsOrIsLeftOut) {
@@ -109,10 +122,18 @@ TEST(Turn, WhatIsCarriedForOthersTurnsOrIsLeftOut) {
   EXPECT_EQ(trial.foreign[0].parameters[1].dims, std::vector<std::uint8_t>{2});
   EXPECT_EQ(trial.foreign[0].parameters[2].name, "MOVIE_ID");
   EXPECT_EQ(trial.foreign[1].parameters.size(), 1U) << "not a place in the laboratory";
-  EXPECT_THAT(trial.warnings, ::testing::ElementsAre(::testing::HasSubstr("POINT:LAB_ROT is not true")));
+  EXPECT_THAT(trial.warnings,
+              ::testing::ElementsAre("POINT:LAB_ROT is not true of a turned recording and is left out"));
   turn(trial, parse_rotation("x 30").value());
   ASSERT_EQ(trial.foreign[0].parameters.size(), 2U) << "a slanted screen has no name";
   EXPECT_EQ(trial.foreign[0].parameters[0].name, "X_SCREEN");
+  data::Trial still;
+  still.foreign = {
+      {.name = "POINT",
+       .parameters = {{.name = "LAB_ROT", .type = 4, .dims = {}, .values = std::vector<std::byte>(4)}}}};
+  turn(still, Matrix3d::Identity());
+  EXPECT_EQ(still.foreign[0].parameters.size(), 1U);
+  EXPECT_THAT(still.warnings, Not(Contains(HasSubstr("is not true of a turned recording"))));
 }
 
 TEST(Turn, WrenchesKeepWhatTheyDo) {

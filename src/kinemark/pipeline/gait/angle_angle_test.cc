@@ -21,6 +21,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::known_curve;
+using ::testing::Not;
 
 GaitSheet pairs_walk() { return make_gait_sheet("walk", testing::known_walk(), testing::known_gait(), {}); }
 
@@ -43,6 +44,7 @@ TEST(AngleAngle, AnyTwoByKeyTitleOrName) {
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].x->what.key, "knee_varus");
   EXPECT_EQ(pairs[0].y->what.key, "pelvis_tilt");
+  EXPECT_THAT(remarks, Not(Contains(HasSubstr(": there is no curve '"))));
 }
 
 TEST(AngleAngle, AnUnknownOneIsReportedWithTheNearestAndTheRestDrawn) {

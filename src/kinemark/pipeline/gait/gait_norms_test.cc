@@ -17,6 +17,7 @@ namespace {
 using data::Side;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Result<GaitNorms> parsed(const std::string& text) {
   const auto table = io::parse_tidy_csv(text, "norms/adults.csv");
@@ -44,7 +45,8 @@ TEST(GaitNorms, OfManyCurvesByTheirNames) {
   EXPECT_THAT(knee.high, ElementsAre(9.0, 10.0));
   EXPECT_THAT(knee.mean, ElementsAre(5.0, 6.0));
   EXPECT_EQ(knee.source, "adults.csv");
-  EXPECT_THAT(knee.meaning, HasSubstr("2 SD"));
+  EXPECT_THAT(knee.meaning, HasSubstr("2 SD at each point"));
+  EXPECT_THAT(knee.meaning, Not(HasSubstr("band of one further curve")));
 }
 
 TEST(GaitNorms, AsGroupsBandWritesThem) {
@@ -53,7 +55,9 @@ TEST(GaitNorms, AsGroupsBandWritesThem) {
       "RKneeAngles x,0,5,2,9,4,6,0,10,deg\n");
   ASSERT_TRUE(norms) << norms.error().message;
   EXPECT_THAT(norms->curves[0].low, ElementsAre(0.0));  // of one further curve, not of the mean
-  EXPECT_THAT(norms->curves[0].meaning, HasSubstr("one further curve"));
+  EXPECT_EQ(norms->curves[0].meaning, "band of one further curve, at all points at once");
+  EXPECT_THAT(norms->curves[0].meaning, Not(HasSubstr("band as in the file")));
+  EXPECT_THAT(norms->curves[0].meaning, Not(HasSubstr("2 SD at each point")));
 }
 
 TEST(GaitNorms, OfMeasuresInTheSameFile) {
@@ -93,6 +97,7 @@ TEST(GaitNorms, AFileOfOneCurveIsCalledByItsName) {
   const auto norms = parsed("percent,low,high\n0,1,2\n100,1,2\n");
   ASSERT_TRUE(norms);
   EXPECT_EQ(norms->curves[0].name, "adults");
+  EXPECT_EQ(norms->curves[0].meaning, "band as in the file");
   EXPECT_TRUE(std::isnan(norms->curves[0].mean[0]));
 }
 
@@ -100,16 +105,40 @@ TEST(GaitNorms, SaysInOneSentenceWhatIsWrong) {
   EXPECT_THAT(refused("curve,percent,value\nknee,0,1\n"), HasSubstr("groups band"));
   EXPECT_THAT(refused("curve,low,high\nknee,0,1\n"), HasSubstr("column percent"));
   EXPECT_THAT(refused("curve,percent,low,high\nknee,0,2,1\n"), HasSubstr("line 2: the band's lower end 2"));
-  EXPECT_THAT(refused("curve,percent,mean,sd\nknee,0,2,-1\n"), HasSubstr("deviation -1 is negative"));
-  EXPECT_THAT(refused("curve,percent,low,high\nknee,120,1,2\n"), HasSubstr("expected 0 to 100"));
+  EXPECT_THAT(refused("curve,percent,mean,sd\nknee,0,2,-1\n"), HasSubstr("the deviation -1 is negative"));
+  EXPECT_THAT(refused("curve,percent,low,high\nknee,120,1,2\n"),
+              HasSubstr("percent is '120'; expected 0 to 100"));
   EXPECT_THAT(refused("curve,percent,low,high\nknee,0,1,2\nknee,0,1,2\n"), HasSubstr("comes twice"));
   EXPECT_THAT(refused("curve,percent,low,high\nknee,0,x,2\n"), HasSubstr("line 2"));
   EXPECT_THAT(refused("curve,percent,low,high\nknee,0,,\n"), HasSubstr("no line has both ends"));
   EXPECT_THAT(refused("curve,percent,low,high,unit\nknee,0,1,2,deg\nknee,50,1,2,rad\n"),
-              HasSubstr("'rad' here"));
+              HasSubstr("is in 'rad' here and in 'deg' above"));
   EXPECT_THAT(refused("curve,percent,low,high,context\nknee,0,1,2,both\n"),
               HasSubstr("Left, Right or nothing"));
   EXPECT_THAT(refused("measure,low,high\nstride_time,1,2\nstride_time,1,2\n"), HasSubstr("comes twice"));
+}
+
+TEST(GaitNorms, WhatIsJustRightIsNotRefused) {
+  const auto accepted = [](const std::string& text, const std::string& sentence) {
+    const auto norms = parsed(text);
+    EXPECT_TRUE(norms) << sentence;
+    return norms ? std::string() : norms.error().message;
+  };
+  EXPECT_THAT(accepted("curve,percent,low,high\nknee,0,1,1\n", "a band without width"),
+              Not(HasSubstr("is above its upper end")));
+  EXPECT_THAT(accepted("curve,percent,mean,sd\nknee,0,2,0\n", "a deviation of 0"),
+              Not(HasSubstr("the deviation")));
+  EXPECT_THAT(accepted("curve,percent,low,high\nknee,0,1,2\nknee,100,1,2\n", "from 0 to 100"),
+              Not(HasSubstr("'; expected 0 to 100")));
+  EXPECT_THAT(accepted("curve,percent,low,high\nknee,0,1,2\nhip,0,1,2\n", "the same place of two curves"),
+              Not(HasSubstr("comes twice")));
+  EXPECT_THAT(
+      accepted("measure,context,low,high\nstep_length,Left,1,2\nstep_length,Right,1,2\n", "both sides"),
+      Not(HasSubstr("comes twice")));
+  EXPECT_THAT(accepted("curve,percent,low,high,unit\nknee,0,1,2,deg\nhip,0,1,2,rad\n", "units of two curves"),
+              Not(HasSubstr("' here and in '")));
+  EXPECT_THAT(accepted("curve,percent,low,high,context\nknee,0,1,2,Right\nhip,0,1,2,\n", "a side and none"),
+              Not(HasSubstr("Left, Right or nothing")));
 }
 
 TEST(GaitNorms, OfSeveralFiles) {

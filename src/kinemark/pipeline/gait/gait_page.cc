@@ -183,11 +183,14 @@ std::string reading_section(const GaitSheet& sheet, const GaitPageFacts& facts) 
 }
 
 std::string heading(const GaitSheet& sheet, const GaitPageFacts& facts) {
+  // Of kinetics alone no angle is drawn.
+  const bool angles = std::ranges::any_of(
+      sheet.panels, [](const SheetPanel& panel) { return panel.what.part != SheetPart::kinetics; });
   std::string feet;
   for (const auto side : data::kBothSides)
     feet += (feet.empty() ? "" : "; ") + sentence_of(sheet.feet[data::index_of(side)], side);
   return fmt::format("<h1>Gait report: {}</h1>\n<p>{}.</p>\n<p class=\"quiet\">Angles: {}.</p>\n",
-                     html_text(sheet.trial), html_text(feet), html_text(facts.angles_from));
+                     html_text(sheet.trial), html_text(feet), angles ? html_text(facts.angles_from) : "none");
 }
 
 }  // namespace

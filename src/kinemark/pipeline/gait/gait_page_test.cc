@@ -44,6 +44,16 @@ TEST(GaitPage, HoldsFiguresMeasuresEventsAndHowToReadThem) {
   EXPECT_THAT(page, HasSubstr("Angles: Plug-in Gait."));
 }
 
+TEST(GaitPage, WhereNoAngleIsDrawnItSaysSo) {
+  auto moment = testing::known_curve("LHipMoment x", Side::left);
+  moment.curves.quantity = data::Quantity::moment;
+  for (const auto& curves : {std::vector<SheetInput>{}, std::vector{moment}}) {
+    const auto page = page_of(make_gait_sheet("walk.c3d", curves, testing::known_gait(), {}));
+    EXPECT_THAT(page, HasSubstr("Angles: none."));
+    EXPECT_THAT(page, Not(HasSubstr("Plug-in Gait")));
+  }
+}
+
 TEST(GaitPage, NeedsNothingElseAndRunsNothing) {
   const auto page = page_of(page_walk());
   for (const char* word : {"<script", "src=", "href=", "@import", "url("})

@@ -186,10 +186,10 @@ void tell_norms(GaitSheet& sheet, const GaitNorms& norms, const std::set<const N
   if (idle.empty()) return;
   for (const auto& panel : sheet.panels)
     for (const auto& side : panel.sides)
-      if (side) drawn.push_back(side->id);
-  sheet.remarks.push_back(fmt::format("the norm's {} {} no curve here; drawn are {}",
-                                      join_some(idle, kMostNames), idle.size() == 1 ? "fits" : "fit",
-                                      join_some(drawn, kMostNames)));
+      if (side && !side->empty()) drawn.push_back(side->id);
+  sheet.remarks.push_back(fmt::format(
+      "the norm's {} {} no curve here; {}", join_some(idle, kMostNames), idle.size() == 1 ? "fits" : "fit",
+      drawn.empty() ? "none is drawn" : "drawn are " + join_some(drawn, kMostNames)));
 }
 
 void tell_cycles(GaitSheet& sheet) {

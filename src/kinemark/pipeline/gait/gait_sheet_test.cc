@@ -107,11 +107,12 @@ TEST(GaitSheet, WhereTheFootIsNotSeenToLeaveNothingIsSaid) {
 
 TEST(GaitSheet, OneCycleAndNoCycleAreReported) {
   const auto sheet = laid_out({known_curve("LKneeAngles x", Side::left, 1)}, {}, known_gait(1, 0));
-  EXPECT_THAT(sheet.remarks, Contains(HasSubstr("Left: one cycle alone has no deviation")));
-  EXPECT_THAT(sheet.remarks, Contains(HasSubstr("Right: there is no cycle")));
+  EXPECT_THAT(sheet.remarks, Contains("Left: one cycle alone has no deviation between cycles"));
+  EXPECT_THAT(sheet.remarks, Contains("Right: there is no cycle from strike to strike"));
   EXPECT_TRUE(std::isnan(sheet.panels[0].sides[kLeft]->between[50]));
-  EXPECT_THAT(laid_out({known_curve("LKneeAngles x", Side::left)}).remarks,
-              Not(Contains(HasSubstr("cycle"))));
+  const auto three = laid_out({known_curve("LKneeAngles x", Side::left)});
+  EXPECT_THAT(three.remarks, Not(Contains(HasSubstr("one cycle alone has no deviation"))));
+  EXPECT_THAT(three.remarks, Not(Contains(HasSubstr("there is no cycle from strike to strike"))));
 }
 
 TEST(GaitSheet, WhatIsNowhereMeasuredIsReportedAndTheRestDrawn) {
@@ -143,6 +144,8 @@ TEST(GaitSheet, NormsAreAtThePointsOfTheCurve) {
   EXPECT_DOUBLE_EQ(knee.norm(33, 1), 30.0);
   EXPECT_DOUBLE_EQ(knee.norm(33, 2), 20.0);
   EXPECT_EQ(knee.norm_source, "A book");
+  EXPECT_THAT(sheet.remarks, Not(Contains(HasSubstr("no curve here; drawn are"))));
+  EXPECT_THAT(sheet.remarks, Not(Contains(HasSubstr("': it is not drawn"))));
 }
 
 TEST(GaitSheet, NormsThatFitNothingOrAreInOtherUnitsAreReported) {
@@ -154,8 +157,21 @@ TEST(GaitSheet, NormsThatFitNothingOrAreInOtherUnitsAreReported) {
   EXPECT_THAT(sheet.remarks,
               Contains("the norm's shoulder_flexion fits no curve here; drawn are LHipAngles x, "
                        "LKneeAngles x"));
-  EXPECT_THAT(sheet.remarks, Contains(HasSubstr("the norm of HipAngles x is in 'rad', the curve in 'deg'")));
+  EXPECT_THAT(sheet.remarks,
+              Contains("the norm of HipAngles x is in 'rad', the curve in 'deg': it is not drawn"));
   EXPECT_EQ(sheet.panels[0].sides[kLeft]->norm.rows(), 0);
+}
+
+TEST(GaitSheet, CurvesWithoutAValueAreNotAmongThoseDrawn) {
+  const GaitNorms norms{.curves = {known_norm("shoulder_flexion")}};
+  const auto one = laid_out(
+      {known_curve("LKneeAngles x", Side::left), testing::missing_curve("RKneeAngles x", Side::right),
+       testing::missing_curve("LHipAngles x", Side::left)},
+      norms);
+  EXPECT_THAT(one.remarks,
+              Contains("the norm's shoulder_flexion fits no curve here; drawn are LKneeAngles x"));
+  const auto none = laid_out({testing::missing_curve("LKneeAngles x", Side::left)}, norms);
+  EXPECT_THAT(none.remarks, Contains("the norm's shoulder_flexion fits no curve here; none is drawn"));
 }
 
 TEST(GaitSheet, APelvisThatCountsOneWayNeedsTheNormOfASide) {
@@ -168,11 +184,13 @@ TEST(GaitSheet, APelvisThatCountsOneWayNeedsTheNormOfASide) {
   EXPECT_FALSE(plain.panels[0].mirrored);
   EXPECT_TRUE(plain.panels[1].mirrored);
   EXPECT_EQ(plain.panels[1].sides[kLeft]->norm.rows(), 0);
-  EXPECT_THAT(plain.remarks, Contains(HasSubstr("the norm of pelvis_list tells no side")));
+  EXPECT_THAT(plain.remarks, Contains(HasSubstr("the norm of pelvis_list tells no side, but the curve counts "
+                                                "one way for both: it is not drawn")));
   of_left.side = Side::left;
   const auto sided = laid_out(curves, {.curves = {of_left}});
   EXPECT_EQ(sided.panels[1].sides[kLeft]->norm.rows(), 101);
   EXPECT_EQ(sided.panels[1].sides[kRight]->norm.rows(), 0);
+  EXPECT_THAT(sided.remarks, Not(Contains(HasSubstr("tells no side, but the curve"))));
   EXPECT_FALSE(laid_out({known_curve("LPelvisAngles y", Side::left)}).panels[0].mirrored);
 }
 

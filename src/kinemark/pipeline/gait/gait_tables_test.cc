@@ -13,7 +13,9 @@ namespace {
 
 using data::Side;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::known_curve;
+using ::testing::Not;
 
 GaitSheet sheet_with(const GaitNorms& norms = {}) {
   return make_gait_sheet(
@@ -110,6 +112,9 @@ TEST(GaitTables, ValuesAreJudgedWithTheirIntervals) {
   EXPECT_EQ(judged(1.1, 1.05, 1.15), "within");
   EXPECT_EQ(judged(0.9, 0.85, 0.95), "below");
   EXPECT_EQ(judged(1.3, 1.25, 1.35), "above");
+  for (const double sure : {0.9, 1.3})
+    EXPECT_THAT(judged(sure, sure - 0.05, sure + 0.05), Not(HasSubstr("but its interval reaches the norm")));
+  EXPECT_THAT(judged(1.1, 1.0, 1.2), Not(HasSubstr("but its interval reaches beyond"))) << "to its very ends";
   EXPECT_EQ(judged(0.95, 0.85, 1.05), "below, but its interval reaches the norm");
   EXPECT_EQ(judged(1.25, 1.15, 1.35), "above, but its interval reaches the norm");
   EXPECT_EQ(judged(1.02, 0.95, 1.09), "within, but its interval reaches beyond");

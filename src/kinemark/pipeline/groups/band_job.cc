@@ -56,6 +56,11 @@ std::string band_text(const BandOutcome& outcome) {
   const std::string unit = groups.unit.empty() ? "" : " " + groups.unit;
   for (std::size_t g = 0; g < outcome.bands.size(); ++g) {
     const auto& band = outcome.bands[g];
+    if (band.not_tested == std::ssize(groups.at)) {
+      out += fmt::format("{}: {} curves have no band: at each of the {} points a curve is missing\n",
+                         groups.names[g], band.curves, groups.at.size());
+      continue;
+    }
     const auto mean = widest(band, [&](std::size_t p) { return band.of_mean(p); });
     const auto one = widest(band, [&](std::size_t p) { return band.of_one(p); });
     out += fmt::format(

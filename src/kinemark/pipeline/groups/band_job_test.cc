@@ -15,6 +15,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BandJobTest : public ::testing::Test {
  protected:
@@ -33,10 +34,22 @@ TEST_F(BandJobTest, BandsAreWrittenAndReadBackAsANorm) {
   EXPECT_EQ(outcome->bands[0].mean[0], 2.0);
   EXPECT_THAT(band_text(*outcome),
               HasSubstr("walk: 4 curves, 4 points; at all points at once with 95 %: the mean curve within"));
+  EXPECT_THAT(band_text(*outcome), Not(HasSubstr("points have no band: a curve is missing")));
+  EXPECT_THAT(band_text(*outcome), Not(HasSubstr("at each of the 4 points a curve is missing")));
   const auto norm = read_norm(scratch_ / "band.csv", "point", {});
   ASSERT_TRUE(norm) << norm.error().message;
   EXPECT_NEAR(norm->high[0] - norm->low[0], 2.0 * outcome->bands[0].of_one(0), 1e-7);
   EXPECT_EQ(norm->meaning, "simultaneous band of one further curve");
+}
+
+TEST_F(BandJobTest, WhereACurveIsMissingThereIsNoBand) {
+  ASSERT_TRUE(io::write_text(scratch_ / "hole.csv", "1,2,3\n2,nan,5\n3,5,4\n2,3,4\n", false));
+  EXPECT_THAT(band_text(*run_band({.inputs = {scratch_ / "hole.csv"}})),
+              HasSubstr("  1 points have no band: a curve is missing there\n"));
+  ASSERT_TRUE(io::write_text(scratch_ / "none.csv", "2,3,4\nnan,2,3\n2,nan,5\n3,5,nan\n", false));
+  const auto none = band_text(*run_band({.inputs = {scratch_ / "none.csv"}}));
+  EXPECT_EQ(none, "none: 4 curves have no band: at each of the 3 points a curve is missing\n");
+  EXPECT_THAT(none, Not(HasSubstr("points; at all points at once with")));
 }
 
 TEST_F(BandJobTest, JsonHoldsBothBands) {

@@ -14,6 +14,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class NormJobTest : public ::testing::Test {
  protected:
@@ -47,8 +48,27 @@ TEST_F(NormJobTest, WhatIsWithinAndWhatIsOutsideIsSaid) {
   EXPECT_THAT(text, HasSubstr("Beside the norm (mean +- 2 SD at each point):\n"));
   EXPECT_THAT(text, HasSubstr("curves 1: within at all of 4 points\n"));
   EXPECT_THAT(text, HasSubstr("curves 2: outside at 3 of 4 points (0 to 50), at most 1 deg above at 25\n"));
+  EXPECT_THAT(text, Not(HasSubstr("curves 2: within at all of")));
+  EXPECT_THAT(text, Not(HasSubstr("curves 1: outside at")));
   EXPECT_THAT(io::read_text(scratch_ / "o.csv").value(), HasSubstr("curves,2,4,3,0.75,1,25,0 to 50,deg\n"));
   EXPECT_EQ(norm_json(*outcome)["curves"][0]["largest"], nullptr);
+}
+
+TEST_F(NormJobTest, TheMeaningIsThatOfTheColumnsThatMadeTheBand) {
+  const auto meaning = [&](const std::string& columns, const std::string& cells) {
+    return read_norm(write("m.csv", "percent," + columns + "\n0," + cells + "\n"), "percent", {})
+        .value()
+        .meaning;
+  };
+  const auto one = meaning("mean,sd,low,high,one_low,one_high", "5,1,4,6,2,8");
+  EXPECT_EQ(one, "simultaneous band of one further curve");
+  EXPECT_THAT(one, Not(HasSubstr("band as in the file")));
+  const auto ends = meaning("mean,sd,low,high", "5,1,4,6");
+  EXPECT_EQ(ends, "band as in the file");
+  EXPECT_THAT(ends, Not(HasSubstr("mean +- 2 SD at each point")));
+  const auto spread = meaning("mean,sd", "5,1");
+  EXPECT_EQ(spread, "mean +- 2 SD at each point");
+  EXPECT_THAT(spread, Not(HasSubstr("simultaneous band of one further curve")));
 }
 
 TEST_F(NormJobTest, PointsBeyondTheBandAreNotCompared) {

@@ -50,9 +50,19 @@ TEST_F(RetestJobTest, NumbersOfShroutAndFleiss) {
   EXPECT_TRUE(std::isnan(r.noise));
   const auto text = retest_text(*outcome);
   EXPECT_THAT(text, HasSubstr("length: 6 subjects; intervals of 95 %\n  ICC(2,1) 0.29"));
+  EXPECT_THAT(text, Not(HasSubstr("with a value missing are left out")));
   EXPECT_THAT(text, HasSubstr(" mm, MDC95 "));
   EXPECT_THAT(text, Not(HasSubstr("measurement noise")));
   EXPECT_THAT(io::read_text(scratch_ / "o.csv").value(), HasSubstr("\nlength,mm,6,0,"));
+}
+
+TEST_F(RetestJobTest, ASubjectWithoutAValueInASessionIsLeftOutAndCounted) {
+  const auto table = write("t.csv", "measure,participant,session,value,unit\n" + ratings("length", "") +
+                                        "length,S7,day 0,5,mm\nlength,S7,day 1,4,mm\n");
+  const auto outcome = run_retest({.inputs = {table}});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_NEAR(outcome->measures[0].reliability.agreement.value, 0.29, 0.005);
+  EXPECT_THAT(retest_text(*outcome), HasSubstr("length: 6 subjects (1 with a value missing are left out)"));
 }
 
 TEST_F(RetestJobTest, NoiseIsTakenOutWhereItIsKnown) {

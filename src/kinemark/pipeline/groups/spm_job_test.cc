@@ -21,16 +21,19 @@ using ::testing::Not;
 
 class SpmJobTest : public ::testing::Test {
  protected:
-  // Ten curves of 21 points: slow waves with noise, higher by `bump` around the middle.
-  std::filesystem::path write(const std::string& name, std::uint64_t seed, double bump) {
+  // Ten curves of 21 points: slow waves with noise, higher by `bump` around the middle; of the last one point
+  // may be missing.
+  std::filesystem::path write(const std::string& name, std::uint64_t seed, double bump, int missing = -1) {
     Random random(seed, 0);
     std::string text;
     for (int curve = 0; curve < 10; ++curve) {
       const double height = random.gaussian();
-      for (int p = 0; p < 21; ++p)
-        text += fmt::format("{}{:.6f}", p > 0 ? "," : "",
-                            height * std::cos(0.3 * p) + 0.3 * random.gaussian() +
-                                bump * std::exp(-0.5 * (p - 10.0) * (p - 10.0) / 4.0));
+      for (int p = 0; p < 21; ++p) {
+        const double value = height * std::cos(0.3 * p) + 0.3 * random.gaussian() +
+                             bump * std::exp(-0.5 * (p - 10.0) * (p - 10.0) / 4.0);
+        text += p > 0 ? "," : "";
+        text += curve == 9 && p == missing ? "nan" : fmt::format("{:.6f}", value);
+      }
       text += "\n";
     }
     EXPECT_TRUE(io::write_text(scratch_ / name, text, true));
@@ -50,7 +53,11 @@ TEST_F(SpmJobTest, ADifferenceIsSaidWhereItIs) {
   EXPECT_THAT(text, HasSubstr("t(18) beyond +-"));
   EXPECT_THAT(text, HasSubstr("(10000 of 184756 arrangements, seed 1)"));
   EXPECT_THAT(text, ::testing::ContainsRegex("  point [5-8].* to 1[1-4].*: t up to [4-9].*, p = 0.0"));
-  EXPECT_THAT(text, Not(HasSubstr("No difference")));
+  EXPECT_THAT(text, HasSubstr("anywhere with probability 0.05 at most if the groups do not differ ("));
+  EXPECT_THAT(text, Not(HasSubstr("is found: largest")));
+  EXPECT_THAT(text, Not(HasSubstr("Nothing can be found:")));
+  EXPECT_THAT(text, Not(HasSubstr("the mean is 0 everywhere")));
+  EXPECT_THAT(text, Not(HasSubstr("points are not tested: a curve is missing")));
   const auto csv = io::read_text(job.output).value();
   EXPECT_THAT(csv, ::testing::StartsWith("point,mean up,sd up,mean flat,sd flat,t,threshold,beyond\n0,"));
   EXPECT_THAT(csv, ::testing::ContainsRegex("\n10,.*,yes\n"));
@@ -70,7 +77,25 @@ TEST_F(SpmJobTest, OneGroupIsComparedWithZeroAndSaysSo) {
   ASSERT_TRUE(outcome);
   EXPECT_THAT(spm_text(*outcome), HasSubstr("at most if the mean is 0 everywhere ("));
   EXPECT_THAT(spm_text(*outcome), HasSubstr("No difference from 0 is found: largest t "));
-  EXPECT_THAT(spm_text(*outcome), Not(HasSubstr("groups")));
+  EXPECT_THAT(spm_text(*outcome), Not(HasSubstr("the groups do not differ")));
+}
+
+TEST_F(SpmJobTest, TooFewCurvesCanShowNothingAndThatAloneIsSaid) {
+  ASSERT_TRUE(io::write_text(scratch_ / "a.csv", "1,2,3\n2,4,5\n", false));
+  ASSERT_TRUE(io::write_text(scratch_ / "b.csv", "9,8,7\n8,6,9\n", false));
+  const auto outcome = run_spm({.inputs = {scratch_ / "a.csv", scratch_ / "b.csv"}});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto text = spm_text(*outcome);
+  EXPECT_THAT(text, HasSubstr("Nothing can be found: 6 arrangements of so few curves cannot show"));
+  EXPECT_THAT(text, Not(HasSubstr("anywhere with probability")));
+  EXPECT_THAT(text, Not(HasSubstr("is found: largest")));
+}
+
+TEST_F(SpmJobTest, PointsWhereACurveIsMissingAreNotTested) {
+  const auto outcome = run_spm({.inputs = {write("a.csv", 3, 0.0, 20), write("b.csv", 4, 0.0)}});
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(spm_text(*outcome),
+              HasSubstr("1 points are not tested: a curve is missing there, or all are equal\n"));
 }
 
 TEST_F(SpmJobTest, DesignsFollowFromTheGroups) {

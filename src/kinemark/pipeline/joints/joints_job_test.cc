@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/joints/joints_job.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,12 +22,25 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
 /// A chain written to a file, the truth, and a job that reads it.
 class JointsJobTest : public ::testing::Test {
  protected:
   void make(const simulation::ChainOptions& options,
             const std::function<void(data::Trajectories&)>& change = {}) {
-    recording = simulation::simulate_chain(options).value();
+    use(simulation::simulate_chain(options).value(), change);
+  }
+  /// Poses that follow one another: an arm that reaches for 5 s, 16 markers.
+  void make_reach(const std::function<void(data::Trajectories&)>& change) {
+    use(simulation::simulate_sleeve({.duration_s = 5.0, .noise_sd_m = 0.0005, .line_of_sight = false})
+            .value(),
+        change);
+  }
+  void use(simulation::LimbRecording made, const std::function<void(data::Trajectories&)>& change) {
+    recording = std::move(made);
     if (change) change(recording.markers);
     data::Trial trial;
     trial.markers = recording.markers;
@@ -65,6 +79,10 @@ TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
   const auto outcome = run_joints(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 0);
+  for (const char* absent : {"samples that the recorder interpolated were left out.",
+                             "more defects like these.", "break their paths: frames are taken as poses",
+                             "Nothing can be said of", "' was placed in no frame."})
+    EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr(absent))));
   EXPECT_LT(rms_mm(outcome->skeleton, 0), 1.5);
   EXPECT_EQ(outcome->written.size(), 4U);
   const auto centres = io::read_markers(job.output / "centres.csv");
@@ -83,6 +101,60 @@ TEST_F(JointsJobTest, WritesAFolderThatReadsBack) {
   EXPECT_EQ(run_joints(job).error().code, Code::io) << "nothing is replaced unasked";
   job.force = true;
   EXPECT_TRUE(run_joints(job));
+}
+
+TEST_F(JointsJobTest, WhatTheRecorderMadeAndWhatIsSpoiltAreLeftOutAndSaid) {
+  make({.frames = 400, .markers_per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005},
+       [](data::Trajectories& markers) {
+         for (std::int64_t f = 1; f + 1 < 400; f += 2)
+           for (std::int64_t m = 0; m < markers.markers(); ++m)
+             markers.x(f, m) = 0.5 * (markers.x(f - 1, m) + markers.x(f + 1, m));
+       });
+  write_segments();
+  const auto doubled = run_joints(job);
+  ASSERT_TRUE(doubled) << doubled.error().message;
+  EXPECT_THAT(doubled->warnings,
+              Contains(HasSubstr("samples that the recorder interpolated were left out.")));
+  make_reach([](data::Trajectories& markers) {
+    for (std::int64_t k = 0; k < 8; ++k) markers.x(20 + 30 * k, k)[0] += 0.3;
+  });
+  write_segments();
+  const auto spoilt = run_joints(job);
+  ASSERT_TRUE(spoilt) << spoilt.error().message;
+  EXPECT_THAT(spoilt->warnings, Contains("Left out: 3 more defects like these."));
+}
+
+TEST_F(JointsJobTest, FramesThatFollowNoPathsArePosesOfTheirOwn) {
+  make_reach([](data::Trajectories& markers) {
+    for (std::int64_t f = 0; f < markers.frames(); ++f)
+      for (std::int64_t m = 0; m < markers.markers(); ++m)
+        if ((f + 5 * m) % 12 == 6) markers.x(f, m)[0] += 0.04;
+  });
+  write_segments();
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(
+      outcome->warnings,
+      Contains(
+          "8 % of the samples break their paths: frames are taken as poses of their own, and nothing was "
+          "rejected."));
+}
+
+TEST_F(JointsJobTest, OfSegmentsThatCannotBeSolvedItIsSaidThatNothingIsKnown) {
+  make({.frames = 240,
+        .lengths_m = {0.12, 0.15, 0.16},
+        .markers_per_segment = 4,
+        .stagger_m = 0.02,
+        .noise_sd_m = 0.001},
+       [](data::Trajectories& markers) {
+         for (std::int64_t f = 0; f < 240; ++f)
+           markers.set_missing(f, 4 + f / 3 % 4);  // of the middle segment
+       });
+  job.method = "constant-distance";
+  const auto outcome = run_joints(job);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("Nothing can be said of segments ")));
+  EXPECT_TRUE(outcome->skeleton.joints.empty());
 }
 
 TEST_F(JointsJobTest, FindsSegmentsItself) {

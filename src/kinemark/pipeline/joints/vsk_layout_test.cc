@@ -8,9 +8,11 @@
 namespace kinemark::pipeline {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using enum io::VskJointKind;
 
 /// Pelvis, femur, tibia with a turned part fixed to it, foot; a trunk that is free; a wrist that slides.
@@ -43,6 +45,7 @@ TEST(VskLayout, FixedSegmentsAreOneAndFreeOnesHaveNoJoint) {
   EXPECT_THAT(joint_names(*layout),
               ElementsAre("hip: pelvis, femur", "knee: femur, tibia", "tibia-foot: tibia, foot"));
   EXPECT_THAT(warnings, IsEmpty());
+  EXPECT_THAT(warnings, Not(Contains(HasSubstr("Not in the recording:"))));
 }
 
 TEST(VskLayout, ASubjectsPrefixAndMarkersThatAreNotThere) {

@@ -11,6 +11,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
 #include "kinemark/stages/analysis/path/testing/known_path.h"
 #include "support/scratch.h"
 
@@ -234,6 +235,38 @@ TEST_F(MeasuresJobTest, TablesOfNwbAndNamesOfParticipants) {
   ASSERT_TRUE(io::write_text(job_.participants_file, "file\tparticipant\nother.c3d\tBob\n", true));
   job_.output.clear();
   EXPECT_THAT(run_measures(job_)->warnings, Contains(HasSubstr("files.tsv has no row for it")));
+}
+
+TEST_F(MeasuresJobTest, APageOfWalkingNamesTheAnglesThatItDrawsAndNoOthers) {
+  const analysis::testing::KnownWalk walk;
+  data::Trial trial;
+  trial.markers = walk.markers(0.0005, 3);
+  const auto page_of = [&](const std::string& name) {
+    EXPECT_TRUE(io::write_markers(scratch_ / (name + ".c3d"), trial, false));
+    MeasuresJob job;
+    job.input = scratch_ / (name + ".c3d");
+    job.report = scratch_ / (name + ".html");
+    job.measures = {"gait"};
+    job.refits = 0;
+    const auto outcome = run_measures(job);
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    return std::pair(io::read_text(job.report).value_or(""),
+                     outcome ? outcome->warnings : std::vector<std::string>());
+  };
+  const auto [bare, said] = page_of("bare");
+  EXPECT_THAT(said, Contains(HasSubstr("no angles are drawn: ")));
+  EXPECT_THAT(bare, Not(HasSubstr("outputs of a model that the recording holds")));
+  trial.channels = {.names = {"LKneeAngles", "RKneeAngles"},
+                    .kinds = {data::ChannelKind::angle, data::ChannelKind::angle},
+                    .units = {"deg", "deg"},
+                    .rate_hz = trial.markers.time.rate_hz,
+                    .frames = trial.markers.frames()};
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
+    for (int c = 0; c < 6; ++c)
+      trial.channels.values.push_back(30.0 + 20.0 * std::sin(5.8 * trial.markers.time.time_s(f) + c));
+  const auto [modelled, then_said] = page_of("modelled");
+  EXPECT_THAT(modelled, HasSubstr("outputs of a model that the recording holds"));
+  EXPECT_THAT(then_said, Not(Contains(HasSubstr("no angles are drawn:"))));
 }
 
 TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {

@@ -18,6 +18,8 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pair;
 namespace fs = std::filesystem;
 
 /// The coordinates that a simulated subject had, and what they do to its bodies.
@@ -71,6 +73,10 @@ TEST_F(RunAnalysis, WritesBodiesAndCoordinatesWithDeviationsAndARecord) {
   EXPECT_EQ(record["rows"], q.rows());
   EXPECT_EQ(record["inputs"][0]["role"], "model");
   EXPECT_EQ(record["facts"]["deviations"], "from the noise found in each coordinate");
+  EXPECT_THAT(outcome->facts, Not(Contains(Pair("deviations", "from those of the motion"))));
+  EXPECT_THAT(outcome->facts,
+              Not(Contains(Pair("low-pass", HasSubstr("Butterworth, third order, both ways")))));
+  EXPECT_THAT(outcome->warnings, Not(Contains(HasSubstr("coordinates were low-passed at"))));
   EXPECT_EQ(record["files"].size(), outcome->written.size());
 }
 
@@ -85,7 +91,8 @@ TEST_F(RunAnalysis, DeviationsBesideTheMotionAreUsedAndWhatIsNotDeterminedHasNon
   job.motion = at("Q.mot");
   const auto outcome = run_analysis(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->facts, Contains(::testing::Pair("deviations", "from those of the motion")));
+  EXPECT_THAT(outcome->facts, Contains(Pair("deviations", "from those of the motion")));
+  EXPECT_THAT(outcome->facts, Not(Contains(Pair("deviations", "from the noise found in each coordinate"))));
   const auto written = table("out1/Q_Kinematics_q_sd.sto");
   EXPECT_TRUE(std::isnan(written(6, written.find("knee_angle_r"))));
   EXPECT_GE(written(20, written.find("knee_angle_r")), sd(20, knee) * 0.999);
@@ -156,7 +163,12 @@ TEST_F(RunAnalysis, ALowPassLeavesNoDeviationsAndSmootherAngles) {
   job.cutoff_hz = 2.0;
   const auto outcome = run_analysis(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("low-passed at 2 Hz")));
+  EXPECT_THAT(
+      outcome->warnings,
+      Contains("coordinates were low-passed at 2 Hz: what that leaves of their noise is not known, and no "
+               "deviations are written"));
+  EXPECT_THAT(outcome->facts, Contains(Pair("low-pass", "Butterworth, third order, both ways, 2 Hz")));
+  EXPECT_THAT(outcome->facts, Contains(Pair("deviations", "none")));
   EXPECT_FALSE(fs::exists(at("out5/truth_Kinematics_q_sd.sto")));
   const auto roughness = [](const data::Table& t) {
     const auto k = t.find("knee_angle_r");

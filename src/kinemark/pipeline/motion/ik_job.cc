@@ -27,17 +27,22 @@ namespace fs = std::filesystem;
 std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
                             const data::Trajectories& markers) {
   const auto& mean = result.fit.mean_error_m;
-  if (!mean.allFinite()) return "No marker is seen in the time range.";
+  if (!mean.allFinite()) return {};  // no marker is seen, which the gate says
   if (mean.norm() <= job.max_offset_m)
     return fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
   const auto offset = motion::find_common_offset(model, markers, job.options);
-  const Eigen::Vector3d shift = offset ? offset->shift_m : Eigen::Vector3d(-mean);
+  if (!offset)
+    return fmt::format(
+        "The mean of all marker errors is {:.1f} mm long. Check that recording and model share origin, axes "
+        "and "
+        "unit.",
+        1e3 * mean.norm());
+  const auto& shift = offset->shift_m;
   return fmt::format(
       "The measured markers lie {:.3f} m away from the model: shifted by ({:+.3f}, {:+.3f}, {:+.3f}) m they "
       "would fit with "
       "{:.1f} mm RMS instead of {:.1f} mm. Check that recording and model share origin, axes and unit.",
-      shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * (offset ? offset->rms_after_m : 0.0),
-      1e3 * result.fit.rms_error_m);
+      shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * offset->rms_after_m, 1e3 * result.fit.rms_error_m);
 }
 
 constexpr const char* kOrSetup = " or a --setup that names one";

@@ -12,6 +12,8 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
@@ -50,6 +52,54 @@ TEST_F(RunIk, WritesAnglesDeviationsErrorsAndSummaryThatCoverTheTruth) {
     }
   ASSERT_GT(all, 1000);
   EXPECT_GT(static_cast<double>(inside) / static_cast<double>(all), 0.97);
+}
+
+TEST_F(RunIk, AClosedLoopTellsItsWidestGapAndAModelWithoutOneTellsNone) {
+  auto looped = io::read_osim(at("in/model.osim")).value();
+  // The right hand is tied to the chest where it is in the default posture.
+  const auto tree = model::Model::compile(looped).value();
+  model::Workspace w(tree);
+  model::kinematics(tree, w, tree.default_state());
+  data::PointConstraintDescription loop{
+      .name = "loop", .body_a_idx = looped.find_body("thorax"), .body_b_idx = looped.find_body("hand_r")};
+  const auto chest = static_cast<std::size_t>(tree.body_of(loop.body_a_idx)),
+             hand = static_cast<std::size_t>(tree.body_of(loop.body_b_idx));
+  loop.point_in_a = w.rotation[chest].transpose() * (w.position[hand] - w.position[chest]);
+  looped.point_constraints.push_back(loop);
+  ASSERT_TRUE(io::write_osim(at("looped.osim"), looped));
+  auto closed = job("closed.mot");
+  closed.model = at("looped.osim");
+  closed.options.last_time_s = 0.05;
+  const auto with = run_ik(closed);
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_THAT(sentence_of_gate(*with, "loop_gap"), HasSubstr("The widest gap of a closed loop is"));
+  auto open = job("open.mot");
+  open.options.last_time_s = 0.05;
+  const auto without = run_ik(open).value();
+  EXPECT_THAT(sentence_of_gate(without, "loop_gap"), Not(HasSubstr("The widest gap of a closed loop is")));
+  EXPECT_THAT(sentence_of_gate(without, "mean_marker_offset"),
+              Not(HasSubstr("No marker is seen in the time range.")));
+  EXPECT_THAT(sentence_of_gate(without, "marker_rms"),
+              Not(HasSubstr("How far measured and model markers are apart")));
+}
+
+TEST_F(RunIk, WhereNoMarkerIsSeenThatIsSaid) {
+  auto trial = io::read_markers(at("in/markers.c3d")).value();
+  for (std::int64_t f = 10; f < 20; ++f)
+    for (std::int64_t m = 0; m < trial.markers.markers(); ++m) trial.markers.set_missing(f, m);
+  trial.residual_m.clear();
+  trial.camera_mask.clear();
+  ASSERT_TRUE(io::write_trc(at("dark.trc"), trial, {}));
+  auto dark = job("dark.mot");
+  dark.markers = at("dark.trc");
+  dark.options.first_time_s = trial.markers.time.time_s(12);
+  dark.options.last_time_s = trial.markers.time.time_s(17);
+  const auto outcome = run_ik(dark);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1);
+  EXPECT_EQ(sentence_of_gate(*outcome, "mean_marker_offset"), "No marker is seen in the time range.");
+  EXPECT_EQ(sentence_of_gate(*outcome, "marker_rms"),
+            "How far measured and model markers are apart is not known: none is seen in the time range.");
 }
 
 TEST_F(RunIk, ForcesOfAFileAreInTheTorquesAndInTheAccount) {

@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 using data::TriangleMesh;
 
 constexpr std::size_t kMostTriangles = 12'000;  // of a page
-constexpr std::size_t kMostRead = 6'000'000;    // triangles of all files together
 constexpr std::size_t kMostNamed = 3;           // files in a sentence
 constexpr std::size_t kMostPoints = 65'535;     // of a body
 
@@ -149,7 +148,7 @@ Status check_geometry(std::span<const fs::path> folders) {
 }
 
 ModelMeshes read_model_meshes(const fs::path& osim, const data::ModelDescription& model,
-                              std::span<const fs::path> folders) {
+                              std::span<const fs::path> folders, std::size_t most_read) {
   const auto shown = io::read_shown_meshes(osim, model);
   if (!shown) return {.of_body = {}, .note = printable_sentence(shown.error().message)};
   ModelMeshes out;
@@ -164,7 +163,7 @@ ModelMeshes read_model_meshes(const fs::path& osim, const data::ModelDescription
       const auto path = finder.find(one.file);
       if (!path) {
         account.missing.push_back(printable(one.file, 60));
-      } else if (account.before > kMostRead) {
+      } else if (account.before > most_read) {
         account.refused.push_back(
             fmt::format("{}: the meshes before it have {} triangles together, more than are read",
                         printable(one.file, 60), account.before));

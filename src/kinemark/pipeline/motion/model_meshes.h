@@ -3,6 +3,7 @@
 // The meshes that an .osim names, found, read and made small enough for a page.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -28,10 +29,12 @@ struct ModelMeshes {
 /// absolute name is taken as it is. What cannot be found or read is named in the note and not drawn. All
 /// meshes together have 12,000 triangles at most; larger ones are made coarser.
 ///
-/// @param osim   the model's file
-/// @param model  what read_osim() made of it
+/// @param osim       the model's file
+/// @param model      what read_osim() made of it
+/// @param most_read  triangles; after more of them no further file is read
 [[nodiscard]] ModelMeshes read_model_meshes(const std::filesystem::path& osim,
                                             const data::ModelDescription& model,
-                                            std::span<const std::filesystem::path> folders);
+                                            std::span<const std::filesystem::path> folders,
+                                            std::size_t most_read = 6'000'000);
 
 }  // namespace kinemark::pipeline

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace shapes = io::testing;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A body "arm" on a pin, and a massless "cap" on it, with the meshes named.
 class ModelMeshFiles : public ::testing::Test {
@@ -73,7 +74,9 @@ TEST_F(ModelMeshFiles, AreFoundBesideInGeometryAndInFoldersInThisOrder) {
   ASSERT_EQ(found.of_body.size(), 1U);
   EXPECT_EQ(found.of_body.at("arm").triangles.size(), 48U) << "four cubes";
   EXPECT_EQ(found.note, "1 body drawn from the model's meshes");
+  EXPECT_THAT(found.note, Not(HasSubstr("mesh files")));
   EXPECT_THAT(read().note, HasSubstr("1 of the 4 mesh files that the model names was not found"));
+  EXPECT_THAT(read().note, Not(HasSubstr("none of the")));
 }
 
 TEST_F(ModelMeshFiles, WithoutAnyTheNoteSaysWhereToPutThem) {
@@ -102,6 +105,26 @@ TEST_F(ModelMeshFiles, ADamagedFileIsASentenceAndTheBodyKeepsItsPlainShape) {
   EXPECT_EQ(read_both.of_body.size(), 1U);
   EXPECT_FALSE(read_both.of_body.contains("cap"));
   EXPECT_THAT(read_both.note, HasSubstr("bad.vtp: is not XML"));
+  EXPECT_THAT(read_both.note, Not(HasSubstr("more files cannot be read)")));
+  EXPECT_THAT(read_both.note, Not(HasSubstr("triangles together, more than are read")));
+  write_model(mesh("good.vtp") + mesh("bad.vtp"), mesh("worse.vtp") + mesh("worst.vtp"));
+  for (const char* file : {"worse.vtp", "worst.vtp"})
+    ASSERT_TRUE(io::write_text(scratch_ / file, "<VTKFile>", true));
+  EXPECT_THAT(read().note, HasSubstr("bad.vtp: is not XML"));
+  EXPECT_THAT(read().note, HasSubstr(" (2 more files cannot be read)"));
+}
+
+TEST_F(ModelMeshFiles, AfterTooManyTrianglesNoFurtherFileIsRead) {
+  write_model(mesh("a.vtp") + mesh("b.vtp"), mesh("c.vtp"));
+  for (const char* file : {"a.vtp", "b.vtp", "c.vtp"}) put(file, shapes::cube(0.1));
+  const auto description = io::read_osim(osim()).value();
+  const auto two = read_model_meshes(osim(), description, {}, 20);
+  EXPECT_EQ(
+      two.note,
+      "1 body drawn from the model's meshes; c.vtp: the meshes before it have 24 triangles together, more "
+      "than are read");
+  EXPECT_FALSE(two.of_body.contains("cap"));
+  EXPECT_TRUE(read_model_meshes(osim(), description, {}, 24).of_body.contains("cap"));
 }
 
 TEST_F(ModelMeshFiles, ScaleAndMirrorKeepTheOutsideOutside) {

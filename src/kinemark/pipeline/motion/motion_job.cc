@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -181,11 +182,14 @@ void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion) {
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m) {
   add_gate(run, "mean_marker_offset", 1e3 * offset_m, 1e3 * job.max_offset_m, "mm",
-           std::move(offset_sentence));
-  add_gate(run, "marker_rms", 1e3 * rms_m, 1e3 * job.max_rms_m, "mm",
-           fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most {:.1f} mm "
-                       "is accepted.",
-                       1e3 * rms_m, 1e3 * job.max_rms_m));
+           std::isfinite(offset_m) ? std::move(offset_sentence) : "No marker is seen in the time range.");
+  add_gate(
+      run, "marker_rms", 1e3 * rms_m, 1e3 * job.max_rms_m, "mm",
+      std::isfinite(rms_m)
+          ? fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most {:.1f} mm "
+                        "is accepted.",
+                        1e3 * rms_m, 1e3 * job.max_rms_m)
+          : "How far measured and model markers are apart is not known: none is seen in the time range.");
 }
 
 Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,

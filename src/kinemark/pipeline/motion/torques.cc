@@ -8,7 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/external_forces.h"
@@ -44,34 +48,68 @@ std::string contacts_of(const std::string& wrench, const std::vector<motion::Con
   return text.empty() ? "on nothing" : "on " + text;
 }
 
-double largest_force_n(const data::Wrench& wrench) {
-  double most = 0.0;
-  for (std::size_t i = 0; i + 2 < wrench.force.size(); i += 3)
-    if (const double size = Eigen::Map<const Vector3d>(wrench.force.data() + i).norm(); size > most)
-      most = size;
-  return most;
+/// From where a force acts to the mass centre of the body that it was given to, along the floor: the mean,
+/// weighted with the force. 0 for a force that is small all the time, whose place is not known well.
+double distance_m(const model::Model& model, const data::JointMotion& motion, const data::Wrench& wrench,
+                  const motion::Contact& contact, double small_n) {
+  const auto& bodies = model.bodies();
+  const auto body = std::ranges::find(bodies, contact.body, [&](const auto& one) {
+    return model.description().bodies[at(one.description_idx)].name;
+  });
+  const Vector3d up = up_of(model).value_or(Vector3d::Zero());
+  model::Workspace w(model);
+  double sum = 0.0, force_n = 0.0, most_n = 0.0;
+  const std::int64_t stride = 1 + (contact.last_frame - contact.first_frame) / 20;
+  for (std::int64_t f = contact.first_frame; f <= contact.last_frame; f += stride) {
+    const Eigen::Map<const Eigen::VectorXd> q(motion.q.data() + motion.index(f, 0), motion.size());
+    model::kinematics(model, w, model::state_from_coordinates(model, q));
+    const Vector3d apart =
+        model::point_in_world(w, static_cast<int>(body - bodies.begin()), body->com_in_body) -
+        Eigen::Map<const Vector3d>(wrench.point.data() + 3 * f);
+    const double size_n = Eigen::Map<const Vector3d>(wrench.force.data() + 3 * f).norm();
+    sum += size_n * (apart - apart.dot(up) * up).norm();
+    force_n += size_n;
+    most_n = std::max(most_n, size_n);
+  }
+  return most_n > small_n ? sum / force_n : 0.0;
+}
+
+/// A plate's force is given to the foot nearest to it, however far that is.
+void check_nearness(const model::Model& model, const data::JointMotion& motion,
+                    const data::Wrenches& wrenches, const motion::DynamicsSummary& dynamics,
+                    TorqueAccount& account) {
+  constexpr double kFar_m = 0.5;  // a foot that bears a force has its mass centre nearer
+  constexpr double kSmall = 0.1;  // of the body weight
+  for (const auto& wrench : wrenches.items) {
+    if (!wrench.body.empty()) continue;
+    const motion::Contact* farthest = nullptr;
+    double most_m = kFar_m;
+    for (const auto& contact : dynamics.contacts) {
+      if (contact.wrench != wrench.name) continue;
+      const double apart_m = distance_m(model, motion, wrench, contact, kSmall * dynamics.body_weight_n);
+      if (apart_m > most_m) most_m = apart_m, farthest = &contact;
+    }
+    if (farthest != nullptr)
+      account.warnings.push_back(fmt::format(
+          "the force of '{}' acts {:.2f} m beside '{}', the body nearest to it, from {:.3f} to {:.3f} s: "
+          "somebody "
+          "else on the plate, or a plate that lies elsewhere; the torques hold it as if that body bore it",
+          wrench.name, most_m, farthest->body, wrenches.time.time_s(farthest->first_frame),
+          wrenches.time.time_s(farthest->last_frame)));
+  }
 }
 
 void tell_forces(const data::Wrenches& wrenches, const motion::DynamicsSummary& dynamics,
-                 double contact_force_n, TorqueAccount& account) {
+                 TorqueAccount& account) {
   std::int64_t unknown = 0;
   for (std::int64_t f = 0; f < wrenches.frames(); ++f) {
     bool all = true;
     for (const auto& wrench : wrenches.items) all = all && known(wrench, f);
     unknown += !all;
   }
-  for (const auto& wrench : wrenches.items) {
+  for (const auto& wrench : wrenches.items)
     account.facts.emplace_back("force of " + wrench.name,
                                contacts_of(wrench.name, dynamics.contacts, wrenches.time));
-    const double most_n = largest_force_n(wrench);
-    const auto acts = [&](const auto& contact) { return contact.wrench == wrench.name; };
-    if (most_n > contact_force_n && std::ranges::none_of(dynamics.contacts, acts))
-      account.warnings.push_back(
-          fmt::format("the force of '{}', up to {:.0f} N, acts on no body: none of the model's feet comes "
-                      "near it, and the torques are "
-                      "without it",
-                      wrench.name, most_n));
-  }
   account.facts.emplace_back("forces not known for", length(unknown, wrenches.time));
 }
 
@@ -158,7 +196,8 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     return with_forces ? fail_at(forces.string(), dynamics.error()) : std::unexpected(dynamics.error());
   account.warnings.insert(account.warnings.end(), dynamics->warnings.begin(), dynamics->warnings.end());
   if (with_forces) {
-    tell_forces(external.wrenches, *dynamics, options.contact_force_n, account);
+    tell_forces(external.wrenches, *dynamics, account);
+    check_nearness(model, motion, external.wrenches, *dynamics, account);
     tell_unmeasured(*dynamics, motion.time, account);
   }
   if (!with_forces) check_posture(model, *dynamics, account);

@@ -20,6 +20,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using Eigen::Vector3d;
+using testing::_;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -55,6 +56,7 @@ data::JointMotion stand(const model::Model& model, std::int64_t frames) {
   for (std::int64_t f = 0; f < frames; ++f) {
     motion.q.insert(motion.q.end(), {0.0, 0.0, 0.0});
     motion.q.insert(motion.q.end(), kPosition.data(), kPosition.data() + 3);
+    motion.q.resize(static_cast<std::size_t>((f + 1) * model.coordinate_count()), 0.0);
   }
   motion.qd.assign(motion.q.size(), 0.0);
   motion.qdd.assign(motion.q.size(), 0.0);
@@ -104,6 +106,64 @@ TEST(Torques, APlateOfARecordingCarriesTheWeight) {
               ElementsAre(Pair("force of plate 1", "on foot 0.500 to 0.690 s"),
                           Pair("forces not known for", "0.000 s (0 of 20 frames)"),
                           Pair("left to the root 'foot'", HasSubstr("N m RMS (body weight 687 N)"))));
+  EXPECT_THAT(account.facts, Not(Contains(Pair(HasSubstr("' that no plate measures"), _))));
+  for (const char* absent :
+       {"the torques of its limb are not determined", "' has a residual of", "torques are without"})
+    EXPECT_THAT(account.warnings, Not(Contains(HasSubstr(absent))));
+}
+
+TEST(Torques, AForceFarFromEveryFootIsSaidToBeSo) {
+  const testing_support::ScratchFolder scratch;
+  write_plate(scratch / "stand.c3d", kMass * kGravity);
+  write_plate(scratch / "touch.c3d", 40.0);
+  const auto model = statue();
+  const auto warnings = [&](const char* file, double beside_m) {
+    auto motion = stand(model, 20);
+    for (std::size_t f = 0; f < 20; ++f) motion.q[6 * f + 3] += beside_m;
+    return add_torques(model, motion, scratch / file, {.error_bars = false}).value().warnings;
+  };
+  EXPECT_THAT(
+      warnings("stand.c3d", 2.0),
+      Contains(HasSubstr("the force of 'plate 1' acts 2.00 m beside 'foot', the body nearest to it, from "
+                         "0.500 to 0.690 s: somebody else on the plate")));
+  EXPECT_THAT(warnings("stand.c3d", 0.3), Not(Contains(HasSubstr("', the body nearest to it, from"))));
+  EXPECT_THAT(warnings("touch.c3d", 2.0), Not(Contains(HasSubstr("', the body nearest to it, from"))))
+      << "of a small force it is not known where it acts";
+}
+
+/// A pelvis on two feet, 0.8 m apart along x, which carry the same weight; the right one stands below
+/// kPosition.
+model::Model two_feet() {
+  data::ModelDescription m = statue().description();
+  m.bodies[0] = {.name = "pelvis",
+                 .mass = kMass - 2.0,
+                 .com_in_body = {0.4, 0.0, 0.0},
+                 .inertia_about_com = Eigen::Matrix3d::Identity()};
+  for (const auto& [name, x] : {std::pair("foot_r", 0.0), std::pair("foot_l", 0.8)}) {
+    const auto c = static_cast<int>(m.coordinates.size()), body = static_cast<int>(m.bodies.size());
+    m.bodies.push_back({.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity()});
+    m.coordinates.push_back({.name = std::string("hip_") + name});
+    m.joints.push_back({.name = std::string("joint_") + name,
+                        .parent_body_idx = 0,
+                        .child_body_idx = body,
+                        .parent_from_joint = {Eigen::Matrix3d::Identity(), Vector3d(x, 0.0, -0.85)},
+                        .axes = {{.axis = Vector3d::UnitY(), .coordinate_idx = c}}});
+  }
+  return model::Model::compile(m).value();
+}
+
+TEST(Torques, AFootThatStandsBesideThePlatesHasNoTorques) {
+  const testing_support::ScratchFolder scratch;
+  write_plate(scratch / "stand.c3d", 0.5 * kMass * kGravity);
+  const auto model = two_feet();
+  auto motion = stand(model, 20);
+  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  EXPECT_THAT(account.facts, Contains(Pair("load on 'foot_l' that no plate measures", "0.500 to 0.690 s")));
+  EXPECT_THAT(account.warnings,
+              Contains("'foot_l' bears up to 343 N that no plate measures for 0.200 s (20 of 20 frames): the "
+                       "torques of its limb are not determined there and stand as nan"));
+  EXPECT_TRUE(std::isnan(motion.tau[7]));
+  EXPECT_TRUE(std::isfinite(motion.tau[6])) << "the right foot stands on the plate";
 }
 
 TEST(Torques, WhatNoPlateMeasuresIsSaid) {
@@ -128,6 +188,33 @@ TEST(Torques, WithoutAFileTheRootCarriesTheWeight) {
   EXPECT_THAT(account.files, IsEmpty());
   EXPECT_THAT(account.warnings,
               ElementsAre(HasSubstr("torques are without force plates: 'foot' is carried by 687 N")));
+  EXPECT_THAT(account.warnings, ElementsAre(HasSubstr("so that the torques of limbs on the ground lack the "
+                                                      "ground reaction")));
+  EXPECT_THAT(account.facts, Not(Contains(Pair("forces not known for", _))));
+}
+
+TEST(Torques, AModelThatIsFixedToTheGroundLeavesNothingToARoot) {
+  data::ModelDescription m;
+  m.name = "pendulum";
+  m.gravity = {0.0, 0.0, -kGravity};
+  m.bodies.push_back({.name = "arm",
+                      .mass = kMass,
+                      .com_in_body = {0.3, 0.0, 0.0},
+                      .inertia_about_com = Eigen::Matrix3d::Identity()});
+  m.coordinates.push_back({.name = "swing"});
+  m.joints.push_back(
+      {.name = "pin", .child_body_idx = 0, .axes = {{.axis = Vector3d::UnitY(), .coordinate_idx = 0}}});
+  const auto model = model::Model::compile(m).value();
+  data::JointMotion motion;
+  motion.time = {.rate_hz = kRate, .frames = 10};
+  motion.coordinates = {"swing"};
+  motion.is_rotation = {true};
+  for (auto* values : {&motion.q, &motion.qd, &motion.qdd}) values->assign(10, 0.0);
+  const auto account = add_torques(model, motion, {}, {.error_bars = false}).value();
+  EXPECT_NEAR(std::abs(motion.tau[0]), 0.3 * kMass * kGravity, 1e-9);
+  EXPECT_THAT(account.facts, Not(Contains(Pair(HasSubstr("left to the root '"), _))));
+  EXPECT_THAT(account.facts, Not(Contains(Pair(_, HasSubstr("N m RMS (body weight")))));
+  EXPECT_THAT(account.warnings, Not(Contains(HasSubstr("the torques of limbs on the ground lack"))));
 }
 
 TEST(Torques, ExternalLoadsOfOpenSimCarryTheWeightToo) {
@@ -195,7 +282,7 @@ TEST(Torques, ABodyThatStandsAcrossGravityIsNoticedWithoutForces) {
   const auto standing = two_bodies({0.0, 0.0, -kGravity}), across = two_bodies({0.0, -kGravity, 0.0});
   auto motion = stand(standing, 10);
   const auto upright = add_torques(standing, motion, {}, {.error_bars = false}).value();
-  EXPECT_THAT(upright.warnings, Not(Contains(HasSubstr("stands along"))));
+  EXPECT_THAT(upright.warnings, Not(Contains(HasSubstr("the body stands along"))));
   const auto sideways = add_torques(across, motion, {}, {.error_bars = false}).value();
   EXPECT_THAT(sideways.warnings,
               Contains(HasSubstr(
@@ -203,7 +290,7 @@ TEST(Torques, ABodyThatStandsAcrossGravityIsNoticedWithoutForces) {
                   "model is y")));
   const auto afloat = two_bodies(Vector3d::Zero());
   EXPECT_THAT(add_torques(afloat, motion, {}, {.error_bars = false}).value().warnings,
-              Not(Contains(HasSubstr("stands along"))))
+              Not(Contains(HasSubstr("the body stands along"))))
       << "without gravity nothing is up";
 }
 

@@ -38,7 +38,8 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
   options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
   options.emplace_back("outliers", o.judge_samples ? "left out" : "kept");
   if (job.images.any()) options.emplace_back("images in the lowest level", describe_images(job.images));
-  options.emplace_back("determined in fewer than 95 % of the frames", list(result.undetermined_coordinates));
+  options.emplace_back("determined in fewer than 95 % of the frames",
+                       o.error_bars ? list(result.undetermined_coordinates) : "not known without error bars");
   return options;
 }
 

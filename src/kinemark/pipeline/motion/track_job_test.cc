@@ -7,13 +7,17 @@
 #include <cmath>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pair;
 namespace fs = std::filesystem;
 
 class RunTrack : public testing::RecordedTest<TrackJob> {
@@ -72,10 +76,16 @@ TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {
     EXPECT_EQ(table(f, 0), whole.result.free_speeds);
     EXPECT_GT(table(f, 1), 0.0);
   }
+  EXPECT_THAT(whole.summary.run.options,
+              Not(Contains(Pair("determined in fewer than 95 % of the frames", HasSubstr("knee_angle_r")))));
+  EXPECT_THAT(whole.summary.run.options, Not(Contains(Pair(::testing::_, "not known without error bars"))));
   auto few = job("few.mot");
   few.options.levels = {{.markers = {"LASI", "RASI"}}};
   few.options.lock = motion::LockMode::off;
-  ASSERT_TRUE(run_track(few));
+  const auto tracked = run_track(few);
+  ASSERT_TRUE(tracked) << tracked.error().message;
+  EXPECT_THAT(tracked->summary.run.options,
+              Contains(Pair("determined in fewer than 95 % of the frames", HasSubstr("knee_angle_r"))));
   const auto rank = io::read_table(at("few_rank.sto")).value();
   for (std::int64_t f = 0; f < rank.rows(); ++f) EXPECT_LE(rank(f, 0), 6.0) << "two points";
 }
@@ -149,6 +159,40 @@ TEST_F(RunTrack, AMissedGateIsAnExitStatusAndTheFilesAreThere) {
   EXPECT_EQ(outcome->written.size(), 5U);
   EXPECT_TRUE(fs::exists(at("gate.mot")));
   EXPECT_FALSE(fs::exists(at("gate_bound.sto")));
+}
+
+TEST_F(RunTrack, GoalsOutOfReachAreCountedAndThoseWithinAreNot) {
+  const auto flagged = [](const TrackOutcome& outcome) {
+    for (const auto& gate : outcome.gates)
+      if (gate.name == "flagged") return gate.sentence;
+    return std::string();
+  };
+  const auto begin_of = [](const std::string& name) {
+    auto j = job(name + ".mot");
+    j.options.last_time_s = 0.1;
+    j.options.error_bars = j.options.judge_samples = false;
+    return j;
+  };
+  const auto short_run = run_track(begin_of("within")).value();
+  EXPECT_THAT(short_run.summary.run.options,
+              Contains(Pair("determined in fewer than 95 % of the frames", "not known without error bars")));
+  const auto within = flagged(short_run);
+  EXPECT_FALSE(
+      ::testing::Value(within, ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach.*")))
+      << within;
+  EXPECT_THAT(within, ::testing::StartsWith("0 of "));
+  auto trial = io::read_markers(at("in/truth.trc")).value();
+  for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
+    for (std::int64_t m = 0; m < trial.markers.markers(); ++m) trial.markers.x(f, m) *= 4.0;
+  ASSERT_TRUE(io::write_markers(at("giant.trc"), trial, false));
+  auto giant = begin_of("giant");
+  giant.markers = at("giant.trc");
+  const auto outcome = run_track(giant);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1);
+  EXPECT_THAT(
+      flagged(*outcome),
+      ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach, or a body that ran away .*"));
 }
 
 TEST_F(RunTrack, StopsWhenAsked) {

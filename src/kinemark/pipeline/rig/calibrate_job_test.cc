@@ -16,7 +16,9 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// A simulated laboratory, written once for all tests of this file.
@@ -53,6 +55,8 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
   EXPECT_EQ(outcome->bundle->poses, 300);
   EXPECT_EQ(outcome->alignment->cameras.size(), 2U);
   EXPECT_EQ(outcome->exit_status(), 0);
+  ASSERT_EQ(outcome->gates.size(), 1U);
+  EXPECT_THAT(outcome->gates[0].sentence, HasSubstr("chi2 per degree of freedom is"));
   const auto json = calibrate_json(*outcome);
   EXPECT_EQ(json["method"], "bundle");
   EXPECT_EQ(json["poses"], 300);
@@ -87,8 +91,19 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
 TEST_F(CalibrateJobTest, GridLutAndScan) {
   auto job = bundle("lut.toml");
   job.method = CalibrateJob::Method::grid_lut;
-  job.inputs.erase(job.inputs.begin());
-  ASSERT_TRUE(run_calibrate(job));
+  auto recording = io::read_counts(lab("tree_poses.mcap")).value();
+  auto& counts = recording.counts;
+  const auto last = static_cast<std::size_t>(--counts.time.frames);
+  const auto one_less = [last](auto& values) { values.resize(values.size() / (last + 1) * last); };
+  one_less(counts.counts);
+  one_less(counts.flags);
+  one_less(counts.dark);
+  ASSERT_TRUE(io::write_counts(fresh("cut.mcap"), counts, recording.metadata, false));
+  job.inputs[0] = fresh("cut.mcap");
+  const auto tables = run_calibrate(job);
+  ASSERT_TRUE(tables) << tables.error().message;
+  EXPECT_THAT(tables->warnings,
+              Contains(HasSubstr("frames are of a pose that was not recorded to its end; not used")));
   EXPECT_EQ(io::read_rig(job.output)->cameras[1].table.nodes, 15);
   job = bundle("scan.toml");
   job.method = CalibrateJob::Method::scan;
@@ -110,6 +125,11 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   const auto json = calibrate_json(*outcome);
   EXPECT_FALSE(json.contains("written"));
   EXPECT_FALSE(json.contains("chi2_per_dof"));
+  EXPECT_THAT(outcome->warnings,
+              Not(Contains(HasSubstr("frames are of a pose that was not recorded to its end"))));
+  std::string judged;
+  for (const auto& gate : outcome->gates) judged += gate.sentence;
+  EXPECT_THAT(judged, Not(HasSubstr("chi2 per degree of freedom is")));
 }
 
 TEST_F(CalibrateJobTest, AModelThatTheCountsContradictIsAMissedGate) {

@@ -213,10 +213,10 @@ class ScaleRun {
     return s ? s : Status(fail_at(job_.model.string(), s.error()));
   }
 
+  /// How well markers fit, where something was placed by them.
   Status judge() {
-    const double rms = out_.from_motion ? out_.from_motion->rms_after_m
-                       : out_.placed    ? out_.placed->rms_m
-                                        : 0.0;
+    if (!out_.from_motion && !out_.placed) return {};
+    const double rms = out_.from_motion ? out_.from_motion->rms_after_m : out_.placed->rms_m;
     out_.gates.push_back(
         {.name = "marker_rms",
          .passed = rms <= job_.max_rms_m,
@@ -245,9 +245,10 @@ class ScaleRun {
     for (const auto& muscle : out_.muscles)
       if (muscle.wraps) wrapped.push_back(muscle.name);
     if (!wrapped.empty())
-      out_.warnings.push_back(fmt::format(
-          "Lengths at rest follow paths that bend around cylinders only; these also meet other surfaces: {}",
-          join(wrapped)));
+      out_.warnings.push_back(
+          fmt::format("Lengths at rest follow paths that bend around cylinders only; these may also meet "
+                      "other surfaces: {}",
+                      join(wrapped)));
     return {};
   }
 

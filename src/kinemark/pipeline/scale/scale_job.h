@@ -46,7 +46,7 @@ struct JudgedTrial {
   motion::FoundationJudgement judgement;  ///< markers elsewhere and exchanged pairs
 };
 
-/// Gates: static_trial (one each), marker_rms.
+/// Gates: static_trial (one each), marker_rms where markers were placed or followed.
 struct ScaleOutcome : JobOutcome {
   data::ModelDescription model;                    ///< scaled, markers placed
   std::vector<JudgedTrial> static_trials;          ///< as they were judged

@@ -24,6 +24,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// A simulated recording, and a model that is 7 % too small for it.
@@ -176,6 +177,7 @@ TEST_F(RunScale, functional_joints_place_those_of_the_model) {
   const auto with = run_scale(j);
   ASSERT_TRUE(with) << with.error().message;
   EXPECT_THAT(with->joints, ::testing::UnorderedElementsAre("hip_r", "hip_l"));
+  EXPECT_THAT(with->warnings, Not(Contains(HasSubstr("none of its joints is one of the model; sizes"))));
   const double asked = between_hips(subject);
   EXPECT_NEAR(between_hips(with->model), asked, 0.004);
   EXPECT_GT(std::abs(between_hips(without->model) - asked), 0.02);
@@ -211,7 +213,7 @@ TEST_F(RunScale, joints_that_the_model_does_not_have_are_said) {
   const auto outcome = run_scale(j);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_TRUE(outcome->joints.empty());
-  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("none of its joints is one of the model")));
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("none of its joints is one of the model; sizes alone")));
   EXPECT_THAT(outcome->warnings, Contains(HasSubstr("segment 'pelvis' has fewer than two markers")));
   j = job("unread.osim");
   j.joints = at("in/model.osim");
@@ -290,7 +292,76 @@ TEST_F(RunScale, a_poor_fit_is_written_and_said) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 1);
   ASSERT_EQ(outcome->warnings.size(), 1U);
-  EXPECT_THAT(outcome->warnings[0], HasSubstr("is accepted"));
+  EXPECT_THAT(outcome->warnings[0], HasSubstr("The RMS distance between measured and model markers is"));
+  EXPECT_THAT(outcome->warnings[0], HasSubstr("at most 0.0 mm is accepted"));
+}
+
+/// A setup that scales a thigh by hand, and a model for it with `muscles`.
+ScaleJob by_hand(const fs::path& folder, const std::string& name, const std::string& muscles) {
+  auto model = io::read_text(folder / "in/model.osim").value();
+  model.insert(model.find("</Model>"), "<ForceSet><objects>" + muscles + "</objects></ForceSet>");
+  EXPECT_TRUE(io::write_text(folder / (name + "_plain.osim"), model, true));
+  EXPECT_TRUE(io::write_text(
+      folder / (name + ".xml"),
+      "<OpenSimDocument Version=\"40000\"><ScaleTool name=\"s\"><ModelScaler><apply>true</apply>"
+      "<scaling_order>manualScale</scaling_order><ScaleSet><objects><Scale><scales>1.1 1.1 1.1</scales>"
+      "<segment>femur_r</segment><apply>true</apply></Scale></objects></ScaleSet></ModelScaler>"
+      "<MarkerPlacer><apply>false</apply></MarkerPlacer></ScaleTool></OpenSimDocument>",
+      true));
+  ScaleJob j;
+  j.setup = folder / (name + ".xml");
+  j.model = folder / (name + "_plain.osim");
+  j.output = folder / (name + ".osim");
+  return j;
+}
+
+TEST_F(RunScale, where_no_marker_was_placed_no_distance_is_told) {
+  const auto outcome = run_scale(by_hand(at(""), "hand", ""));
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 0);
+  std::string said;
+  for (const auto& gate : outcome->gates) said += gate.sentence;
+  EXPECT_THAT(said, Not(HasSubstr("The RMS distance between measured and model markers is")));
+}
+
+std::string muscle(const std::string& name, const std::string& first_point, const std::string& wraps) {
+  return "<Thelen2003Muscle name=\"" + name +
+         "\"><optimal_fiber_length>0.1</optimal_fiber_length><tendon_slack_length>0.2</tendon_slack_length>"
+         "<GeometryPath name=\"path\"><PathPointSet><objects>" +
+         first_point +
+         "<PathPoint name=\"b\"><socket_parent_frame>/bodyset/tibia_r</socket_parent_frame>"
+         "<location>0.05 -0.1 0</location></PathPoint></objects></PathPointSet><PathWrapSet><objects>" +
+         wraps + "</objects></PathWrapSet></GeometryPath></Thelen2003Muscle>";
+}
+
+TEST_F(RunScale, what_is_not_exact_of_muscles_is_said_and_nothing_of_those_that_are) {
+  const std::string point =
+      "<PathPoint name=\"a\"><socket_parent_frame>/bodyset/femur_r</socket_parent_frame>"
+      "<location>0.05 0 0</location></PathPoint>";
+  const auto warnings = [&](const std::string& name, const std::string& muscles) {
+    const auto outcome = run_scale(by_hand(at(""), name, muscles));
+    EXPECT_TRUE(outcome) << outcome.error().message;
+    return outcome ? outcome->warnings : std::vector<std::string>();
+  };
+  const auto straight = muscle("straight", point, "");
+  const auto exact = warnings("exact", straight);
+  EXPECT_THAT(exact, Not(Contains(HasSubstr("The lengths of muscles at rest stay as they are, because"))));
+  EXPECT_THAT(exact, Not(Contains(HasSubstr("follow paths that bend around cylinders only; these may"))));
+  const auto bent = warnings(
+      "bent", straight + muscle("bent", point, "<PathWrap><wrap_object>knee</wrap_object></PathWrap>"));
+  EXPECT_THAT(bent,
+              Contains("Lengths at rest follow paths that bend around cylinders only; these may also meet "
+                       "other surfaces: bent"));
+  const auto unread =
+      warnings("unread",
+               muscle("odd",
+                      "<ConditionalPathPoint name=\"P2\"><socket_parent_frame>/bodyset/femur_r"
+                      "</socket_parent_frame><location>0 0 0</location><socket_coordinate>/jointset/none/none"
+                      "</socket_coordinate><range>0 1</range></ConditionalPathPoint>",
+                      ""));
+  EXPECT_THAT(unread,
+              Contains(HasSubstr("The lengths of muscles at rest stay as they are, because their paths "
+                                 "cannot be read: ")));
 }
 
 TEST_F(RunScale, says_what_is_missing_or_wrong) {

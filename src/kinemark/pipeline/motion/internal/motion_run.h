@@ -59,7 +59,8 @@ void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion);
 /// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
 void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
               std::string sentence);
-/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS.
+/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS;
+/// NaN where no marker is seen, which is said instead.
 void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
                       double rms_m);
 

@@ -47,6 +47,7 @@ TEST(Stillness, AKneeThatIsFlexedIsNamedWithBothDistances) {
   EXPECT_NEAR(unrest->least_m, std::hypot(0.3, 0.5), 0.004);
   EXPECT_NEAR(unrest->most_m, 0.8, 0.004);
   EXPECT_THAT(describe(*unrest, "cal.c3d"), HasSubstr("cal.c3d is not still: LASI and LANK are 58"));
+  EXPECT_THAT(describe(*unrest, "cal.c3d"), HasSubstr(" mm apart in some of its frames, 80"));
 }
 
 TEST(Stillness, OnlyMarkersOfTheBodyAreAsked) {
