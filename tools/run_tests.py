@@ -12,6 +12,7 @@ KINEMARK_ALLOW_MISSING_DATA=1 allows it. The last line counts tests: "N passed, 
 """
 
 import argparse
+import concurrent.futures
 import dataclasses
 import hashlib
 import os
@@ -159,20 +160,37 @@ def tools(log):
 
 
 def cli(preset, *modules):
-    """The program from outside, as built before: all of tests/cli or the modules named."""
+    """The program from outside, as built before: the modules of tests/cli, or those named, side by side."""
 
     def stage(log):
+        folder = ROOT / "tests" / "cli"
         program = ROOT / "build" / preset / "bin" / "kinemark"
-        chosen = modules or ("discover",)
-        status = log.run(
-            *(sys.executable, "-m", "unittest", *chosen, "-v"),
-            cwd=ROOT / "tests" / "cli",
-            KINEMARK_PROGRAM=str(program),
-        )
-        counts = count_unittest(log.text())
-        if status != 0 or counts.passed == 0:
+        chosen = modules or sorted(path.stem for path in folder.glob("test_*.py"))
+
+        def run(module):
+            own = Log(log.path.with_name(f"{log.path.stem}-{module}.log"))
+            status = own.run(
+                *(sys.executable, "-m", "unittest", module, "-v"), cwd=folder, KINEMARK_PROGRAM=str(program)
+            )
+            text = own.text()
+            own.path.unlink()
+            return status, text
+
+        counts, missing, bad = Counts(), 0, []
+        with concurrent.futures.ThreadPoolExecutor(log.jobs) as pool:
+            for module, (status, text) in zip(chosen, pool.map(run, chosen)):
+                here = count_unittest(text)
+                counts.add(here)
+                missing += len(re.findall(r"\bskipped ['\"]NO REAL DATA", text))
+                if status == 0:
+                    log.write(text)
+                else:
+                    bad.append(text)
+        for text in bad:  # last, where the log's end is shown
+            log.write(text)
+        if bad or counts.passed == 0:
             raise Failed("a test of the program failed", counts)
-        return demand_data(counts, len(re.findall(r"\bskipped ['\"]NO REAL DATA", log.text())))
+        return demand_data(counts, missing)
 
     return stage
 
@@ -278,7 +296,7 @@ def count_acceptance(text):
 
 
 def acceptance(log):
-    status = log.run(sys.executable, ROOT / "tests" / "acceptance" / "run.py", "--quick", "--build", ROOT / "build" / "ci")
+    status = log.run(sys.executable, ROOT / "tests" / "acceptance" / "run.py", "--quick", "--jobs", log.jobs, "--build", ROOT / "build" / "ci")
     counts = count_acceptance(log.text())
     if status != 0:
         raise Failed("a row of the acceptance table failed", counts)

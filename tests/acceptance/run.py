@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the acceptance checks and print one table: what was asked, what was measured.
 
-    tests/acceptance/run.py [--quick] [--build FOLDER] [NAME...]
+    tests/acceptance/run.py [--quick] [--build FOLDER] [--jobs N] [NAME...]
 
 checks.toml beside this file lists the checks. A check is a program of FOLDER/bin or a Python script of this folder
 that prints one row per bound on stdout,
@@ -17,10 +17,12 @@ lacks the real recordings), unless KINEMARK_ALLOW_MISSING_DATA=1. A known shortf
 [[expected_failures]]: its rows are run like all others and shown as KNOWN; it fails once its rows pass (take it out
 then), are not printed, or are more than a tenth worse than the figure kept there. A check finds the kinemark program
 in KINEMARK_PROGRAM, the real recordings in KINEMARK_TEST_DATA, and a folder that it may fill in KINEMARK_SCRATCH.
+N checks run side by side (default 1: some measure speed).
 Exit status 1 when a row fails.
 """
 
 import argparse
+import concurrent.futures
 import os
 import re
 import subprocess
@@ -185,6 +187,7 @@ def main(arguments, here=HERE):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="only the checks that are marked quick")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "release")
+    parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("names", nargs="*")
     options = parser.parse_args(arguments)
     binaries = options.build.resolve() / "bin"
@@ -206,15 +209,20 @@ def main(arguments, here=HERE):
     }
     if any(settings.get("oracles") for settings in chosen.values()):
         subprocess.run([str(ROOT / "tools" / "setup"), "--oracles"], check=True)
-    for name, settings in chosen.items():
+
+    def run(name):
         started = time.monotonic()
-        found, notes = run_check(name, settings, binaries, here)
-        found = refuse_skips(judge_expected(name, found, expected))
-        failed = any(row[0] == "FAIL" for row in found)
-        print(f"{name}: {'FAILED' if failed else 'good'}, {time.monotonic() - started:.1f} s", flush=True)
-        if failed:
-            print("\n".join(f"    {line}" for line in notes[-40:]))
-        rows += found
+        found, notes = run_check(name, chosen[name], binaries, here)
+        return found, notes, time.monotonic() - started
+
+    with concurrent.futures.ThreadPoolExecutor(max(1, options.jobs)) as pool:
+        for name, (found, notes, seconds) in zip(chosen, pool.map(run, chosen)):
+            found = refuse_skips(judge_expected(name, found, expected))
+            failed = any(row[0] == "FAIL" for row in found)
+            print(f"{name}: {'FAILED' if failed else 'good'}, {seconds:.1f} s", flush=True)
+            if failed:
+                print("\n".join(f"    {line}" for line in notes[-40:]))
+            rows += found
 
     print()
     print_table([row for row in rows if row[0] != "KNOWN"])

@@ -315,7 +315,7 @@ ScaleJob by_hand(const fs::path& folder, const std::string& name, const std::str
   return j;
 }
 
-TEST_F(RunScale, where_no_marker_was_placed_no_distance_is_told) {
+TEST_F(RunScale, WhereNoMarkerWasPlacedNoDistanceIsGiven) {
   const auto outcome = run_scale(by_hand(at(""), "hand", ""));
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 0);

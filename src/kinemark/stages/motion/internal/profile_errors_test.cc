@@ -74,12 +74,12 @@ TEST(ProfileErrors, OfOneHingeAreThoseOfItsChord) {
 }
 
 TEST(ProfileErrors, OfAnArmThatNoiseBentReachItsMirrorPose) {
-  // The hand alone, 0.6 m from the shoulder but for a bend of 0.2 rad: to first order the elbow is known to
+  // The hand alone, 0.6 m from the shoulder but for a flexion of 0.2 rad: to first order the elbow is known to
   // 0.17 rad. The arm may be straight, or bent to the other side, and the shoulder follows by half of it.
-  const double bend = 0.2, linear = kSd_m / (0.3 * std::sin(0.5 * bend));
-  const auto added = lacks(0.3, {0.4, bend}, {0.0, 1.0});
-  EXPECT_GE(std::sqrt(added[1] + linear * linear), 2.0 * bend - 0.02) << "the mirror pose fits as well";
-  EXPECT_GE(std::sqrt(added[0] + 0.25 * linear * linear), bend - 0.02);
+  const double flexion = 0.2, linear = kSd_m / (0.3 * std::sin(0.5 * flexion));
+  const auto added = lacks(0.3, {0.4, flexion}, {0.0, 1.0});
+  EXPECT_GE(std::sqrt(added[1] + linear * linear), 2.0 * flexion - 0.02) << "the mirror pose fits as well";
+  EXPECT_GE(std::sqrt(added[0] + 0.25 * linear * linear), flexion - 0.02);
 }
 
 }  // namespace

@@ -270,7 +270,7 @@ TEST(FitArticulated, AHingeThatWasAskedForIsWideAlongItsAxis) {
 }
 
 // Two straight segments that never bend: the joint may lie anywhere along them.
-TEST(FitArticulated, LinesThatNeverBendDoNotShowTheirJoint) {
+TEST(FitArticulated, LinesThatStayStraightDoNotShowTheirJoint) {
   const Limb limb = make_limb({.frames = 60, .rotation_hz = 0.5, .rotation_rad = 0.0, .seed = 16});
   const auto fit = fit_articulated(limb.markers, limb.layout, alone(SegmentKind::line)).value();
   EXPECT_THAT(fit.skeleton.joints[0].description,

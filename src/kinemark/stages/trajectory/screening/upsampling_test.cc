@@ -64,7 +64,7 @@ TEST(DetectUpsampling, SaysWhatItCannotSee) {
   EXPECT_THAT(report.sentences.back(), HasSubstr("band-limited"));
 }
 
-TEST(DetectUpsampling, TheSpectrumIsToldWhereThereIsOne) {
+TEST(DetectUpsampling, TheSpectrumIsGivenWhereThereIsOne) {
   const auto open = detect_upsampling(testing::walker({.frames = 3000, .noise_m = 0.001})).value().sentences;
   ASSERT_EQ(open.size(), 3U);
   EXPECT_THAT(open[1], AllOf(HasSubstr("Spectrum: open; noise of "), HasSubstr(" mm near half the rate, "),
