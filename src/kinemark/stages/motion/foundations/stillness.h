@@ -14,7 +14,8 @@ namespace kinemark::motion {
 
 /// Two markers whose distance changes within a recording.
 struct Unrest {
-  std::string marker, partner;
+  std::string marker;                  ///< as in the recording
+  std::string partner;                 ///< as in the recording
   double least_m = 0.0, most_m = 0.0;  ///< apart, in 5 and 95 % of the frames that have both
 };
 

@@ -74,8 +74,8 @@ TEST(ProfileErrors, OfOneHingeAreThoseOfItsChord) {
 }
 
 TEST(ProfileErrors, OfAnArmThatNoiseBentReachItsMirrorPose) {
-  // The hand alone, 0.6 m from the shoulder but for a flexion of 0.2 rad: to first order the elbow is known to
-  // 0.17 rad. The arm may be straight, or bent to the other side, and the shoulder follows by half of it.
+  // The hand alone, 0.6 m from the shoulder but for a flexion of 0.2 rad: to first order the elbow is known
+  // to 0.17 rad. The arm may be straight, or bent to the other side, and the shoulder follows by half of it.
   const double flexion = 0.2, linear = kSd_m / (0.3 * std::sin(0.5 * flexion));
   const auto added = lacks(0.3, {0.4, flexion}, {0.0, 1.0});
   EXPECT_GE(std::sqrt(added[1] + linear * linear), 2.0 * flexion - 0.02) << "the mirror pose fits as well";
