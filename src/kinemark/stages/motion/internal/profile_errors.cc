@@ -23,7 +23,8 @@ constexpr double kWeak = 0.03;          // rad or m: what is known better is lin
 constexpr double kLooser = 2.0;         // times the variance with all markers: it lost what held it
 constexpr double kMostMoved = 1.5;      // rad or m, of a direction's largest part
 constexpr std::size_t kMost = 12;       // directions
-constexpr double kMovesNothing = 1e-9;  // rad or m of all other speeds: no marker that is seen moves with it
+constexpr double kOpenSd = 9.9;         // rad or m, and ...
+constexpr double kMovesNothing = 1e-9;  // ... all other speeds by less: no marker that is seen moves with it
 constexpr double kFirst = 2.0;  // deviations, the first place to ask; each further one is 1.6 times as far
 constexpr double kFurther = 1.6;
 constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
@@ -51,7 +52,7 @@ void ProfileErrors::find_directions() {
     VectorXd v = K_.col(i) / std::sqrt(most);
     K_.noalias() -= v * v.transpose();
     const double own = std::exchange(v[i], 0.0);
-    if (!(v.cwiseAbs().maxCoeff() > kMovesNothing)) continue;
+    if (own > kOpenSd && !(v.cwiseAbs().maxCoeff() > kMovesNothing)) continue;
     v[i] = own;
     directions_.push_back({.speed = i, .along = std::move(v)});
   }

@@ -42,13 +42,14 @@ data::ModelDescription two_hinges(double upper_lever_m) {
 /// What is added to the variances of shoulder and elbow with markers where the model has them at `pose`.
 Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const Eigen::Vector2d& seen) {
   const auto model = model::Model::compile(two_hinges(upper_lever_m)).value();
-  const auto markers =
-      data::Trajectories::all_missing({"U", "H"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
-  auto all = markers;
+  auto all = data::Trajectories::all_missing({"U", "H"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
   model::Workspace w(model);
   const Eigen::VectorXd x = model::state_from_coordinates(model, pose);
   model::kinematics(model, w, x);
-  for (int m = 0; m < 2; ++m) all.x(0, m) = w.marker.col(m);
+  for (int m = 0; m < 2; ++m) {
+    all.x(0, m) = w.marker.col(m);
+    all.state[all.index(0, m)] = data::SampleState::measured;
+  }
   const auto problem = make_problem(model, all, {}).value();
   ProfileErrors profile(problem);
   Eigen::VectorXd variance = Eigen::Vector2d::Zero();
