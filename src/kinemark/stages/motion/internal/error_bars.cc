@@ -172,20 +172,6 @@ void add_equations(Frame& frame, const std::vector<int>& segment_of_body, const 
       for (std::size_t b = a + 1; b < member.size(); ++b) add_row(member[a], member[b], 2.0);
 }
 
-/// 1/m^2 of the markers that some frame has, 0 for the others.
-VectorXd information_of_seen(const internal::Problem& problem, const data::Trajectories& markers,
-                             const MarkerVariances& variances) {
-  VectorXd information = information_of(problem.model, variances);
-  for (Eigen::Index m = 0; m < information.size(); ++m) {
-    bool seen = false;
-    for (std::int64_t f = 0; f < problem.frames && !seen; ++f)
-      seen = problem.data_marker[at(m)] >= 0 &&
-             markers.present(problem.first_frame + f, problem.data_marker[at(m)]);
-    if (!seen) information[m] = 0.0;
-  }
-  return information;
-}
-
 }  // namespace
 
 VectorXd information_of(const model::Model& model, const MarkerVariances& variances) {
@@ -265,7 +251,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
   motion.q_sd.assign(motion.q.size(), std::numeric_limits<double>::quiet_NaN());
   motion.determined.assign(motion.q.size(), 0);
   std::vector<std::uint8_t> open(motion.q.size(), 1);
-  const VectorXd all = information_of_seen(problem, markers, variances);
+  const VectorXd all = information_of(model, variances);
   parallel_for(problem.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
     Frame frame(problem);
     internal::ProfileErrors profile(problem);

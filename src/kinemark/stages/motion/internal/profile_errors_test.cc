@@ -9,39 +9,23 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/problem.h"
+#include "kinemark/stages/motion/testing/planar_arm.h"
 
 namespace kinemark::motion::internal {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kSd_m = 0.005;
 
-/// Two hinges about z, a marker on each body: `upper_lever_m` beside the first axis, 0.3 m beside the second.
-data::ModelDescription two_hinges(double upper_lever_m) {
-  data::ModelDescription m;
-  m.name = "two hinges";
-  for (const char* name : {"upper", "fore"})
-    m.bodies.push_back({.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity() * 0.01});
-  for (const char* name : {"shoulder", "elbow"})
-    m.coordinates.push_back({.name = name, .range_min = -3.1, .range_max = 3.1, .clamped = true});
-  const auto hinge = [](int c) {
-    return data::AxisDescription{.is_rotation = true, .axis = Vector3d::UnitZ(), .coordinate_idx = c};
-  };
-  m.joints = {{.name = "shoulder", .child_body_idx = 0, .axes = {hinge(0)}},
-              {.name = "elbow",
-               .parent_body_idx = 0,
-               .child_body_idx = 1,
-               .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0}},
-               .axes = {hinge(1)}}};
-  m.markers = {{.name = "U", .body_idx = 0, .x_in_body = {upper_lever_m, 0.0, 0.0}},
-               {.name = "H", .body_idx = 1, .x_in_body = {0.3, 0.0, 0.0}}};
-  return m;
+/// A marker on each body: `upper_lever_m` beside the shoulder, 0.3 m beside the elbow.
+data::ModelDescription arm_with_lever(double upper_lever_m) {
+  return testing_body::planar_arm({0.3, 0.0, 0.0},
+                                  {{.name = "U", .body_idx = 0, .x_in_body = {upper_lever_m, 0.0, 0.0}},
+                                   {.name = "H", .body_idx = 1, .x_in_body = {0.3, 0.0, 0.0}}});
 }
 
 /// What is added to the variances of shoulder and elbow with markers where the model has them at `pose`.
 Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const Eigen::Vector2d& seen) {
-  const auto model = model::Model::compile(two_hinges(upper_lever_m)).value();
+  const auto model = model::Model::compile(arm_with_lever(upper_lever_m)).value();
   auto all = data::Trajectories::all_missing({"U", "H"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
   model::Workspace w(model);
   const Eigen::VectorXd x = model::state_from_coordinates(model, pose);

@@ -13,6 +13,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/internal/loose_bodies.h"
+#include "kinemark/stages/motion/testing/planar_arm.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -20,24 +21,9 @@ namespace {
 using Eigen::Vector3d;
 
 data::ModelDescription arm() {
-  data::ModelDescription m;
-  m.name = "planar arm";
-  for (const char* name : {"upper", "fore"})
-    m.bodies.push_back({.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity() * 0.01});
-  for (const char* name : {"shoulder", "elbow"})
-    m.coordinates.push_back({.name = name, .range_min = -2.8, .range_max = 2.8, .clamped = true});
-  const auto hinge = [](int c) {
-    return data::AxisDescription{.is_rotation = true, .axis = Vector3d::UnitZ(), .coordinate_idx = c};
-  };
-  m.joints = {{.name = "shoulder", .child_body_idx = 0, .axes = {hinge(0)}},
-              {.name = "elbow",
-               .parent_body_idx = 0,
-               .child_body_idx = 1,
-               .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.0, -0.3, 0.0}},
-               .axes = {hinge(1)}}};
-  m.markers = {{.name = "U", .body_idx = 0, .x_in_body = {0.03, -0.15, 0.0}},
-               {.name = "H", .body_idx = 1, .x_in_body = {0.0, -0.3, 0.0}}};
-  return m;
+  return testing_body::planar_arm({0.0, -0.3, 0.0},
+                                  {{.name = "U", .body_idx = 0, .x_in_body = {0.03, -0.15, 0.0}},
+                                   {.name = "H", .body_idx = 1, .x_in_body = {0.0, -0.3, 0.0}}});
 }
 
 /// Elbow between 0.5 and 1.5 rad, or through 0 where `straight`.

@@ -14,7 +14,8 @@ namespace kinemark::trajectory::internal {
 namespace {
 
 constexpr double kThousand = 1000.0;
-constexpr double kNeighbour = 1.0;  // m, on the same body
+constexpr double kNeighbour = 1.0;   // m, on the same body
+constexpr double kLargest_m = 20.0;  // of what is recorded at once
 
 struct Extent {
   double distance = 0.0;  ///< median distance from the origin, m
@@ -253,10 +254,9 @@ void find_unit_slips(const data::Trajectories& t, Defects& out) {
                            t.names[static_cast<std::size_t>(m)], e.distance, e.spread, distance, spread)});
     }
   }
-  // Markers are neither 200 m away and metres apart by the dozen, nor all within 2 mm of the origin.
-  constexpr double kLargest = 20.0;  // m, of what is recorded at once
+  // Markers are neither 200 m away on something larger than a hall, nor all within 2 mm of the origin.
   if (!distances.empty() &&
-      ((distance > 200.0 && size_of(extents, spread) > kLargest) || (distance < 0.002 && distance > 0.0)))
+      ((distance > 200.0 && size_of(extents, spread) > kLargest_m) || (distance < 0.002 && distance > 0.0)))
     slips.push_back(
         {.kind = FindingKind::unit_slip,
          .first_frame = 0,
