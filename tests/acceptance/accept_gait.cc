@@ -32,6 +32,7 @@ struct Judged {
 };
 struct Walker {
   bool treadmill = false, plates = false, recognised = false;
+  double stride_s = kNaN;
   std::vector<Judged> measures;
   std::vector<double> event_errors, event_sds;  // of those by markers, s
   int events = 0;                               // of the walker, away from the recording's ends
@@ -72,7 +73,7 @@ Walker walk_one(std::uint64_t seed) {
   walk.duration_s = walk.treadmill ? 12.0 : random.uniform(3.5, 6.0);
   const double noise_m = 1e-3 * std::exp(random.uniform(std::log(0.1), std::log(1.0)));
   const auto markers = walk.markers(noise_m, seed);
-  Walker out{.treadmill = walk.treadmill, .plates = seed % 4 >= 2};
+  Walker out{.treadmill = walk.treadmill, .plates = seed % 4 >= 2, .stride_s = walk.stride_s};
   data::Wrenches plates{.time = markers.time, .items = {}};
   if (out.plates)
     plates.items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)};
@@ -101,23 +102,52 @@ Walker walk_one(std::uint64_t seed) {
   return out;
 }
 
+// Between a strike and a leaving: what the offsets of a laboratory move.
+bool between_kinds(const std::string& id) {
+  for (const auto* const name : {"stance_time", "swing_time", "stance_share", "double_support",
+                                 "single_support", "double_support_share"})
+    if (id == name) return true;
+  return false;
+}
+
+// Milliseconds of one such time in a measure's unit: s, or share of the stride; two double supports make a
+// share.
+double ms_of(const std::string& id, double stride_s) {
+  const double seconds = id.ends_with("_share") ? stride_s : 1.0;
+  return 1e3 * seconds / (id == "double_support_share" ? 2.0 : 1.0);
+}
+
+// What a correct program leaves of the time between a strike and a leaving, RMS. By markers alone: strikes of
+// one laboratory lie 18 ms (SD) from those of another, leavings 16. Beside two steps on plates: the own
+// errors of a strike and a leaving, 7 ms each. docs/theory/gait.md.
+constexpr double kAlone_ms = 24.0, kBesidePlates_ms = 10.0;
+
 void judge_measure(const std::string& id, const std::vector<Walker>& walkers) {
   for (const bool plates : {false, true}) {
-    double squares = 0.0;
+    double squares = 0.0, squares_ms = 0.0;
     int count = 0, covered = 0;
     for (const auto& walker : walkers)
       for (const auto& one : walker.measures) {
         if (one.id != id || walker.plates != plates || !std::isfinite(one.measure.value)) continue;
         const double error = (one.measure.value - one.truth) / one.truth;
+        const double ms = (one.measure.value - one.truth) * ms_of(id, walker.stride_s);
         squares += error * error;
+        squares_ms += ms * ms;
         ++count;
         covered += one.truth >= one.measure.interval.low && one.truth <= one.measure.interval.high;
       }
     const auto name = fmt::format("gait, {}, {}", plates ? "plates see two steps" : "markers alone", id);
-    const double rms = 100.0 * std::sqrt(squares / std::max(1, count)),
-                 share = 100.0 * covered / std::max(1, count);
-    print_row(count > 0 && rms <= 1.0, name + ", error", "1 % RMS",
-              fmt::format("{:.2f} % RMS of {}", rms, count));
+    const auto rms = [&](double sum) { return std::sqrt(sum / std::max(1, count)); };
+    const double percent = 100.0 * rms(squares), share = 100.0 * covered / std::max(1, count);
+    if (between_kinds(id)) {
+      const double bound_ms = plates ? kBesidePlates_ms : kAlone_ms;
+      print_row(count > 0 && rms(squares_ms) <= bound_ms, name + ", error",
+                fmt::format("{:.0f} ms RMS", bound_ms),
+                fmt::format("{:.1f} ms RMS of {} ({:.2f} %)", rms(squares_ms), count, percent));
+    } else {
+      print_row(count > 0 && percent <= 1.0, name + ", error", "1 % RMS",
+                fmt::format("{:.2f} % RMS of {}", percent, count));
+    }
     print_row(count > 0 && share >= 90.0, name + ", coverage of 95 %", ">= 90 %",
               fmt::format("{:.1f} % of {}", share, count));
   }
@@ -125,7 +155,7 @@ void judge_measure(const std::string& id, const std::vector<Walker>& walkers) {
 
 void judge_events(const std::vector<Walker>& walkers) {
   for (const bool plates : {false, true}) {
-    int events = 0, near = 0, one_sd = 0, two_sd = 0, found = 0;
+    int events = 0, near = 0, nearly = 0, one_sd = 0, two_sd = 0, found = 0;
     for (const auto& walker : walkers) {
       if (walker.plates != plates) continue;
       events += walker.events;
@@ -133,14 +163,21 @@ void judge_events(const std::vector<Walker>& walkers) {
         const double error = std::abs(walker.event_errors[i]);
         ++found;
         near += error <= 0.02;
+        nearly += error <= 0.03;
         one_sd += error <= walker.event_sds[i];
         two_sd += error <= 2.0 * walker.event_sds[i];
       }
     }
     const auto share = [](int of, int all) { return 100.0 * of / std::max(1, all); };
     const auto name = fmt::format("gait, {}, events", plates ? "plates see two steps" : "markers alone");
-    print_row(share(near, events) >= 95.0, name + " within 20 ms", ">= 95 %",
-              fmt::format("{:.1f} % of {}, {} found", share(near, events), events, found));
+    const auto row = [&](const char* within, int count, double least) {
+      print_row(share(count, events) >= least, name + within, fmt::format(">= {:.0f} %", least),
+                fmt::format("{:.1f} % of {}, {} found", share(count, events), events, found));
+    };
+    // Of normal errors of 18 ms (strikes) and 16 (leavings), which laboratories differ by, 76 % lie within 20
+    // ms and 92 % within 30: no program knows a laboratory's offset without its plates.
+    row(" within 20 ms", near, plates ? 95.0 : 76.0);
+    if (!plates) row(" within 30 ms", nearly, 92.0);
     print_row(share(one_sd, found) >= 62.0, name + " within one SD", ">= 62 %",
               fmt::format("{:.1f} %", share(one_sd, found)));
     print_row(share(two_sd, found) >= 90.0, name + " within two SD", ">= 90 %",

@@ -92,6 +92,24 @@ std::string kind_of(const Gait& gait) {
       gait.kind.direction == analysis::GaitDirection::unknown ? "?" : to_string(gait.kind.direction));
 }
 
+/// Two labels of a foot in a row that are of one kind miss one of the other between them: no foot strikes
+/// twice without leaving. The first of ours there is that one.
+bool fills_a_gap(const std::vector<GaitEvent>& labels, const std::vector<GaitEvent>& ours,
+                 const GaitEvent& event) {
+  const GaitEvent *before = nullptr, *after = nullptr;
+  for (const auto& label : labels) {
+    if (label.side != event.side) continue;
+    if (label.time_s <= event.time_s) before = &label;
+    if (label.time_s > event.time_s && after == nullptr) after = &label;
+  }
+  if (before == nullptr || after == nullptr || before->what == event.what || after->what == event.what)
+    return false;
+  return std::ranges::none_of(ours, [&](const GaitEvent& other) {
+    return other.side == event.side && other.what == event.what && other.time_s > before->time_s &&
+           other.time_s < event.time_s;
+  });
+}
+
 double share(double of, double all) { return 100.0 * of / std::max(1.0, all); }
 
 struct Compared {
@@ -147,6 +165,7 @@ class BesidePlates {
         return label.what == event.what && label.side == event.side;
       });
       if (!labelled || nearest(labels, event) != nullptr || nearest(plates, event) != nullptr) continue;
+      if (fills_a_gap(labels, one.gait.events, event)) continue;
       ++extra_;
       print_note(fmt::format("gait_events, {}, not among its labels", one.recording.file),
                  fmt::format("{} {} at {:.3f} s", data::to_string(event.side), data::to_string(event.what),

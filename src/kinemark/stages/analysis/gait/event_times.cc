@@ -50,6 +50,8 @@ constexpr Table kRunOff{{{{{50.03, 88.83, -74.29, 29.66}, 14.0},
 
 constexpr double kMostApart_ms = 40.0, kOfSpread = 0.4;
 constexpr double kWithin_ms = 7.0;  // SD of the errors of one recording about their mean
+// Frames of most recordings learnt from: what they add is in the SDs, and is not counted a second time.
+constexpr double kLearntFrame_s = 0.01;
 // Feet found by place have biases of heel and toe, and the SD that they showed there (251 events).
 constexpr double kByPlaceStrike_ms = 19.0, kByPlaceOff_ms = 18.0;
 
@@ -86,7 +88,7 @@ FusedTime fuse(const DetectorTimes& times, FootEvent what, bool running, FootSet
   return {.after_s = 1e-3 * out,
           .common_sd_s = 1e-3 * std::sqrt(row.sd * row.sd - kWithin_ms * kWithin_ms),
           .own_sd_s = std::sqrt(1e-6 * (kWithin_ms * kWithin_ms + kOfSpread * kOfSpread * squares) +
-                                frame_s * frame_s / 12.0)};
+                                std::max(0.0, frame_s * frame_s - kLearntFrame_s * kLearntFrame_s) / 12.0)};
 }
 
 }  // namespace kinemark::analysis

@@ -26,8 +26,17 @@ TEST(EventTimes, DetectorsThatAgreeGiveTheirTime) {
   const DetectorTimes strike{0.00588 + 0.02556, -0.03432 + 0.02556, -0.01051 + 0.02556, 0.0};
   const auto fused = fuse(strike, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
   EXPECT_NEAR(fused.after_s, 0.02556 + 0.00299, 1e-4);
-  EXPECT_NEAR(std::hypot(fused.common_sd_s, fused.own_sd_s), 0.0182, 3e-4);
-  EXPECT_NEAR(fused.own_sd_s, std::hypot(0.007, 0.01 / std::sqrt(12.0)), 1e-4);
+  EXPECT_NEAR(std::hypot(fused.common_sd_s, fused.own_sd_s), 0.0180, 1e-4);
+  EXPECT_NEAR(fused.own_sd_s, 0.007, 1e-5);
+}
+
+TEST(EventTimes, LongerFramesThanThoseLearntFromWidenTheSdShorterOnesDoNot) {
+  const auto own = [](double rate_hz) {
+    return fuse(kNone, FootEvent::off, false, FootSet::heel_and_toe, 1.0 / rate_hz).own_sd_s;
+  };
+  EXPECT_EQ(own(200.0), own(100.0));
+  EXPECT_NEAR(own(100.0), 0.007, 1e-12);
+  EXPECT_NEAR(own(25.0), std::sqrt(0.007 * 0.007 + (0.04 * 0.04 - 0.01 * 0.01) / 12.0), 1e-9);
 }
 
 TEST(EventTimes, OneThatIsFarOffMovesTheTimeByItsClippedShareAndWidensTheSd) {

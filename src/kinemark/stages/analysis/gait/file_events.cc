@@ -20,6 +20,7 @@ using data::Side;
 constexpr std::array<std::string_view, 9> kStrike{
     "footstrike", "heelstrike", "initialcontact", "strike", "footcontact", "heelcontact", "hs", "fs", "ic"};
 constexpr std::array<std::string_view, 5> kOff{"footoff", "toeoff", "off", "to", "fo"};
+constexpr double kRepeated_s = 0.3;  // no foot makes a stride in less
 
 std::string letters(std::string_view text) {
   std::string out;
@@ -78,19 +79,25 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
                                       name_of(*one), time.time_s(0), time.time_s(time.frames - 1)));
   }
   std::ranges::stable_sort(read, {}, &GaitEvent::time_s);
-  std::array<std::optional<FootEvent>, 2> before;
+  std::array<std::optional<GaitEvent>, 2> before;
   for (const auto& event : read) {
     auto& same_side = before[data::index_of(event.side)];
     // A file may have one kind alone; where it has both, they take turns.
     const bool turns = std::ranges::any_of(
         read, [&](const auto& other) { return other.side == event.side && other.what != event.what; });
-    if (turns && same_side == event.what) {
-      out.notes.push_back(
-          fmt::format("{} follows another of its kind, with no {} between, and is left out", name_of(event),
-                      data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike)));
-      continue;
+    if (turns && same_side && same_side->what == event.what) {
+      const auto between =
+          data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike);
+      if (event.time_s - same_side->time_s < kRepeated_s) {
+        out.notes.push_back(fmt::format("{} follows another of its kind, with no {} between, and is left out",
+                                        name_of(event), between));
+        continue;
+      }
+      out.notes.push_back(fmt::format("no {} {} is labelled between {} and the next at {:.3f} s",
+                                      data::to_string(event.side), between, name_of(*same_side),
+                                      event.time_s));
     }
-    same_side = event.what;
+    same_side = event;
     out.events.push_back(event);
   }
   return out;

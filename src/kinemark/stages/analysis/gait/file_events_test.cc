@@ -112,5 +112,26 @@ TEST(FileEventTurns, AreTakenBySidesApart) {
             "between, and is left out");
 }
 
+TEST(FileEventTurns, OneThatIsNotLabelledIsSaidAndItsNeighboursStand) {
+  const std::vector<data::Event> events{
+      {"RHS", "", 1.5}, {"RHS", "", 2.6}, {"RTO", "", 3.3}, {"RTO", "", 4.4}, {"RTO", "", 4.5}};
+  const auto found = events_of_file(events, kFiveSeconds);
+  ASSERT_EQ(found.events.size(), 4u);
+  EXPECT_EQ(found.events[1].time_s, 2.6);
+  EXPECT_EQ(found.events[3].time_s, 4.4);
+  ASSERT_EQ(found.notes.size(), 3u);
+  EXPECT_EQ(
+      found.notes[0],
+      "no Right Foot Off is labelled between the file's event Right Foot Strike at 1.500 s and the next "
+      "at 2.600 s");
+  EXPECT_EQ(
+      found.notes[1],
+      "no Right Foot Strike is labelled between the file's event Right Foot Off at 3.300 s and the next "
+      "at 4.400 s");
+  EXPECT_EQ(found.notes[2],
+            "the file's event Right Foot Off at 4.500 s follows another of its kind, with no Foot Strike "
+            "between, and is left out");
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

@@ -58,7 +58,8 @@ struct EventsFound {
 
 /// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or
 /// "LHS", "RTO" and the like; others are not about feet. An event outside the recording, and one that follows
-/// another of its kind and side with none between, is left out and told.
+/// another of its kind and side within 0.3 s with none between, is left out and told. Where one follows
+/// later, both stand, and the one that is not labelled between them is told.
 struct FileEvents {
   std::vector<data::GaitEvent> events;  ///< ascending in time; SD not known
   std::vector<std::string> notes;       ///< one sentence each

@@ -270,7 +270,8 @@ TEST_F(GaitEventsTest, DoNotDependOnTheLaboratory) {
       const auto &a = alone_.events[i], &b = found.events[i];
       EXPECT_EQ(b.side, swapped ? data::opposite(a.side) : a.side);
       EXPECT_EQ(b.what, a.what);
-      EXPECT_NEAR(b.time_s, a.time_s + later_s, 1e-6);
+      // The ground's velocity is sought from frames in another order, to 1e-4 m/s.
+      EXPECT_NEAR(b.time_s, a.time_s + later_s, 3e-6);
       EXPECT_NEAR(b.sd_s, a.sd_s, 1e-6);
     }
   }

@@ -153,6 +153,7 @@ TEST(GaitFindingsOfFiles, EventsInTurnWithinTheRecordingSayNothing) {
   EXPECT_THAT(found.notes, Not(Contains(HasSubstr("the file's event "))));
   EXPECT_THAT(found.notes, Not(Contains(HasSubstr(" lies outside the recording, "))));
   EXPECT_THAT(found.notes, Not(Contains(HasSubstr(" follows another of its kind, with no "))));
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr(" is labelled between "))));
 }
 
 }  // namespace

@@ -227,7 +227,7 @@ TEST(EventsOfFile, OutsideAndInTheWrongOrderAreLeftOut) {
   const TimeBase time{.rate_hz = 100.0, .t0_s = 1.0, .frames = 300};
   const std::vector<data::Event> events{{"Foot Strike", "Left", 0.5},
                                         {"Foot Strike", "Left", 1.5},
-                                        {"Foot Strike", "Left", 2.0},
+                                        {"Foot Strike", "Left", 1.7},
                                         {"Foot Off", "Left", 2.1}};
   const auto found = events_of_file(events, time);
   EXPECT_EQ(found.events.size(), 2u);

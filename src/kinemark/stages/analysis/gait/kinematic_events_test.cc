@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "kinemark/stages/analysis/gait/swings.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
@@ -52,6 +53,70 @@ TEST(KinematicEvents, EveryDetectorFindsEveryEventOverGroundAndOnATreadmill) {
       for (const double after : edge->after_s) EXPECT_LT(std::abs(after), 0.15);
     }
   }
+}
+
+/// Means over walkers, at every strike or leaving: how a foot stands and moves, smoothed.
+struct FootMoves {
+  double pitch = 0.0, pitch_rate = 0.0, toe_up_m = 0.0;
+  Eigen::Vector2d heel{0.0, 0.0}, toe{0.0, 0.0};  // m/s, forward and up
+};
+void add_moves(const KnownWalk& walk, const GaitPaths& paths, FootEvent what, std::vector<FootMoves>& out) {
+  const Eigen::RowVector3d way(std::cos(walk.heading_rad), std::sin(walk.heading_rad), 0.0);
+  for (const auto& event : walk.events()) {
+    if (event.what != what || event.time_s < 0.5 || event.time_s > walk.duration_s - 0.5) continue;
+    const auto& foot = paths.foot(event.side);
+    const auto f = static_cast<std::int64_t>(std::llround(event.time_s * walk.rate_hz));
+    const auto moves = [&](const math::SeriesMatrix& x) {
+      const Eigen::RowVector3d v = 0.5 * walk.rate_hz * (x.row(f + 1) - x.row(f - 1));
+      return Eigen::Vector2d(v.dot(way), v.z());
+    };
+    const auto pitch = [&](std::int64_t frame) {
+      const Eigen::RowVector3d along = foot.toe.row(frame) - foot.heel.row(frame);
+      return std::atan2(along.z(), along.head<2>().norm()) + 0.005 / walk.foot_m;  // 0: flat
+    };
+    out.push_back({.pitch = pitch(f),
+                   .pitch_rate = 0.5 * walk.rate_hz * (pitch(f + 1) - pitch(f - 1)),
+                   .toe_up_m = foot.toe(f, 2) - 0.03,
+                   .heel = moves(foot.heel),
+                   .toe = moves(foot.toe)});
+  }
+}
+FootMoves mean_moves(FootEvent what) {
+  std::vector<FootMoves> all;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed, 11);
+    const auto walk = KnownWalk::draw(random);
+    auto smoother =
+        GaitSmoother::create(walk.markers(0.0003, seed), find_gait_markers(walk.markers(0.0, 1)).value(), 0.0)
+            .value();
+    EXPECT_TRUE(smoother.smooth_at(cut_off_of(walk.stride_s)));
+    add_moves(walk, smoother.paths(), what, all);
+  }
+  FootMoves out;
+  const auto n = static_cast<double>(all.size());
+  for (const auto& one : all) {
+    out.pitch += one.pitch / n, out.pitch_rate += one.pitch_rate / n, out.toe_up_m += one.toe_up_m / n;
+    out.heel += one.heel / n, out.toe += one.toe / n;
+  }
+  return out;
+}
+
+// Mean and SD of feet of nine laboratories at the instants of their plates, smoothed alike:
+// docs/theory/gait.md.
+TEST(KnownWalks, MoveTheirFeetAtStrikesAndLeavingsAsFeetOnPlatesDo) {
+  const auto strike = mean_moves(FootEvent::strike), off = mean_moves(FootEvent::off);
+  EXPECT_NEAR(strike.pitch, 0.27, 0.07);
+  EXPECT_NEAR(strike.pitch_rate, -4.0, 1.1);
+  EXPECT_NEAR(strike.heel.x(), 0.21, 0.10);
+  EXPECT_NEAR(strike.heel.y(), -0.06, 0.06);
+  EXPECT_NEAR(strike.toe.y(), -0.79, 0.23);
+  EXPECT_NEAR(off.pitch, -1.09, 0.13);
+  EXPECT_NEAR(off.pitch_rate, -5.2, 1.8);
+  EXPECT_NEAR(off.toe_up_m, 0.020, 0.009);
+  EXPECT_NEAR(off.heel.x(), 2.09, 0.46);
+  EXPECT_NEAR(off.heel.y(), 1.05, 0.23);
+  EXPECT_NEAR(off.toe.x(), 1.17, 0.44);
+  EXPECT_NEAR(off.toe.y(), 0.50, 0.19);
 }
 
 TEST(KinematicEvents, ProgressIsThatOfTheBodyOverTheGround) {

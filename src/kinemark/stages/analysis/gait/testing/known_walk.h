@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A walker of whom everything is known: rigid feet that land on the heel, lie flat, roll over the toes and
-// swing; with markers, force plates and the instants at which each foot touches and leaves the ground.
+// A walker of whom everything is known: feet that land on the heel, lie flat, rise about the joint of the
+// toes, roll over these and swing; with markers, force plates and the instants at which each foot touches and
+// leaves the ground. At these instants they move as feet of nine laboratories do on plates
+// (docs/theory/gait.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,15 +29,23 @@ struct KnownWalk {
   double right_later = 0.5;                  ///< share of the stride, of the right strike after the left one
   double width_m = 0.1;                      ///< between the heels' lines
   double foot_m = 0.2;                       ///< from heel to toe marker
-  double tip_m = 0.06;  ///< from the toe marker (second metatarsal) to the tip, which leaves last
+  double tip_m =
+      0.06;  ///< from the toe marker (second metatarsal, over a joint) to the tip, which leaves last
+  double roll_m = 0.02;  ///< radius of the tip, which rolls on the ground
   double land_rad = 0.35,
-         push_rad = 1.05;  ///< pitch of the foot at strike, toes up, and at leaving, toes down
-  double flat_at = 0.13;   ///< share of the stance after which the foot lies flat
-  double rises_at = 0.55;  ///< share of the stance at which the heel rises
-  Eigen::Vector2d land_velocity{0.5, -0.2};  ///< of the heel at strike, forward and up, m/s
-  /// Pitch rates over the mean rate of the phase: at strike, slow, as the forefoot falls faster once the heel
-  /// stands; at leaving, the fastest.
-  double land_rate = 0.7, push_rate = 2.3;
+         push_rad = 1.05;      ///< pitch of the foot at strike, toes up, and at leaving, toes down
+  double flat_at = 0.13;       ///< share of the stance after which the foot lies flat
+  double rises_at = 0.6;       ///< share of the stance at which the heel rises
+  double toes_rise_at = 0.85;  ///< share of the stance at which the toes rise about their tip
+  double toes_rad = 0.6;       ///< pitch of the toes at leaving, tip down
+  Eigen::Vector2d land_velocity{0.2, -0.1};  ///< of the heel at strike, forward and up, m/s
+  double land_turn = -1.0;                   ///< pitch rate of the foot before it strikes, rad/s
+  /// Pitch rates over the mean rate of the phase: after strike, as the forefoot falls; at leaving, of the
+  /// foot and of the toes.
+  double land_rate = 1.7, push_rate = 1.8, toes_rate = 2.0;
+  /// Late in the swing, this long before strike: pitch over that at strike, its rate, height of the heel, its
+  /// speed upwards.
+  double late_s = 0.08, late_rad = 0.05, late_turn = 1.5, late_m = 0.02, late_up = 0.1;
   double toe_out_rad = 0.1;      ///< of each foot
   double heading_rad = 0.4;      ///< of the walk in the laboratory
   bool treadmill = false;        ///< stays where it is; the belt runs
@@ -57,9 +67,14 @@ struct KnownWalk {
     out.foot_m = random.uniform(0.17, 0.23);
     out.tip_m = random.uniform(0.04, 0.08);
     out.land_rad = random.uniform(0.2, 0.45), out.push_rad = random.uniform(0.85, 1.2);
-    out.flat_at = random.uniform(0.1, 0.17), out.rises_at = random.uniform(0.48, 0.62);
-    out.land_velocity = {random.uniform(0.2, 0.8), random.uniform(-0.35, -0.1)};
-    out.land_rate = random.uniform(0.5, 1.1), out.push_rate = random.uniform(2.0, 2.6);
+    out.flat_at = random.uniform(0.1, 0.17), out.rises_at = random.uniform(0.54, 0.66);
+    out.land_velocity = {random.uniform(-0.25, 0.15), random.uniform(-0.2, 0.0)};
+    out.land_turn = random.uniform(-3.0, 0.5), out.roll_m = random.uniform(0.01, 0.03);
+    out.land_rate = random.uniform(1.4, 2.0), out.push_rate = random.uniform(1.5, 2.1);
+    out.toes_rise_at = random.uniform(0.80, 0.90), out.toes_rad = random.uniform(0.3, 0.9);
+    out.toes_rate = random.uniform(1.5, 2.5);
+    out.late_rad = random.uniform(0.0, 0.1), out.late_turn = random.uniform(0.5, 2.5);
+    out.late_m = random.uniform(0.01, 0.03), out.late_up = random.uniform(0.0, 0.2);
     out.toe_out_rad = random.uniform(0.0, 0.2);
     out.heading_rad = random.uniform(-3.0, 3.0);
     out.first_strike_s = random.uniform(-1.0, 0.0);
@@ -120,11 +135,19 @@ inline Pose about_heel(double x0, double pitch, double rate) {
   return {x0 - h * std::sin(pitch),    h * std::cos(pitch),         pitch,
           -h * std::cos(pitch) * rate, -h * std::sin(pitch) * rate, rate};
 }
-inline Pose about_tip(double x0, double foot, double pitch, double rate) {
-  // From the tip's contact back to the heel marker: (-foot, height).
+// The toes turn about their tip, which rolls, and the rest of the foot about the joint behind them.
+inline Pose about_tip(double x0, double foot, double tip, double roll, double pitch, double rate, double toes,
+                      double toes_rate) {
   const double h = kHeelHeight_m, c = std::cos(pitch), s = std::sin(pitch);
+  const double ct = std::cos(toes), st = std::sin(toes);
+  // From the joint back to the heel marker: (-foot, height).
   const double x = -foot * c - h * s, z = -foot * s + h * c;
-  return {x0 + foot + x, z, pitch, (foot * s - h * c) * rate, (-foot * c - h * s) * rate, rate};
+  return {x0 + foot + tip - tip * ct + roll * toes + x,
+          tip * st + z,
+          pitch,
+          (tip * st + roll) * toes_rate + (foot * s - h * c) * rate,
+          tip * ct * toes_rate + (-foot * c - h * s) * rate,
+          rate};
 }
 
 }  // namespace walk_detail
@@ -138,8 +161,10 @@ inline std::array<Eigen::Vector3d, 2> KnownWalk::foot_at(data::Side side, double
   const double t = time_s - strike_s(side, step),
                x0 = speed_m_per_s * (strike_s(side, step) - strike_s(data::Side::left, 0));
   const double landing_rate = -land_rate * land_rad / flat_s,
-               leave_rate = -push_rate * push_rad / (leave_s - rise_s);
-  const Pose leaving = about_tip(x0, foot_m + tip_m, -push_rad, leave_rate);
+               leave_rate = -push_rate * push_rad / (leave_s - rise_s),
+               toes_s = toes_rise_at * share * stride_s,
+               toes_leave = toes_rate * toes_rad / (leave_s - toes_s);
+  const Pose leaving = about_tip(x0, foot_m, tip_m, roll_m, -push_rad, leave_rate, toes_rad, toes_leave);
   Pose pose{};
   if (t < flat_s) {
     const auto p = hermite(t / flat_s, flat_s, land_rad, landing_rate, 0.0, 0.0);
@@ -149,13 +174,22 @@ inline std::array<Eigen::Vector3d, 2> KnownWalk::foot_at(data::Side side, double
   } else if (t < leave_s) {
     const auto p =
         hermite((t - rise_s) / (leave_s - rise_s), leave_s - rise_s, 0.0, 0.0, -push_rad, leave_rate);
-    pose = about_tip(x0, foot_m + tip_m, p[0], p[1]);
+    const double v = std::max(0.0, (t - toes_s) / (leave_s - toes_s));
+    const auto toes = hermite(v, leave_s - toes_s, 0.0, 0.0, toes_rad, toes_leave);
+    pose = about_tip(x0, foot_m, tip_m, roll_m, p[0], p[1], toes[0], toes[1]);
   } else {
     const double span = stride_s - leave_s, u = (t - leave_s) / span;
     const Pose landing = about_heel(x0 + stride_m(), land_rad, landing_rate);
     pose.x = hermite(u, span, leaving.x, leaving.vx, landing.x, land_velocity.x())[0];
-    pose.z = hermite(u, span, leaving.z, leaving.vz, landing.z, land_velocity.y())[0];
-    pose.pitch = hermite(u, span, -push_rad, leave_rate, land_rad, landing_rate)[0];
+    if (const double first = span - late_s; t - leave_s < first) {
+      const double w = (t - leave_s) / first;
+      pose.z = hermite(w, first, leaving.z, leaving.vz, landing.z + late_m, late_up)[0];
+      pose.pitch = hermite(w, first, -push_rad, leave_rate, land_rad + late_rad, late_turn)[0];
+    } else {
+      const double w = (t - leave_s - first) / late_s;
+      pose.z = hermite(w, late_s, landing.z + late_m, late_up, landing.z, land_velocity.y())[0];
+      pose.pitch = hermite(w, late_s, land_rad + late_rad, late_turn, land_rad, land_turn)[0];
+    }
   }
   const double c = std::cos(pose.pitch), s = std::sin(pose.pitch), drop = kToeHeight_m - kHeelHeight_m;
   const double toe_x = pose.x + foot_m * c - drop * s, toe_z = pose.z + foot_m * s + drop * c;
