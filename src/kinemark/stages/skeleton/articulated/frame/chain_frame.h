@@ -9,6 +9,13 @@
 
 namespace kinemark::skeleton::articulated {
 
+/// Of what a joint's centre is the mean, with the variance of all.
+enum class Gathered : char {
+  none,       ///< it is that of the best mode
+  positions,  ///< several modes
+  valley,     ///< the profile of the best mode, which is not Gaussian
+};
+
 /// One of the poses that fit a frame.
 struct ChainMode {
   ChainPose pose;
@@ -26,7 +33,7 @@ struct ChainFrame {
   std::vector<Matrix3d> information;     ///< per joint, 1/m^2, geometry held; any rank
   std::vector<ChainMode> modes;          ///< best first; one when no other was looked for
   int mode_count = 0;                    ///< entries of `modes` in use
-  bool gathered = false;                 ///< some centre is the mean of several modes that lie close together
+  std::vector<Gathered> gathered;        ///< per joint
   int seen = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "kinemark/core/check.h"
@@ -23,10 +24,13 @@ using data::SegmentKind;
 
 // Minima nearer to the best than this many of its SD are part of it.
 constexpr double kNear = 0.5;
-// Several positions count as one when their scatter about their mean is at most kCompact times the variance
-// of the best, and none with a weight that counts lies farther than kFarOff SD from the mean.
-constexpr double kCompact = 1.0;
-constexpr double kFarOff = 3.0;
+// Several positions count as one when they at most triple the variance that the best alone has. Three markers
+// of a segment leave open only its rotation about their line, with no mirrored position: there its SD may be
+// tripled.
+constexpr double kCompact = 2.0;  // variance added over that of the best
+constexpr double kCompactOfWhole = 8.0;
+constexpr double kReach = 5.0;  // SD within which the joint lies, but for a probability that does not count
+constexpr int kHalvings = 20;   // of the interval in which it is sought
 
 }  // namespace
 
@@ -52,7 +56,8 @@ struct ChainSolver::Work {
   void begin(const double* x, ChainFrame& out);
   void describe(const double* x, ChainFrame& out);
   void judge(ChainFrame& out);
-  bool gather(ChainFrame& out, int joint) const;
+  [[nodiscard]] double reach(const ChainFrame& frame, int joint, const Vector3d& mean) const;
+  bool gather(ChainFrame& out, int joint, double most) const;
   bool follow_profile(ChainFrame& out, int joint);
   void reweigh(const double* x, ChainFrame& out);
 };
@@ -64,7 +69,7 @@ void ChainSolver::Work::begin(const double* x, ChainFrame& out) {
   frame_weights = weights;
   out.seen = solver.sums().seen;
   out.mode_count = 0;
-  out.gathered = false;
+  out.gathered.assign(joints, Gathered::none);
   out.state.assign(joints, CentreState::undetermined);
   out.centre.assign(joints, Vector3d::Constant(nan));
   out.covariance.assign(joints, Matrix3d::Constant(nan));
@@ -99,27 +104,53 @@ void ChainSolver::Work::describe(const double* x, ChainFrame& out) {
   }
 }
 
-// Positions that are closer together than the uncertainty of each: their mean, with the variance of all.
-// False when they are apart.
-bool ChainSolver::Work::gather(ChainFrame& out, int joint) const {
+// The distance from `mean` beyond which the joint lies with a probability that does not count any more: each
+// position has the spread of the best one.
+double ChainSolver::Work::reach(const ChainFrame& frame, int joint, const Vector3d& mean) const {
+  const auto beyond = [&](double limit) {
+    double sum = 0.0;
+    for (int i = 0; i < frame.mode_count; ++i) {
+      const Vector3d d = frame.modes[i].centre[joint] - mean;
+      const double far = d.norm();
+      const double spread = std::sqrt(std::max(d.dot(frame.covariance[joint] * d), 0.0));  // times far
+      if (spread > 0.0)
+        sum += frame.modes[i].weight * 0.5 * std::erfc((limit - far) * far / (spread * std::numbers::sqrt2));
+    }
+    return sum;
+  };
+  double near = 0.0, far = kReach * std::sqrt(frame.covariance[joint].trace());
+  for (int i = 0; i < frame.mode_count; ++i)
+    far = std::max(far, (frame.modes[i].centre[joint] - mean).norm() +
+                            kReach * std::sqrt(frame.covariance[joint].trace()));
+  for (int step = 0; step < kHalvings; ++step) {
+    const double middle = 0.5 * (near + far);
+    (beyond(middle) < fit.alternative_max ? far : near) = middle;
+  }
+  return far;
+}
+
+// Several positions as one: their mean, with the variance of all, wide enough that kReach SD leave out none
+// whose weight counts. False when that is more than `most` times what the best alone has.
+bool ChainSolver::Work::gather(ChainFrame& out, int joint, double most) const {
   Vector3d mean = Vector3d::Zero();
   for (int i = 0; i < out.mode_count; ++i) mean += out.modes[i].weight * out.modes[i].centre[joint];
   Matrix3d between = Matrix3d::Zero();
+  Vector3d farthest = Vector3d::Zero();
   for (int i = 0; i < out.mode_count; ++i) {
     const Vector3d d = out.modes[i].centre[joint] - mean;
     between += out.modes[i].weight * d * d.transpose();
+    if (out.modes[i].weight >= fit.alternative_max && d.norm() > farthest.norm()) farthest = d;
   }
-  if (between.trace() > kCompact * out.covariance[joint].trace()) return false;
-  const double farthest = kFarOff * std::sqrt((out.covariance[joint] + between).trace());
-  double beyond = 0.0;
-  for (int i = 0; i < out.mode_count; ++i)
-    if ((out.modes[i].centre[joint] - mean).norm() > farthest) beyond += out.modes[i].weight;
-  if (beyond >= fit.alternative_max) return false;
+  const double own = out.covariance[joint].trace();
+  const double short_of = std::pow(reach(out, joint, mean) / kReach, 2) - own - between.trace();
+  if (short_of > 0.0 && farthest.norm() > 0.0)
+    between += short_of * farthest.normalized() * farthest.normalized().transpose();
+  if (between.trace() > most * own) return false;
   out.centre[joint] = mean;
   out.covariance[joint] += between;
   out.own_covariance[joint] += between;
   out.information[joint] = out.own_covariance[joint].inverse();
-  out.gathered = true;
+  out.gathered[joint] = Gathered::positions;
   return true;
 }
 
@@ -133,7 +164,7 @@ bool ChainSolver::Work::follow_profile(ChainFrame& out, int joint) {
   out.covariance[joint] += moments->more;
   out.own_covariance[joint] += moments->more;
   out.information[joint] = out.own_covariance[joint].inverse();
-  out.gathered = true;
+  out.gathered[joint] = Gathered::valley;
   return true;
 }
 
@@ -159,7 +190,7 @@ void ChainSolver::Work::judge(ChainFrame& out) {
     const bool whole = std::max(seen(parent), seen(child)) >= 3;
     bool one_position = true;
     if (elsewhere >= fit.alternative_max)
-      one_position = four && gather(out, j);
+      one_position = (four || whole) && gather(out, j, whole ? kCompactOfWhole : kCompact);
     else if (!whole && !profile_is_gaussian(solver, out.modes[0].pose, out.modes[0].cost, j,
                                             out.covariance[j], fit.noise_sd_m))
       one_position = four && follow_profile(out, j);

@@ -168,7 +168,7 @@ TEST(ChainSolver, PositionsThatLieTogetherAreOneWithTheSpreadOfAll) {
   double z2 = 0.0, n = 0.0;
   for (int f = 0; f < 600; ++f) {
     solver.solve(limb.samples.frame(f), nullptr, frame);
-    if (!frame.gathered) continue;
+    if (frame.gathered[0] == Gathered::none) continue;
     EXPECT_EQ(frame.state[0], CentreState::determined);
     const Vector3d error = frame.centre[0] - limb.pose[static_cast<std::size_t>(f)].joint0;
     EXPECT_LT(error.squaredNorm(), 25.0 * frame.covariance[0].trace()) << f;
@@ -179,6 +179,25 @@ TEST(ChainSolver, PositionsThatLieTogetherAreOneWithTheSpreadOfAll) {
   ASSERT_GT(n, 20.0);
   EXPECT_GT(z2 / n, 0.6);
   EXPECT_LT(z2 / n, 1.5);
+}
+
+// Three markers of a segment whose stagger is that of the noise: no frame is left open, the spread of the
+// positions is in the error bar.
+TEST(ChainSolver, AWholeSegmentDeterminesItsJointBesideNoise) {
+  const double noise_m = 0.003;
+  const RandomChain limb = make_random_chain({.frames = 600, .stagger_m = 0.005, .noise_sd_m = noise_m});
+  ChainSolver solver(known_geometry(limb, noise_m));
+  ChainFrame frame;
+  int several = 0, beyond = 0;
+  for (int f = 0; f < 600; ++f) {
+    solver.solve(limb.samples.frame(f), nullptr, frame);
+    EXPECT_EQ(frame.state[0], CentreState::determined) << f;
+    several += frame.gathered[0] == Gathered::positions ? 1 : 0;
+    const Vector3d error = frame.centre[0] - limb.pose[static_cast<std::size_t>(f)].joint0;
+    beyond += error.squaredNorm() > 25.0 * frame.covariance[0].trace() ? 1 : 0;
+  }
+  EXPECT_GT(several, 0);
+  EXPECT_EQ(beyond, 0);
 }
 
 // Centres move with the lab and their covariances rotate with it.

@@ -93,7 +93,9 @@ PosedFrames determined_frames(const ChainSamples& samples, const std::vector<std
       last = frame.modes[0].pose;
       const bool all = std::all_of(frame.state.begin(), frame.state.end(),
                                    [](CentreState s) { return s == CentreState::determined; });
-      if (all && !frame.gathered) poses[at(i)] = last;
+      const bool gathered =
+          std::ranges::any_of(frame.gathered, [](Gathered g) { return g != Gathered::none; });
+      if (all && !gathered) poses[at(i)] = last;
     }
   });
   PosedFrames out;

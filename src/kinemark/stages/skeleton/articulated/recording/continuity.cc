@@ -50,10 +50,10 @@ double squared_distance(const Vector3d& x, const PredictedJoint& path) {
   return d.dot(path.inverse * d);
 }
 
-/// The mode that data and paths prefer together, or -1 when for some open joint another position comes close
-/// to it or the path lies elsewhere.
+/// The mode that data and paths prefer together, or -1 when for some joint that is to be chosen another
+/// position comes close to it or the path lies elsewhere.
 int choose(const FlaggedFrame& flagged, const std::vector<PredictedJoint>& paths,
-           const std::vector<bool>& open, double noise_sd_m) {
+           const std::vector<bool>& chosen, double noise_sd_m) {
   const std::size_t n = flagged.modes.size();
   if (n == 0) return -1;
   std::vector<double> score(n);
@@ -64,7 +64,7 @@ int choose(const FlaggedFrame& flagged, const std::vector<PredictedJoint>& paths
   }
   const auto best = static_cast<std::size_t>(std::ranges::max_element(score) - score.begin());
   for (std::size_t j = 0; j < paths.size(); ++j) {
-    if (!open[j]) continue;
+    if (!chosen[j]) continue;
     if (!paths[j].known) return -1;
     const Vector3d& position = flagged.modes[best].centre[j];
     if (squared_distance(position, paths[j]) > kFarthest) return -1;
@@ -104,19 +104,24 @@ class Bridge {
     const auto k = static_cast<std::size_t>(flagged.frame);
     const std::size_t J = pass_.points.size();
     const auto paths = predict_joints(continuity_, k, fit_.noise_sd_m);
-    std::vector<bool> open(J);
-    for (std::size_t j = 0; j < J; ++j) open[j] = pass_.state[j][k] != CentreState::determined;
+    // Where several positions together determine a joint, the path may still tell them apart.
+    std::vector<bool> open(J), chosen(J);
+    for (std::size_t j = 0; j < J; ++j) {
+      open[j] = pass_.state[j][k] != CentreState::determined;
+      chosen[j] = open[j] || flagged.gathered[j] != 0;
+    }
     const double* x = samples_.frame(flagged.frame);
-    const int mode = has_open_curve(k, open) ? -1 : choose(flagged, paths, open, fit_.noise_sd_m);
+    const int mode = has_open_curve(k, open) ? -1 : choose(flagged, paths, chosen, fit_.noise_sd_m);
     if (mode >= 0) {
       solver_.pose_from_centres(x, flagged.modes[static_cast<std::size_t>(mode)].centre, pose_);
       const double cost = solver_.solve_near(x, pose_, {}, frame_);
       for (std::size_t j = 0; j < J; ++j)
-        if (open[j] && accept(cost, j, paths[j]))
+        if (chosen[j] && accept(cost, j, paths[j]))
           pass_.points[j][k] = {.position = frame_.centre[j], .information = frame_.information[j]};
       return;
     }
-    if (shows_enough(flagged.frame)) fill_in(x, k, paths, open);
+    const bool any_open = std::ranges::find(open, true) != open.end();
+    if (any_open && shows_enough(flagged.frame)) fill_in(x, k, paths, open);
   }
 
  private:

@@ -31,6 +31,7 @@ struct Chunk {
 
 FlaggedFrame flag(std::int64_t f, const ChainFrame& frame) {
   FlaggedFrame out{.frame = f};
+  for (const Gathered g : frame.gathered) out.gathered.push_back(g == Gathered::positions ? 1 : 0);
   const auto count = std::min(static_cast<std::size_t>(frame.mode_count), kModesKept);
   for (std::size_t i = 0; i < count; ++i)
     if (frame.modes[i].weight > kLightest)
@@ -105,7 +106,8 @@ Result<RecordingPass> pass_over(const FittedChain& fit, const ChainSamples& samp
         store_symmetric(pass.covariance[j].data() + 6 * k, frame.covariance[j]);
         store_symmetric(pass.common[j].data() + 6 * k, frame.covariance[j] - frame.own_covariance[j]);
       }
-      if (!all) chunk.flagged.push_back(flag(f, frame));
+      const bool gathered = std::ranges::find(frame.gathered, Gathered::positions) != frame.gathered.end();
+      if (!all || gathered) chunk.flagged.push_back(flag(f, frame));
       // A pose with an undetermined joint is no start for the next frame.
       warm = all && frame.mode_count > 0;
       if (warm) before = frame.modes.front().pose;

@@ -18,10 +18,12 @@ struct FlaggedMode {
   double log_weight = 0.0;       ///< of the frame's probability
 };
 
-/// A frame in which some joint is not determined by the frame's own markers.
+/// A frame in which some joint is not determined by the frame's own markers, or by several positions
+/// together.
 struct FlaggedFrame {
   std::int64_t frame = 0;
   std::vector<FlaggedMode> modes;  ///< best first
+  std::vector<char> gathered;      ///< J, not 0: determined as the mean of several of them
 };
 
 /// A frame's pose, kept for findings about the whole recording.

@@ -31,9 +31,13 @@ TEST(RecordingPass, EveryFrameOfAnyNumberOfThreadsIsTheSolversOwn) {
   for (std::size_t f = 0; f < 60; ++f) {
     solver.solve(limb.samples.frame(static_cast<std::int64_t>(f)), nullptr, frame);
     EXPECT_EQ(one.state[0][f], frame.state[0]) << f;
-    if (frame.state[0] != CentreState::determined) {
+    const bool several = frame.gathered[0] == Gathered::positions;
+    if (several || frame.state[0] != CentreState::determined) {
       ASSERT_LT(flagged, one.flagged.size());
+      EXPECT_EQ(one.flagged[flagged].gathered[0] != 0, several);
       EXPECT_EQ(one.flagged[flagged++].frame, static_cast<std::int64_t>(f));
+    }
+    if (frame.state[0] != CentreState::determined) {
       EXPECT_TRUE(one.points[0][f].information.isZero(0.0)) << "no position of its own";
     } else {
       EXPECT_LT((one.points[0][f].position - frame.centre[0]).norm(), 1e-7);
