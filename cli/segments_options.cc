@@ -22,6 +22,8 @@ void print_segments(const CommonOptions& common, const pipeline::SegmentsOutcome
                   counted(motion.time.frames, "frame")));
   if (const auto assumed = pipeline::assumed_measures(motion); !assumed.empty())
     say(common, fmt::format("Assumed, and carried in the deviations: {}.", assumed));
+  if (const auto noise = pipeline::sample_noise(motion); !noise.empty())
+    say(common, fmt::format("Marker noise behind the deviations, found in the samples: {}.", noise));
   if (!outcome.comparison.empty()) say(common, fmt::format("It {}.", outcome.comparison.summary()));
   if (!outcome.loads.series.empty())
     say(common, fmt::format("Joints: {} of forces, moments and powers, from {} on force plates.",

@@ -10,15 +10,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "acceptance/noise_kinds.h"
 #include "acceptance/path_families.h"
 #include "kinemark/core/parallel.h"
-#include "kinemark/math/difference_smoother.h"
-#include "kinemark/math/digital_filter.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "support/acceptance.h"
@@ -48,73 +46,13 @@ struct Spoiled {
   double three_db_hz = kNaN;
 };
 
-double student(Random& random) {  // three degrees of freedom, variance 1
-  double squares = 0.0;
-  for (int i = 0; i < 3; ++i) squares += std::pow(random.gaussian(), 2);
-  return random.gaussian() / std::sqrt(squares);
-}
-
-// Frequency where the second pass leaves half of the power, by trying: the filter is run on cosines.
-template <class Filter>
-double three_db_of(const Filter& filter, double rate, std::int64_t n) {
-  double low = 0.5, high = 0.45 * rate;
-  for (int i = 0; i < 24; ++i) {
-    const double hz = std::sqrt(low * high);
-    SeriesMatrix wave(n, 1);
-    const std::int64_t middle = n / 2;
-    for (std::int64_t k = 0; k < n; ++k)
-      wave(k, 0) = std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(k - middle) / rate);
-    filter(wave);
-    (wave(middle, 0) > std::sqrt(0.5) ? low : high) = hz;
-  }
-  return std::sqrt(low * high);
-}
-
-Spoiled filtered(const Colour& colour, const SeriesMatrix& noisy, double rate, Random& random) {
-  const std::int64_t n = noisy.rows();
-  const double hz = std::min(random.uniform(6.0, 20.0), 0.35 * rate);
-  const auto filter = [&](SeriesMatrix& x) {
-    if (colour.name == "butterworth") {
-      const auto sections = math::butterworth_lowpass(2, math::two_pass_cutoff(2, hz / rate));
-      for (Eigen::Index k = 0; k < x.cols(); ++k) {
-        std::vector<double> column(x.col(k).begin(), x.col(k).end());
-        math::filter_both_ways(
-            sections, static_cast<int>(std::min<double>(rate, static_cast<double>(x.rows() - 2))), column);
-        for (std::int64_t i = 0; i < x.rows(); ++i) x(i, k) = column[static_cast<std::size_t>(i)];
-      }
-      return;
-    }
-    math::DifferenceSmoother smoother(std::vector<bool>(static_cast<std::size_t>(x.rows()), true),
-                                      colour.name == "spline" ? 3 : 5);
-    if (!smoother.factor(hz / rate)) std::abort();
-    smoother.smooth(x);
-  };
-  Spoiled out{.x = noisy};
-  filter(out.x);
-  for (auto& value : out.x.reshaped()) value = static_cast<float>(value);
-  out.three_db_hz = three_db_of(filter, rate, std::max<std::int64_t>(n, 800));
-  return out;
-}
-
 Spoiled spoiled(const Colour& colour, const SeriesMatrix& path, double sd, double rate, Random& random) {
-  SeriesMatrix x = path;
-  const std::int64_t n = x.rows();
-  if (colour.name.starts_with("ar")) {
-    const double rho = std::atof(colour.name.c_str() + 2), fresh = std::sqrt(1.0 - rho * rho);
-    for (int k = 0; k < 3; ++k) {
-      double e = random.gaussian();
-      for (std::int64_t i = 0; i < n; ++i, e = rho * e + fresh * random.gaussian()) x(i, k) += sd * e;
-    }
-    return {.x = x};
-  }
-  for (std::int64_t i = 0; i < n; ++i) {
-    const bool flickers = colour.name == "flicker" && random.uniform() < 0.02;
-    for (int k = 0; k < 3; ++k) {
-      x(i, k) += sd * (colour.name == "t3" ? student(random) : random.gaussian());
-      if (flickers) x(i, k) += 10.0 * sd * random.gaussian();
-    }
-  }
-  return colour.expect == Expect::filtered ? filtered(colour, x, rate, random) : Spoiled{.x = x};
+  Spoiled out{.x = acceptance::with_noise_of_colour(colour.name, path, sd, random)};
+  if (!acceptance::is_filtered(colour.name)) return out;
+  const double hz = acceptance::draw_cutoff(rate, random);
+  acceptance::low_pass(colour.name, hz, rate, out.x);
+  out.three_db_hz = acceptance::three_db_of(colour.name, hz, rate, path.rows());
+  return out;
 }
 
 struct Judged {

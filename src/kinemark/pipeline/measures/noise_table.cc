@@ -39,6 +39,7 @@ Json noises_json(std::span<const analysis::PathNoise> noises) {
              {"kind", math::to_string(model.kind)},
              {"sd_mm", mm(noise.sd_m())},
              {"found_mm", mm(noise.found_sd_m)}};
+    if (std::isfinite(noise.sample_sd_m)) one["sample_sd_mm"] = mm(noise.sample_sd_m);
     if (noise.stated_sd_m > 0.0) one["stated_mm"] = mm(noise.stated_sd_m);
     if (model.correlation > 0.0) {
       one["correlation"] = json_number(model.correlation);

@@ -64,12 +64,17 @@ struct SegmentsOutcome : JobOutcome {
 /// analysis::compute_segments(); Code::io as Staging.
 [[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
 
+/// "0.02 to 0.3 mm a sample, median 0.1": what markers' samples err by, as deviations have it. Empty: it was
+/// stated, or the markers carry covariances.
+[[nodiscard]] std::string sample_noise(const analysis::SegmentMotion& motion);
+
 /// Measures that are assumed and have a deviation, with it: "MarkerDiameter 14 mm (SD 2)". Empty: none.
 [[nodiscard]] std::string assumed_measures(const analysis::SegmentMotion& motion);
 
-/// "definition", "inputs", "parameters", "comparison" (where the file holds outputs), "angles", "loads",
-/// "steps" (on plates), "cross_talk" (a list of "name", "correlation", "varus_deg", "flexion_deg",
-/// "suspicious", "sentence"), "static_trial", "written", "warnings".
+/// "definition", "inputs", "parameters", "noise" (noises_json(), where it was found), "comparison" (where the
+/// file holds outputs), "angles", "loads", "steps" (on plates), "cross_talk" (a list of "name",
+/// "correlation", "varus_deg", "flexion_deg", "suspicious", "sentence"), "static_trial", "written",
+/// "warnings".
 [[nodiscard]] nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome);
 
 }  // namespace kinemark::pipeline

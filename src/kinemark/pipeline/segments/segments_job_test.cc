@@ -12,6 +12,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
@@ -107,6 +108,9 @@ TEST_F(SegmentsJobTest, WritesAnglesWithDeviationsAndStates) {
   const auto outcome = run_segments(job_);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->title, "A knee");
+  EXPECT_THAT(sample_noise(outcome->motion), ::testing::Not(HasSubstr("mm a sample, median")))
+      << "it was stated";
+  EXPECT_FALSE(segments_outcome_json(*outcome).contains("noise"));
   const auto angles = io::read_table(job_.output / "angles.mot");
   const auto sd = io::read_table(job_.output / "angles_sd.sto");
   ASSERT_TRUE(angles && sd);
@@ -122,6 +126,23 @@ TEST_F(SegmentsJobTest, WritesAnglesWithDeviationsAndStates) {
   EXPECT_THAT(csv, HasSubstr("time_s,name,component,value,sd,unit,state\n"));
   EXPECT_THAT(csv, HasSubstr("0.2,knee,flexion,,,deg,missing\n"));
   EXPECT_THAT(csv, ::testing::ContainsRegex("\n0.2,length,,0.(3|29999)[0-9]*,0.0014[0-9]*,m,measured"));
+}
+
+TEST_F(SegmentsJobTest, SaysWhatNoiseDeviationsRestOn) {
+  Random random(5, 1);
+  auto trial = io::read_markers(job_.input).value();
+  for (std::int64_t f = 0; f < 150; ++f)
+    for (std::int64_t m = 0; m < 6; ++m)
+      trial.markers.x(f, m) +=
+          5e-4 * Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+  ASSERT_TRUE(io::write_markers(job_.input, trial, true));
+  const auto outcome = run_segments(job_);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(sample_noise(outcome->motion), HasSubstr("mm a sample, median 0."));
+  EXPECT_THAT(sample_noise(outcome->motion), HasSubstr("mm a sample, median"));
+  const auto json = segments_outcome_json(*outcome);
+  ASSERT_EQ(json["noise"].size(), 6U);
+  EXPECT_NEAR(json["noise"][0]["sample_sd_mm"].get<double>(), 0.5, 0.1);
 }
 
 TEST_F(SegmentsJobTest, WritesCentresAndTheRecordingWithAngles) {

@@ -155,7 +155,8 @@ class LoadFinder {
         tracks_(tracks),
         moved_(moved),
         mechanics_(d, tracks, outputs, options),
-        smooth_(markers_, used_markers(), options.segments.noise_sd_m, options.segments.threads) {}
+        smooth_(markers_, used_markers(), options.segments.noise_sd_m, input.noise,
+                options.segments.threads) {}
 
   JointLoads find() {
     JointLoads out;

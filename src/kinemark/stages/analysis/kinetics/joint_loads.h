@@ -54,9 +54,9 @@ struct JointLoads {
 /// (docs/theory/joint-moments.md).
 ///
 /// Markers are smoothed by the difference smoother at 1.5 times the cut-off of least expected error; where
-/// their differences show no noise, hardly or not at all. Deviations are those of refits: white noise of the
-/// markers and of the plates, through the same smoothing. They know nothing of masses, of where a joint
-/// centre really is, or of skin.
+/// their differences show no noise, hardly or not at all. Deviations are those of refits: noise of the
+/// markers (stated: white; SegmentInput::noise: as it is) and white noise of the plates, through the same
+/// smoothing. They know nothing of masses, of where a joint centre really is, or of skin.
 ///
 /// Code::usage as JointLoadOptions::check(); Code::bad_input for a definition that makes no sense.
 /// Nothing, without a word, where the definition has no joints or there are no plates.

@@ -50,7 +50,7 @@ double noise_of(const data::Trajectories& markers, std::int64_t m, const SeriesM
 }  // namespace
 
 SmoothMarkers::SmoothMarkers(const data::Trajectories& markers, const std::set<std::int64_t>& used,
-                             double noise_sd_m, int threads)
+                             double noise_sd_m, const MarkerNoise* noise, int threads)
     : paths_(markers),
       markers_(used.begin(), used.end()),
       recordings_(markers_.size()),
@@ -59,6 +59,10 @@ SmoothMarkers::SmoothMarkers(const data::Trajectories& markers, const std::set<s
   parallel_for(std::ssize(markers_), 1, threads, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = begin; i < end; ++i) prepare(markers, at(i), noise_sd_m);
   });
+  if (noise_sd_m > 0.0 || !markers.covariance.empty() || noise == nullptr) return;
+  for (std::size_t i = 0; i < markers_.size(); ++i)
+    if (const auto* found = noise->of(markers_[i]); found != nullptr)
+      recordings_[i].noise = std::make_shared<const ColouredNoise>(found->model, found->draws);
 }
 
 data::Trajectories SmoothMarkers::refit(std::uint64_t seed, std::int64_t number) const {
@@ -66,7 +70,7 @@ data::Trajectories SmoothMarkers::refit(std::uint64_t seed, std::int64_t number)
   for (std::size_t i = 0; i < markers_.size(); ++i) {
     const auto& recording = recordings_[i];
     if (recording.x.rows() == 0) continue;
-    SeriesMatrix x = with_noise(path_of(paths_, markers_[i]), recording.seen, recording.noise_sd_m, seed,
+    SeriesMatrix x = with_noise(path_of(paths_, markers_[i]), recording, seed,
                                 static_cast<std::uint64_t>(markers_[i]), number);
     smoothers_[i]->smooth(x);
     set_path(out, markers_[i], x);

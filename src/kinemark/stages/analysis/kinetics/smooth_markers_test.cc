@@ -54,7 +54,7 @@ double error_of(const data::Trajectories& paths, std::int64_t m, std::int64_t fi
 TEST(SmoothMarkers, TakeNoiseOffAndKeepTheMovement) {
   for (std::uint64_t seed = 11; seed < 16; ++seed) {
     const auto markers = path_with(0.001, seed);
-    const SmoothMarkers smooth(markers, {0, 1}, 0.0, 1);
+    const SmoothMarkers smooth(markers, {0, 1}, 0.0, nullptr, 1);
     EXPECT_LT(error_of(smooth.paths(), 0), 0.0006) << seed;
     EXPECT_GT(error_of(markers, 0), 0.0009) << seed;
   }
@@ -64,7 +64,7 @@ TEST(SmoothMarkers, LeaveAMarkerWithoutNoiseAsItIs) {
   auto markers = path_with(0.0, 1);
   // Straight at constant velocity: sixth differences are nothing but rounding.
   for (std::int64_t f = 0; f < kPathFrames; ++f) markers.x(f, 1) = Vector3d(1.0, 2.0, 3.0);
-  const SmoothMarkers smooth(markers, {1}, 0.0, 1);
+  const SmoothMarkers smooth(markers, {1}, 0.0, nullptr, 1);
   for (std::int64_t f = 0; f < kPathFrames; ++f)
     EXPECT_EQ((Vector3d(smooth.paths().x(f, 1)) - Vector3d(1.0, 2.0, 3.0)).norm(), 0.0);
   const auto again = smooth.refit(5, 0);
@@ -73,7 +73,7 @@ TEST(SmoothMarkers, LeaveAMarkerWithoutNoiseAsItIs) {
 
 TEST(SmoothMarkers, LeaveMarkersThatNobodyUsesAsTheyAre) {
   const auto markers = path_with(0.001, 2);
-  const SmoothMarkers smooth(markers, {0}, 0.0, 1);
+  const SmoothMarkers smooth(markers, {0}, 0.0, nullptr, 1);
   for (std::int64_t f = 0; f < kPathFrames; f += 17) {
     EXPECT_EQ((Vector3d(smooth.paths().x(f, 1)) - Vector3d(markers.x(f, 1))).norm(), 0.0);
     EXPECT_GT((Vector3d(smooth.paths().x(f, 0)) - Vector3d(markers.x(f, 0))).norm(), 0.0);
@@ -83,7 +83,7 @@ TEST(SmoothMarkers, LeaveMarkersThatNobodyUsesAsTheyAre) {
 TEST(SmoothMarkers, CrossGapsAndKeepTheirState) {
   auto markers = path_with(0.0005, 3);
   hide(markers, 0, 100, 112);
-  const SmoothMarkers smooth(markers, {0, 1}, 0.0, 1);
+  const SmoothMarkers smooth(markers, {0, 1}, 0.0, nullptr, 1);
   EXPECT_LT(error_of(smooth.paths(), 0, 100, 112), 0.003);
   EXPECT_EQ(smooth.paths().state[smooth.paths().index(105, 0)], State::missing);
 }
@@ -91,14 +91,14 @@ TEST(SmoothMarkers, CrossGapsAndKeepTheirState) {
 TEST(SmoothMarkers, FillGapsWithoutNoiseToo) {
   auto markers = path_with(0.0, 4);
   hide(markers, 0, 100, 104);
-  const SmoothMarkers smooth(markers, {0}, 0.0, 1);
+  const SmoothMarkers smooth(markers, {0}, 0.0, nullptr, 1);
   EXPECT_LT(error_of(smooth.paths(), 0, 100, 104), 0.0005);
 }
 
 TEST(SmoothMarkers, LeaveAMarkerWithFewSamplesAsItIs) {
   auto markers = path_with(0.001, 5);
   hide(markers, 0, 0, 215);
-  const SmoothMarkers smooth(markers, {0}, 0.0, 1);
+  const SmoothMarkers smooth(markers, {0}, 0.0, nullptr, 1);
   EXPECT_TRUE(std::isnan(smooth.paths().x(10, 0).x()));
   EXPECT_EQ((Vector3d(smooth.paths().x(230, 0)) - Vector3d(markers.x(230, 0))).norm(), 0.0);
 }
@@ -108,7 +108,7 @@ TEST(SmoothMarkers, RefitsSpreadAsTheErrorDoes) {
   std::int64_t count = 0;
   for (std::uint64_t seed = 21; seed < 29; ++seed) {
     const auto markers = path_with(0.001, seed);
-    const SmoothMarkers smooth(markers, {0}, 0.0, 1);
+    const SmoothMarkers smooth(markers, {0}, 0.0, nullptr, 1);
     for (std::int64_t k = 0; k < 20; ++k) {
       const auto again = smooth.refit(seed, k);
       for (std::int64_t f = 30; f < 210; f += 30) {
@@ -125,7 +125,7 @@ TEST(SmoothMarkers, RefitsSpreadAsTheErrorDoes) {
 
 TEST(SmoothMarkers, RefitsDependOnSeedAndNumberAlone) {
   const auto markers = path_with(0.001, 6);
-  const SmoothMarkers one(markers, {0, 1}, 0.0, 1), two(markers, {0, 1}, 0.0, 2);
+  const SmoothMarkers one(markers, {0, 1}, 0.0, nullptr, 1), two(markers, {0, 1}, 0.0, nullptr, 2);
   const auto at_frame = [](const data::Trajectories& t) -> Vector3d { return t.x(77, 0); };
   EXPECT_EQ(at_frame(one.refit(1, 4)), at_frame(two.refit(1, 4)));
   EXPECT_NE(at_frame(one.refit(1, 4)), at_frame(one.refit(1, 5)));
@@ -146,13 +146,31 @@ TEST(SmoothMarkers, TakeNoiseThatIsStatedOrThatTheFileCarries) {
       sum += (Vector3d(smooth.refit(1, k).x(120, 0)) - Vector3d(smooth.paths().x(120, 0))).squaredNorm();
     return std::sqrt(sum / 90.0);
   };
-  const double found = deviation(SmoothMarkers(markers, {0}, 0.0, 1));
-  const double stated = deviation(SmoothMarkers(markers, {0}, 0.004, 1));
+  const double found = deviation(SmoothMarkers(markers, {0}, 0.0, nullptr, 1));
+  const double stated = deviation(SmoothMarkers(markers, {0}, 0.004, nullptr, 1));
   EXPECT_GT(stated, 1.5 * found);
   markers.covariance.assign(6 * markers.state.size(), 0.0);
   for (std::size_t i = 0; i < markers.state.size(); ++i)
     math::pack_symmetric3(Matrix3d(0.004 * 0.004 * Matrix3d::Identity()), &markers.covariance[6 * i]);
-  EXPECT_NEAR(deviation(SmoothMarkers(markers, {0}, 0.0, 1)), stated, 1e-12);
+  EXPECT_NEAR(deviation(SmoothMarkers(markers, {0}, 0.0, nullptr, 1)), stated, 1e-12);
+}
+
+TEST(SmoothMarkers, RefitsCarryTheColourOfTheNoise) {
+  const auto markers = path_with(0.001, 9);
+  auto noise = MarkerNoise::find(markers, {0}, 1, 1);
+  ASSERT_NE(noise.of(0), nullptr);
+  const auto spread_of = [&](const MarkerNoise* of) {
+    const SmoothMarkers smooth(markers, {0}, 0.0, of, 1);
+    double squares = 0.0;
+    for (std::int64_t k = 0; k < 20; ++k) {
+      const auto refit = smooth.refit(1, k);
+      for (std::int64_t f = 0; f < markers.frames(); ++f)
+        squares += (refit.x(f, 0) - smooth.paths().x(f, 0)).squaredNorm();
+    }
+    return squares;
+  };
+  // White noise either way: the same spread, by other draws.
+  EXPECT_NEAR(std::log(spread_of(&noise) / spread_of(nullptr)), 0.0, 0.2);
 }
 
 }  // namespace

@@ -42,8 +42,9 @@ struct PathNoise {
   double stated_sd_m = 0.0;                     ///< what was stated; 0: nothing
   double found_sd_m = kNaN;                     ///< what the samples say by themselves; NaN: nothing
   double rounding_step_m = 0.0;                 ///< of the values; 0: none is seen
-  NoiseRange slow_sd_m;                         ///< of what lies between 0.2 and 2 Hz, 10, 50 and 90 %
-  NoiseRange cutoff_hz;                         ///< -3 dB of the filter, 2.5, 50 and 97.5 %; NaN: none
+  double sample_sd_m = kNaN;  ///< of a sample as it was recorded, behind any filter; NaN: not asked for
+  NoiseRange slow_sd_m;       ///< of what lies between 0.2 and 2 Hz, 10, 50 and 90 %
+  NoiseRange cutoff_hz;       ///< -3 dB of the filter, 2.5, 50 and 97.5 %; NaN: none
   double above_hz = kNaN;     ///< frequency from which the model describes the samples; NaN: none
   std::int64_t outliers = 0;  ///< samples left out: single frames far from their neighbours
 

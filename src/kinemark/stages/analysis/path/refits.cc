@@ -160,6 +160,15 @@ SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen,
   return out;
 }
 
+SeriesMatrix with_noise(const SeriesMatrix& path, const Recording& recording, std::uint64_t seed,
+                        std::uint64_t stream, std::int64_t number) {
+  const Noise noise = noise_of(recording, seed, stream);
+  if (noise.coloured == nullptr) return with_noise(path, recording.seen, noise.sd, seed, stream, number);
+  SeriesMatrix alone = SeriesMatrix::Zero(path.rows(), path.cols());
+  add_coloured(alone, 0, path.cols(), noise, number, nullptr);
+  return path + alone;
+}
+
 double noise_let_through(const Recording& recording, std::int64_t number) {
   const auto& draws = recording.noise->draws;
   const auto& model = draws[at(number % std::ssize(draws))];

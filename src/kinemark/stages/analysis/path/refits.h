@@ -89,4 +89,9 @@ void for_each_refit(const Recording& recording, const SeriesMatrix& path, std::i
 [[nodiscard]] SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen, double sd,
                                       std::uint64_t seed, std::uint64_t stream, std::int64_t number);
 
+/// Noise of the recording, white or coloured, added to seen samples of a path that is not filtered again.
+/// That of number k comes from stream (stream, k) of the seed.
+[[nodiscard]] SeriesMatrix with_noise(const SeriesMatrix& path, const Recording& recording,
+                                      std::uint64_t seed, std::uint64_t stream, std::int64_t number);
+
 }  // namespace kinemark::analysis

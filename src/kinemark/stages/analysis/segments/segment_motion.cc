@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "kinemark/core/parallel.h"
-#include "kinemark/math/smoothing_choice.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/analysis/segments/internal/lacks.h"
 #include "kinemark/stages/analysis/segments/internal/subject.h"
@@ -28,6 +27,7 @@ using internal::TrialMarkers;
 using State = data::SampleState;
 
 constexpr std::int64_t kGrain = 16;
+constexpr std::uint64_t kNoiseSeed = 1;
 
 /// Where an output goes.
 struct Target {
@@ -36,27 +36,17 @@ struct Target {
   std::size_t size = 3;             ///< components
 };
 
-double sd_from_differences(const data::Trajectories& markers, std::int64_t m) {
-  math::SeriesMatrix x(markers.frames(), 3);
-  std::vector<bool> seen(static_cast<std::size_t>(markers.frames()));
-  for (std::int64_t f = 0; f < markers.frames(); ++f) {
-    seen[static_cast<std::size_t>(f)] = markers.present(f, m);
-    x.row(f) = markers.present(f, m) ? Vector3d(markers.x(f, m)) : Vector3d(Vector3d::Zero());
-  }
-  return math::noise_from_differences(x, seen);
-}
-
 /// Square roots of the inputs' covariances.
 class InputNoise {
  public:
   InputNoise(const SegmentGraph& graph, const std::vector<std::int64_t>& marker_idx,
-             const data::Trajectories& markers, const Subject& subject, double noise_sd_m)
+             const data::Trajectories& markers, const Subject& subject, const MarkerNoise* found,
+             double noise_sd_m)
       : markers_(markers), marker_idx_(marker_idx) {
-    if (noise_sd_m > 0.0) {
+    if (noise_sd_m > 0.0)
       sd_.assign(marker_idx.size(), noise_sd_m);
-    } else if (markers.covariance.empty()) {
-      for (const auto m : marker_idx) sd_.push_back(sd_from_differences(markers, m));
-    }
+    else if (found != nullptr)
+      for (const auto m : marker_idx) sd_.push_back(found->sample_sd_m(m));
     // Constant errors are shifts of the whole subject.
     for (const auto& name : graph.parameters) {
       const auto& used = subject.parameters.at(name);
@@ -89,7 +79,8 @@ class InputNoise {
 class Run {
  public:
   Run(const SegmentGraph& graph, const TrialMarkers& trial, const Subject& subject,
-      const std::vector<SubjectShift>& shifts, std::vector<Target> targets, const SegmentOptions& options)
+      const std::vector<SubjectShift>& shifts, std::vector<Target> targets, const MarkerNoise* noise,
+      const SegmentOptions& options)
       : graph_(graph),
         markers_(trial.markers()),
         subject_(subject),
@@ -97,7 +88,7 @@ class Run {
         shifts_(shifts),
         deviations_(options.deviations),
         marker_idx_(internal::indices_of(graph, trial)),
-        noise_(graph, marker_idx_, markers_, subject, options.noise_sd_m),
+        noise_(graph, marker_idx_, markers_, subject, noise, options.noise_sd_m),
         touched_(static_cast<std::size_t>(graph.inputs())) {
     for (std::size_t t = 0; t < targets_.size(); ++t)
       for (const int input : graph.steps[static_cast<std::size_t>(graph.outputs[t])].inputs)
@@ -384,7 +375,14 @@ Result<SegmentMotion> compute_segments(const SegmentDefinition& definition, cons
     if (!found) return std::unexpected(found.error());
     shifts = std::move(*found);
   }
-  const Run run(*graph, trial, *subject, shifts, std::move(targets), options);
+  if (options.deviations && options.noise_sd_m == 0.0 && markers.covariance.empty()) {
+    const auto used = internal::indices_of(*graph, trial);
+    out.noise = input.noise != nullptr
+                    ? *input.noise
+                    : MarkerNoise::find(markers, {used.begin(), used.end()}, kNoiseSeed, options.threads);
+  }
+  const Run run(*graph, trial, *subject, shifts, std::move(targets), out.noise ? &*out.noise : nullptr,
+                options);
   parallel_for(markers.frames(), kGrain, options.threads,
                [&](std::int64_t begin, std::int64_t end) { run.frames(begin, end, out.points); });
   for (const auto& [name, used] : subject->parameters) out.parameters.push_back(used);

@@ -14,6 +14,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/analysis/path/marker_noise.h"
 #include "kinemark/stages/analysis/segments/segment_definition.h"
 
 namespace kinemark::analysis {
@@ -36,13 +37,14 @@ struct SegmentInput {
   std::vector<SubjectValue> known;                          ///< of files; the first of a name counts
   /// Names of points as files have them, by those that formulas have: LFEO is LFE_MO.
   std::map<std::string, std::string> aliases;
-  bool zeros_doubtful = false;  ///< the laboratory measures offsets: a file's 0 has `assumed_sd`
+  bool zeros_doubtful = false;         ///< the laboratory measures offsets: a file's 0 has `assumed_sd`
+  const MarkerNoise* noise = nullptr;  ///< of `markers`; null: found where deviations need it
 };
 
 /// How segments are computed.
 struct SegmentOptions {
-  /// Of each marker and axis, m; 0: the markers' covariance where they carry one, else found from their
-  /// differences.
+  /// Of each marker's samples and axis, m; 0: the markers' covariance where they carry one, else
+  /// SegmentInput::noise.
   double noise_sd_m = 0.0;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< axis of the laboratory against gravity
   int threads = 1;                                ///< 0: all cores; any number gives the same bits
@@ -96,12 +98,14 @@ struct SegmentMotion {
   std::vector<SegmentSeries> values;      ///< that could be computed
   data::Trajectories points;              ///< model_filled (interpolated where a marker was), with covariance
   std::vector<UsedParameter> parameters;  ///< all that have a value
+  std::optional<MarkerNoise> noise = {};  ///< of the markers that were used, where deviations rest on it
   std::vector<std::string> warnings;  ///< what could not be computed and why; gimbal lock; one sentence each
 };
 
 /// Segments, points and angles in every frame. Where a marker that one needs is missing, it is missing.
 ///
-/// Deviations follow from those of the markers, taken as independent of each other, and of measured
+/// Deviations follow from those of the markers' samples (MarkerNoise: noise of any colour, also of what was
+/// filtered), taken as independent of each other, and of measured
 /// parameters, by differences over sqrt(3) deviations in each direction with the second-order term (Norgaard
 /// et al. 2000, the divided-difference form of the unscented rule): exact for what is quadratic in a marker,
 /// which the chord function nearly is. They know nothing of skin that moves or of a wrong knee width.

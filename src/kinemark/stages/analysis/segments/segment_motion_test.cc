@@ -180,6 +180,37 @@ TEST(SegmentMotion, HasTheDeviationsThatNoiseMakes) {
   }
 }
 
+// Noise of neighbouring samples alike has next to nothing in their differences.
+TEST(SegmentMotion, NoiseThatIsCorrelatedIsInTheDeviations) {
+  constexpr std::int64_t frames = 600;
+  const auto clean = movement(frames);
+  auto noisy = clean;
+  Random random(33, 1);
+  constexpr double sd = 0.001, rho = 0.8;
+  for (std::int64_t m = 0; m < 6; ++m) {
+    Vector3d e = Vector3d::Zero();
+    for (std::int64_t f = 0; f < frames; ++f) {
+      e = rho * e +
+          std::sqrt(1.0 - rho * rho) * Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
+      noisy.x(f, m) += sd * e;
+    }
+  }
+  const auto truth = compute_segments(two_segments(), {.markers = &clean}, {.deviations = false});
+  const auto motion = compute_segments(two_segments(), {.markers = &noisy});
+  ASSERT_TRUE(truth && motion);
+  ASSERT_TRUE(motion->noise);
+  EXPECT_FALSE(truth->noise);
+  double squares = 0.0, stated = 0.0;
+  for (std::size_t i = 0; i < motion->angles[0].value.size(); ++i) {
+    squares += std::pow(motion->angles[0].value[i] - truth->angles[0].value[i], 2);
+    stated += std::pow(motion->angles[0].sd[i], 2);
+  }
+  EXPECT_NEAR(std::sqrt(stated / squares), 1.0, 0.25);
+  const auto handed = compute_segments(two_segments(), {.markers = &noisy, .noise = &*motion->noise});
+  ASSERT_TRUE(handed);
+  EXPECT_EQ(handed->angles[0].sd[300], motion->angles[0].sd[300]);
+}
+
 TEST(SegmentMotion, TakesTheMarkersCovarianceOrFindsTheirNoise) {
   auto markers = movement(300);
   Random random(32, 1);

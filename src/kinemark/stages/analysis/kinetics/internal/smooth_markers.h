@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/analysis/path/marker_noise.h"
 #include "kinemark/stages/analysis/path/refits.h"
 
 namespace kinemark::analysis::internal {
@@ -18,10 +19,12 @@ namespace kinemark::analysis::internal {
 class SmoothMarkers {
  public:
   /// @param used        indices of the markers that are smoothed
-  /// @param noise_sd_m  per axis; 0: the markers' covariance where they carry one, else from differences
+  /// @param noise_sd_m  per axis; 0: the markers' covariance where they carry one, else from differences for
+  ///                    the choice of the smoother, and for refits from `noise`
+  /// @param noise       of the markers, of any colour; null: white
   /// @param threads     0: all cores
   SmoothMarkers(const data::Trajectories& markers, const std::set<std::int64_t>& used, double noise_sd_m,
-                int threads);
+                const MarkerNoise* noise, int threads);
 
   /// Positions in all frames, in gaps the most probable ones; states are the recording's.
   [[nodiscard]] const data::Trajectories& paths() const { return paths_; }
