@@ -222,18 +222,18 @@ void report(const std::string& family, const std::vector<std::vector<Judged>>& a
       if (judged.inside >= 0) inside += judged.inside, known += 1.0;
     }
     bias /= count, raw /= count;
-    if (definition.instant && known < 10.0) continue;  // other instants are nearly as extreme
+    const bool instant = definition.is_instant() && definition.scope == analysis::BodyScope::coordinate;
+    if (instant && known < 10.0) continue;  // other instants are nearly as extreme
     const double sd = std::sqrt(std::max(1e-30, squares / count - bias * bias));
     if (sd < 1e-12) continue;  // nothing that errs is in it
     const double coverage = known > 0.0 ? 100.0 * inside / known : 0.0;
     const double from = approximate ? std::min(least, 80.0) : least, to = approximate ? 100.0 : most;
-    const bool unbiased =
-        definition.instant || std::abs(bias) <= std::max(0.3 * sd, 0.1 * std::abs(raw)) + 1e-9;
+    const bool unbiased = instant || std::abs(bias) <= std::max(0.3 * sd, 0.1 * std::abs(raw)) + 1e-9;
     print_row(known > 0.0 && coverage >= from && coverage <= to && unbiased,
               fmt::format("{}: {}", family, definition.what.id),
               fmt::format("covers {:g} to {:g} %, bias <= 0.1 of the raw one or 0.3 SD", from, to),
-              fmt::format("{:.1f} % of {:.0f}, bias {:.2f} SD, raw {:.2f} SD", coverage, known, bias / sd,
-                          raw / sd));
+              fmt::format("{:.1f} % of {:.0f} (given in {:.0f} %), bias {:.2f} SD, raw {:.2f} SD", coverage,
+                          known, 100.0 * known / count, bias / sd, raw / sd));
   }
 }
 

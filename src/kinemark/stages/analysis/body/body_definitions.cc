@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinemark/stages/analysis/body/balance.h"
 #include "kinemark/stages/analysis/body/coupling.h"
@@ -14,6 +15,7 @@ namespace kinemark::analysis {
 namespace {
 
 using data::Quantity;
+using Eigen::VectorXd;
 using View = const BodyView&;
 
 constexpr std::string_view kJoint = "joint", kCoupling = "coupling", kBody = "body";
@@ -23,19 +25,17 @@ constexpr std::string_view kChang = "Chang, Van Emmerik & Hamill 2008";
 constexpr std::string_view kHof = "Hof, Gazendam & Sinke 2005";
 constexpr std::string_view kHerr = "Herr & Popovic 2008";
 
-double minimum(View v) { return v.of(v.series.q, v.a).minCoeff(); }
-double maximum(View v) { return v.of(v.series.q, v.a).maxCoeff(); }
-
-// s from the beginning of the stretch.
-double seconds(View v, Eigen::Index frame) { return static_cast<double>(frame) / v.record.time.rate_hz; }
+VectorXd angle(View v) { return v.of(v.series.q, v.a); }
+VectorXd velocity(View v) { return v.of(v.series.v, v.a); }
+VectorXd acceleration(View v) { return v.of(v.series.a, v.a); }
 
 // Kinetics of the stretch, over mass where that is asked for.
 double per_mass(View v, double value) { return v.normalized ? value / v.record.mass_kg : value; }
-Eigen::VectorXd power(View v) { return v.of(v.series.tau, v.a).cwiseProduct(v.of(v.series.v, v.a)); }
+VectorXd power(View v) { return v.of(v.series.tau, v.a).cwiseProduct(v.of(v.series.v, v.a)); }
 
 // Time integral of the part of the power that has the sign; 0: all of it. Trapezoids.
 double work(View v, int sign) {
-  Eigen::VectorXd p = power(v);
+  VectorXd p = power(v);
   if (!p.allFinite()) return kNaN;
   if (sign > 0) p = p.cwiseMax(0.0);
   if (sign < 0) p = p.cwiseMin(0.0);
@@ -43,9 +43,14 @@ double work(View v, int sign) {
   return per_mass(v, (p.sum() - ends) / v.record.time.rate_hz);
 }
 
-// The largest and the smallest value, NaN where one is not known.
-double largest(const Eigen::VectorXd& x) { return x.allFinite() ? x.maxCoeff() : kNaN; }
-double smallest(const Eigen::VectorXd& x) { return x.allFinite() ? x.minCoeff() : kNaN; }
+// Nothing where a value is not known.
+VectorXd if_known(VectorXd x) { return x.allFinite() ? std::move(x) : VectorXd(); }
+VectorXd over_mass(View v, VectorXd x) {
+  if (v.normalized) x /= v.record.mass_kg;
+  return if_known(std::move(x));
+}
+VectorXd moments(View v) { return over_mass(v, v.of(v.series.tau, v.a)); }
+VectorXd powers(View v) { return over_mass(v, power(v)); }
 
 double share(View v, std::size_t pattern) {
   return coordination_shares(v.of(v.series.q, v.a), v.of(v.series.q, v.b))[pattern];
@@ -54,22 +59,18 @@ double share(View v, std::size_t pattern) {
 bool has_centre(View v) { return v.series.centre.rows() > 0; }
 auto centre(View v) { return v.series.centre.middleRows(v.first, v.count); }
 
-Eigen::VectorXd level_speed(View v) {
+VectorXd level_speed(View v) {
   const auto level = level_of(v.record.up);
-  Eigen::VectorXd out(v.count);
+  VectorXd out(v.count);
   for (std::int64_t f = 0; f < v.count; ++f) out[f] = level(v.series.centre_velocity.row(v.first + f)).norm();
   return out;
 }
 
-double vertical_range(View v) {
-  if (!has_centre(v)) return kNaN;
-  const Eigen::VectorXd height = centre(v) * v.record.up;
-  return height.maxCoeff() - height.minCoeff();
-}
+VectorXd heights(View v) { return has_centre(v) ? VectorXd(centre(v) * v.record.up) : VectorXd(); }
 
-double peak_speed(View v) {
-  return has_centre(v) ? v.series.centre_velocity.middleRows(v.first, v.count).rowwise().norm().maxCoeff()
-                       : kNaN;
+VectorXd speeds(View v) {
+  if (!has_centre(v)) return {};
+  return v.series.centre_velocity.middleRows(v.first, v.count).rowwise().norm();
 }
 
 // Mass, mean speed and mean height of the mass centre: what an angular momentum is compared with.
@@ -84,45 +85,49 @@ double momentum_scale(View v) {
   return std::isfinite(height) ? v.record.mass_kg * speed * height : kNaN;
 }
 
-double momentum_range(View v, Eigen::Index axis) {
-  if (v.series.momentum.rows() == 0) return kNaN;
-  const auto l = v.series.momentum.col(axis).segment(v.first, v.count);
-  return (l.maxCoeff() - l.minCoeff()) / momentum_scale(v);
+VectorXd momentum(View v, Eigen::Index axis) {
+  if (v.series.momentum.rows() == 0) return {};
+  return if_known(v.series.momentum.col(axis).segment(v.first, v.count) / momentum_scale(v));
+}
+VectorXd momentum_size(View v) {
+  if (v.series.momentum.rows() == 0) return {};
+  return if_known(v.series.momentum.middleRows(v.first, v.count).rowwise().norm() / momentum_scale(v));
 }
 
-// Smallest and mean of the frames in which something stands.
-double least_of(const Eigen::VectorXd& margins) {
-  double out = kNaN;
-  for (const double m : margins)
-    if (!std::isnan(m) && !(m >= out)) out = m;
-  return out;
-}
-double mean_of(const Eigen::VectorXd& margins) {
+// Of the frames in which something stands.
+double mean_of(const VectorXd& margins) {
   double sum = 0.0, count = 0.0;
   for (const double m : margins)
     if (!std::isnan(m)) sum += m, count += 1.0;
   return count > 0.0 ? sum / count : kNaN;
 }
-Eigen::VectorXd margins(View v) { return stability_margins(v.series, v.record, v.contact, v.first, v.count); }
+VectorXd margins(View v) { return stability_margins(v.series, v.record, v.contact, v.first, v.count); }
 
 constexpr BodyDefinition of_coordinate(std::string_view id, Quantity quantity, std::string_view title,
-                                       std::string_view formula, double (*value)(View), int sign = 0,
-                                       bool instant = false, int extreme = 0, bool approximate = false) {
+                                       std::string_view formula, Pick pick, VectorXd (*curve)(View),
+                                       int sign = 0, bool approximate = true) {
   return {.what = {id, kJoint, quantity, title, formula, kDefinition},
           .scope = BodyScope::coordinate,
           .sign = sign,
-          .extreme = extreme,
-          .instant = instant,
           .approximate = approximate,
-          .value = value};
+          .pick = pick,
+          .curve = curve};
 }
 constexpr BodyDefinition of_torque(std::string_view id, Quantity quantity, std::string_view title,
-                                   std::string_view formula, double (*value)(View), int sign = 0) {
+                                   std::string_view formula, Pick pick, VectorXd (*curve)(View)) {
   return {.what = {id, kJoint, quantity, title, formula, kWinter},
           .scope = BodyScope::torque,
+          .approximate = true,
+          .pick = pick,
+          .curve = curve};
+}
+constexpr BodyDefinition of_work(std::string_view id, std::string_view title, std::string_view formula,
+                                 double (*value)(View), int sign) {
+  return {.what = {id, kJoint, Quantity::energy, title, formula, kWinter},
+          .scope = BodyScope::torque,
           .sign = sign,
-          .approximate = id != "joint_work_net",
-          .value = value};
+          .approximate = sign != 0,
+          .formula = value};
 }
 constexpr BodyDefinition of_pair(std::string_view id, Quantity quantity, std::string_view title,
                                  std::string_view formula, std::string_view source, double (*value)(View),
@@ -131,7 +136,7 @@ constexpr BodyDefinition of_pair(std::string_view id, Quantity quantity, std::st
           .scope = BodyScope::pair,
           .turns = turns,
           .approximate = true,
-          .value = value};
+          .formula = value};
 }
 constexpr BodyDefinition of_body(std::string_view id, Quantity quantity, std::string_view title,
                                  std::string_view formula, std::string_view source, BodyScope scope,
@@ -140,57 +145,49 @@ constexpr BodyDefinition of_body(std::string_view id, Quantity quantity, std::st
           .scope = scope,
           .sign = sign,
           .approximate = sign > 0 || scope == BodyScope::support,
-          .value = value};
+          .formula = value};
+}
+constexpr BodyDefinition of_body(std::string_view id, Quantity quantity, std::string_view title,
+                                 std::string_view formula, std::string_view source, BodyScope scope,
+                                 Pick pick, VectorXd (*curve)(View), int sign) {
+  return {.what = {id, kBody, quantity, title, formula, source},
+          .scope = scope,
+          .sign = sign,
+          .approximate = sign > 0 || scope == BodyScope::support,
+          .pick = pick,
+          .curve = curve};
 }
 
 constexpr std::array kDefinitions{
-    of_coordinate(
-        "joint_range", Quantity::angle, "Range of motion", "largest less smallest value",
-        [](View v) { return maximum(v) - minimum(v); }, 1, false, 1, true),
-    of_coordinate("joint_minimum", Quantity::angle, "Smallest value", "min q", minimum, 0, false, -1, true),
-    of_coordinate(
-        "joint_minimum_time", Quantity::time, "Time of the smallest value",
-        "from the beginning of the stretch",
-        [](View v) {
-          Eigen::Index frame = 0;
-          v.of(v.series.q, v.a).minCoeff(&frame);
-          return seconds(v, frame);
-        },
-        0, true),
-    of_coordinate("joint_maximum", Quantity::angle, "Largest value", "max q", maximum, 0, false, 1, true),
-    of_coordinate(
-        "joint_maximum_time", Quantity::time, "Time of the largest value",
-        "from the beginning of the stretch",
-        [](View v) {
-          Eigen::Index frame = 0;
-          v.of(v.series.q, v.a).maxCoeff(&frame);
-          return seconds(v, frame);
-        },
-        0, true),
-    of_coordinate("joint_mean", Quantity::angle, "Mean value", "mean q",
-                  [](View v) { return v.of(v.series.q, v.a).mean(); }),
-    of_coordinate(
-        "joint_peak_velocity", Quantity::angular_velocity, "Peak velocity", "max |dq/dt|",
-        [](View v) { return v.of(v.series.v, v.a).cwiseAbs().maxCoeff(); }, 1, false, 0, true),
-    of_coordinate(
-        "joint_peak_acceleration", Quantity::angular_acceleration, "Peak acceleration", "max |d2q/dt2|",
-        [](View v) { return v.of(v.series.a, v.a).cwiseAbs().maxCoeff(); }, 1),
-    of_torque("joint_moment_maximum", Quantity::moment, "Largest moment", "max tau",
-              [](View v) { return per_mass(v, largest(v.of(v.series.tau, v.a))); }),
-    of_torque("joint_moment_minimum", Quantity::moment, "Smallest moment", "min tau",
-              [](View v) { return per_mass(v, smallest(v.of(v.series.tau, v.a))); }),
+    of_coordinate("joint_range", Quantity::angle, "Range of motion", "largest less smallest value",
+                  Pick::range, angle, 1),
+    of_coordinate("joint_minimum", Quantity::angle, "Smallest value", "min q", Pick::smallest, angle),
+    of_coordinate("joint_minimum_time", Quantity::time, "Time of the smallest value",
+                  "from the beginning of the stretch", Pick::time_of_smallest, angle),
+    of_coordinate("joint_maximum", Quantity::angle, "Largest value", "max q", Pick::largest, angle),
+    of_coordinate("joint_maximum_time", Quantity::time, "Time of the largest value",
+                  "from the beginning of the stretch", Pick::time_of_largest, angle),
+    BodyDefinition{.what = {"joint_mean", kJoint, Quantity::angle, "Mean value", "mean q", kDefinition},
+                   .formula = [](View v) { return v.of(v.series.q, v.a).mean(); }},
+    of_coordinate("joint_peak_velocity", Quantity::angular_velocity, "Peak velocity", "max |dq/dt|",
+                  Pick::size, velocity, 1),
+    of_coordinate("joint_peak_acceleration", Quantity::angular_acceleration, "Peak acceleration",
+                  "max |d2q/dt2|", Pick::size, acceleration, 1, false),
+    of_torque("joint_moment_maximum", Quantity::moment, "Largest moment", "max tau", Pick::largest, moments),
+    of_torque("joint_moment_minimum", Quantity::moment, "Smallest moment", "min tau", Pick::smallest,
+              moments),
     of_torque("joint_power_maximum", Quantity::power, "Largest power generated", "max tau dq/dt",
-              [](View v) { return per_mass(v, largest(power(v))); }),
+              Pick::largest, powers),
     of_torque("joint_power_minimum", Quantity::power, "Largest power absorbed", "min tau dq/dt",
-              [](View v) { return per_mass(v, smallest(power(v))); }),
-    of_torque(
-        "joint_work_positive", Quantity::energy, "Positive work", "integral of max(0, tau dq/dt)",
+              Pick::smallest, powers),
+    of_work(
+        "joint_work_positive", "Positive work", "integral of max(0, tau dq/dt)",
         [](View v) { return work(v, 1); }, 1),
-    of_torque(
-        "joint_work_negative", Quantity::energy, "Negative work", "integral of min(0, tau dq/dt)",
+    of_work(
+        "joint_work_negative", "Negative work", "integral of min(0, tau dq/dt)",
         [](View v) { return work(v, -1); }, -1),
-    of_torque("joint_work_net", Quantity::energy, "Net work", "integral of tau dq/dt",
-              [](View v) { return work(v, 0); }),
+    of_work(
+        "joint_work_net", "Net work", "integral of tau dq/dt", [](View v) { return work(v, 0); }, 0),
     of_pair(
         "relative_phase", Quantity::angle, "Continuous relative phase",
         "circular mean of phase(first) - phase(second) by the analytic signal; positive: the first leads",
@@ -199,12 +196,20 @@ constexpr std::array kDefinitions{
     of_pair("phase_locking", Quantity::ratio, "Phase locking",
             "length of the mean vector of the relative phase, 0 to 1", "Lachaux et al. 1999",
             [](View v) { return relative_phase(v.of(v.series.q, v.a), v.of(v.series.q, v.b)).locking; }),
-    of_pair("coupling_lag", Quantity::time, "Lag of the best cross-correlation",
-            "of the second behind the first, up to a quarter of the stretch", "Li & Caldwell 1999",
+    BodyDefinition{
+        .what = {"coupling_lag", kCoupling, Quantity::time, "Lag of the best cross-correlation",
+                 "of the second behind the first, up to a quarter of the stretch", "Li & Caldwell 1999"},
+        .scope = BodyScope::pair,
+        .approximate = true,
+        .pick = Pick::time_of_largest,
+        .curve = [](View v) -> VectorXd {
+          return correlations(v.of(v.series.q, v.a), v.of(v.series.q, v.b)).cwiseAbs();
+        },
+        .formula =
             [](View v) {
               return cross_correlation(v.of(v.series.q, v.a), v.of(v.series.q, v.b)).lag /
                      v.record.time.rate_hz;
-            }),
+            }},
     of_pair(
         "coupling_correlation", Quantity::ratio, "Correlation at that lag", "Pearson's", "Li & Caldwell 1999",
         [](View v) { return cross_correlation(v.of(v.series.q, v.a), v.of(v.series.q, v.b)).correlation; }),
@@ -218,17 +223,16 @@ constexpr std::array kDefinitions{
     of_pair("coupling_second", Quantity::share, "The second alone",
             "share of steps within 22.5 deg of 90 deg", kChang, [](View v) { return share(v, 3); }),
     of_body("com_vertical_range", Quantity::length, "Vertical range of the mass centre",
-            "highest less lowest", kDefinition, BodyScope::body, vertical_range, 1),
+            "highest less lowest", kDefinition, BodyScope::body, Pick::range, heights, 1),
     of_body(
         "com_speed", Quantity::speed, "Mean level speed of the mass centre",
         "mean size of the horizontal velocity", kDefinition, BodyScope::body,
         [](View v) { return has_centre(v) ? level_speed(v).mean() : kNaN; }, 1),
     of_body("com_peak_speed", Quantity::speed, "Peak speed of the mass centre", "max |v|", kDefinition,
-            BodyScope::body, peak_speed, 1),
-    of_body(
-        "margin_of_stability", Quantity::length, "Least margin of stability",
-        "of the extrapolated mass centre inside what the feet stand on; negative: outside", kHof,
-        BodyScope::support, [](View v) { return least_of(margins(v)); }, 0),
+            BodyScope::body, Pick::largest, speeds, 1),
+    of_body("margin_of_stability", Quantity::length, "Least margin of stability",
+            "of the extrapolated mass centre inside what the feet stand on; negative: outside", kHof,
+            BodyScope::support, Pick::smallest, margins, 0),
     of_body(
         "margin_of_stability_mean", Quantity::length, "Mean margin of stability",
         "over the frames in which a foot stands", kHof, BodyScope::support,
@@ -236,31 +240,20 @@ constexpr std::array kDefinitions{
     of_body(
         "margin_lateral", Quantity::length, "Least lateral margin of stability",
         "from the extrapolated mass centre to the outermost point of the standing foot", kHof,
-        BodyScope::side,
-        [](View v) {
-          return least_of(lateral_margins(v.series, v.record, v.contact, v.side, v.first, v.count));
-        },
-        0),
+        BodyScope::side, Pick::smallest,
+        [](View v) { return lateral_margins(v.series, v.record, v.contact, v.side, v.first, v.count); }, 0),
     of_body(
         "angular_momentum_range_x", Quantity::angular_momentum, "Range of the angular momentum, x",
-        "of the whole body about its mass centre, along the world's x", kHerr, BodyScope::body,
-        [](View v) { return momentum_range(v, 0); }, 1),
+        "of the whole body about its mass centre, along the world's x", kHerr, BodyScope::body, Pick::range,
+        [](View v) { return momentum(v, 0); }, 1),
     of_body(
         "angular_momentum_range_y", Quantity::angular_momentum, "Range of the angular momentum, y",
-        "likewise along y", kHerr, BodyScope::body, [](View v) { return momentum_range(v, 1); }, 1),
+        "likewise along y", kHerr, BodyScope::body, Pick::range, [](View v) { return momentum(v, 1); }, 1),
     of_body(
         "angular_momentum_range_z", Quantity::angular_momentum, "Range of the angular momentum, z",
-        "likewise along z", kHerr, BodyScope::body, [](View v) { return momentum_range(v, 2); }, 1),
-    of_body(
-        "angular_momentum_peak", Quantity::angular_momentum, "Peak angular momentum",
-        "max |L| about the mass centre", kHerr, BodyScope::body,
-        [](View v) {
-          return v.series.momentum.rows() == 0
-                     ? kNaN
-                     : v.series.momentum.middleRows(v.first, v.count).rowwise().norm().maxCoeff() /
-                           momentum_scale(v);
-        },
-        1),
+        "likewise along z", kHerr, BodyScope::body, Pick::range, [](View v) { return momentum(v, 2); }, 1),
+    of_body("angular_momentum_peak", Quantity::angular_momentum, "Peak angular momentum",
+            "max |L| about the mass centre", kHerr, BodyScope::body, Pick::largest, momentum_size, 1),
 };
 
 }  // namespace
@@ -271,6 +264,12 @@ const BodyDefinition* find_body_definition(std::string_view id) {
   for (const auto& definition : kDefinitions)
     if (definition.what.id == id) return &definition;
   return nullptr;
+}
+
+double BodyDefinition::value(const BodyView& view) const {
+  if (formula != nullptr) return formula(view);
+  const double found = picked(pick, curve(view));
+  return is_instant() ? found / view.record.time.rate_hz : found;
 }
 
 data::Quantity quantity_of(const BodyDefinition& definition, bool is_rotation, bool normalized) {

@@ -9,6 +9,7 @@
 
 #include "kinemark/data/measure.h"
 #include "kinemark/stages/analysis/body/body_series.h"
+#include "kinemark/stages/analysis/body/extremes.h"
 
 namespace kinemark::analysis {
 
@@ -43,11 +44,20 @@ struct BodyDefinition {
   data::MeasureDefinition what;             ///< its line in `analyze --list`; of a rotation
   BodyScope scope = BodyScope::coordinate;  ///< what it is of
   int sign = 0;  ///< 1: never below 0, -1: never above; at most or at least, where it cannot be told from 0
-  int extreme = 0;           ///< 1: noise at rest can only raise it, -1: lower it
-  bool instant = false;      ///< a time that may jump to another one: nothing is taken off
-  bool turns = false;        ///< an angle that begins again after a turn
-  bool approximate = false;  ///< its interval covers less than its level in some movements
-  double (*value)(const BodyView& view) = nullptr;  ///< SI; NaN where not determined
+  bool turns = false;         ///< an angle that begins again after a turn
+  bool approximate = false;   ///< its interval covers less than its level in some movements
+  Pick pick = Pick::largest;  ///< of the curve
+  /// What its extreme is taken of, SI; nothing where not known. Null: it is no extreme.
+  Eigen::VectorXd (*curve)(const BodyView& view) = nullptr;
+  /// SI; NaN where not determined. Null: the pick of the curve, instants in s from its beginning.
+  double (*formula)(const BodyView& view) = nullptr;
+
+  /// The measure of a version of the motion.
+  [[nodiscard]] double value(const BodyView& view) const;
+  /// A sample of the curve is the instant.
+  [[nodiscard]] bool is_instant() const {
+    return curve != nullptr && (pick == Pick::time_of_largest || pick == Pick::time_of_smallest);
+  }
 };
 
 /// All of them, in the order in which they are shown.

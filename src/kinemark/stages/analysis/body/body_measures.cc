@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "kinemark/stages/analysis/body/balance.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/body/coordinate_smoother.h"
+#include "kinemark/stages/analysis/body/measure_errors.h"
 #include "kinemark/stages/analysis/path/path_samples.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 
@@ -28,8 +30,10 @@ using Eigen::VectorXd;
 constexpr double kEdge_s = 0.08;       // at both ends, where a smoother knows one side only
 constexpr double kLongestGap_s = 0.2;  // beyond which nobody knows what happened
 constexpr std::int64_t kLeastStretch = 5;
-constexpr double kInstant = 0.25;  // of the stretch, the widest interval of an instant
-constexpr double kTooWide = 0.5;   // half-width over value
+constexpr double kInstant = 0.25;     // of where it can be, the widest interval of an instant
+constexpr std::int64_t kAtOnce = 5;   // refits that are there side by side
+constexpr double kTooWide = 0.5;      // half-width over value
+constexpr double kMovesAtAll = 0.25;  // variance over that of its errors
 
 /// One number to compute: which definition, of which stretch, of whom.
 struct Slot {
@@ -76,25 +80,13 @@ class BodyMeasurement {
     contact_ = feet_on_ground(*estimate, record_.up, record_.time.rate_hz);
     if (record_.contact.rows() > 0) contact_ = contact_.array() || record_.contact.array();
     plan(*estimate);
-    const auto values = values_of(*estimate);
-    std::vector<std::vector<double>> deviations(slots_.size(),
-                                                std::vector<double>(at(options_.refits), kNaN));
-    if (options_.refits > 0) {
-      const auto pilot = version([](const CoordinateSmoother& c, Index) { return c.pilot(); });
-      if (!pilot) return std::unexpected(pilot.error());
-      const auto truth = values_of(*pilot);
-      parallel_for(options_.refits, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) {
-          const auto again = version([&](const CoordinateSmoother& coordinate, Index c) {
-            return coordinate.refit(options_.seed, static_cast<std::uint64_t>(c) + 1, k);
-          });
-          if (!again) continue;  // its deviations stay NaN
-          const auto refit = values_of(*again);
-          for (std::size_t i = 0; i < slots_.size(); ++i) deviations[i][at(k)] = refit[i] - truth[i];
-        }
-      });
-    }
-    for (std::size_t i = 0; i < slots_.size(); ++i) state(slots_[i], values[i], deviations[i], out);
+    std::vector<double> values;
+    for (const auto& slot : slots_) values.push_back(slot.definition->value(view_of(slot, *estimate)));
+    std::vector<MeasureErrors> errors;
+    if (options_.refits > 0)
+      if (auto s = refit(*estimate, errors); !s) return s;
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      state(slots_[i], values[i], errors.empty() ? nullptr : &errors[i], out);
     return {};
   }
 
@@ -124,6 +116,7 @@ class BodyMeasurement {
     }
     if (std::ranges::none_of(smoothers_, [](const auto& s) { return s.has_value(); }))
       return fail(Code::bad_input, "no coordinate is free to move and determined in 30 frames or more");
+    move_side_by_side();
     if (!without.empty())
       out.notes.push_back(
           "not measured, as fewer than 30 of their samples are determined or no smoother fits them: " +
@@ -134,6 +127,22 @@ class BodyMeasurement {
           "tell, and the larger noise counts: " +
           join_names(disagree, 8));
     return {};
+  }
+
+  // Each smoother knows what moves by more than its errors beside its own coordinate.
+  void move_side_by_side() {
+    Eigen::MatrixXd poses = Eigen::MatrixXd::Zero(record_.frames(), record_.size());
+    for (Index c = 0; c < record_.size(); ++c) {
+      if (!smoothers_[at(c)]) continue;
+      const auto& pilot = smoothers_[at(c)]->pilot();
+      const auto noise = smoothers_[at(c)]->noise();
+      const double variance = (pilot.array() - pilot.mean()).square().mean();
+      if (variance > kMovesAtAll * (noise.white * noise.white + noise.slow * noise.slow))
+        poses.col(c) = standardized(pilot);
+    }
+    const auto shared = std::make_shared<const Eigen::MatrixXd>(std::move(poses));
+    for (Index c = 0; c < record_.size(); ++c)
+      if (smoothers_[at(c)]) smoothers_[at(c)]->move_beside(shared, c);
   }
 
   // The motion with what `samples` gives of each coordinate.
@@ -197,14 +206,42 @@ class BodyMeasurement {
     }
   }
 
-  [[nodiscard]] std::vector<double> values_of(const BodySeries& series) const {
-    std::vector<double> out;
-    out.reserve(slots_.size());
+  [[nodiscard]] BodyView view_of(const Slot& slot, const BodySeries& series) const {
+    return {series, record_, contact_,  slot.stretch->first, slot.stretch->count,
+            slot.a, slot.b,  slot.side, options_.normalized};
+  }
+
+  // Simulated again, some at a time: versions side by side, then measures side by side.
+  Status refit(const BodySeries& estimate, std::vector<MeasureErrors>& errors) const {
+    const auto pilot = version([](const CoordinateSmoother& c, Index) { return c.pilot(); });
+    if (!pilot) return std::unexpected(pilot.error());
+    const auto smooth = version([](const CoordinateSmoother& c, Index) { return c.smoothed_pilot(); });
+    if (!smooth) return std::unexpected(smooth.error());
     for (const auto& slot : slots_)
-      out.push_back(
-          slot.definition->value({series, record_, contact_, slot.stretch->first, slot.stretch->count, slot.a,
-                                  slot.b, slot.side, options_.normalized}));
-    return out;
+      errors.emplace_back(*slot.definition, view_of(slot, estimate), view_of(slot, *pilot),
+                          view_of(slot, *smooth), options_.refits);
+    const std::int64_t batches = std::max<std::int64_t>(1, options_.refits / kAtOnce);
+    for (std::int64_t batch = 0; batch < batches; ++batch) {
+      const auto first = batch * options_.refits / batches,
+                 count = (batch + 1) * options_.refits / batches - first;
+      std::vector<std::optional<BodySeries>> versions(at(count));
+      parallel_for(count, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k)
+          if (auto again = version([&](const CoordinateSmoother& coordinate, Index c) {
+                return coordinate.refit(options_.seed, static_cast<std::uint64_t>(c) + 1, first + k);
+              }))
+            versions[at(k)] = std::move(*again);
+      });
+      parallel_for(std::ssize(slots_), 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          std::vector<NumberedView> views;
+          for (std::int64_t k = 0; k < count; ++k)
+            if (versions[at(k)]) views.push_back({first + k, view_of(slots_[at(i)], *versions[at(k)])});
+          errors[at(i)].add(views);
+        }
+      });
+    }
+    return {};
   }
 
   [[nodiscard]] Gaps gaps_in(const Eigen::MatrixX<bool>& known, Index c, const BodyStretch& stretch) const {
@@ -255,17 +292,7 @@ class BodyMeasurement {
         sum += x, squares += x * x, count += 1.0;
       }
     return count > 1.0 && variance > 0.0 &&
-           squares / count - (sum / count) * (sum / count) - variance <= 0.25 * variance;
-  }
-
-  // The coordinate rests for a tenth of the stretch: slower than a twentieth of its peak.
-  [[nodiscard]] bool at_rest(const Slot& slot) const {
-    const auto& q = smoothers_[at(slot.a)]->estimate();
-    const auto n = slot.stretch->count;
-    const VectorXd speed =
-        (q.segment(slot.stretch->first + 1, n) - q.segment(slot.stretch->first - 1, n)).cwiseAbs();
-    return static_cast<double>((speed.array() < 0.05 * speed.maxCoeff()).count()) >
-           0.1 * static_cast<double>(n);
+           squares / count - (sum / count) * (sum / count) - variance <= kMovesAtAll * variance;
   }
 
   [[nodiscard]] std::string subject_of(const Slot& slot) const {
@@ -349,7 +376,7 @@ class BodyMeasurement {
     return {};
   }
 
-  void state(const Slot& slot, double value, const std::vector<double>& deviations, BodyMeasures& out) const {
+  void state(const Slot& slot, double value, const MeasureErrors* errors, BodyMeasures& out) const {
     const auto& definition = *slot.definition;
     const auto& stretch = *slot.stretch;
     data::Measure measure{
@@ -375,7 +402,7 @@ class BodyMeasurement {
     if (const auto why = no_interval(slot, gaps); !why.empty())
       remark(measure, why);
     else
-      put_interval(slot, value, deviations, measure);
+      put_interval(slot, value, *errors, measure);
     if (definition.scope >= BodyScope::body)
       if (const auto held = held_in(stretch); !held.empty()) {
         measure.interval.approximate = true;
@@ -384,34 +411,34 @@ class BodyMeasurement {
     out.measures.push_back(std::move(measure));
   }
 
-  void put_interval(const Slot& slot, double value, std::vector<double> deviations,
+  void put_interval(const Slot& slot, double found_value, const MeasureErrors& errors,
                     data::Measure& measure) const {
     const auto& definition = *slot.definition;
     const double mirror = definition.sign < 0 ? -1.0 : 1.0;  // of what is never above 0
+    auto deviations = errors.deviations();
     for (double& d : deviations)
       d = mirror * (definition.turns ? std::remainder(d, 2.0 * std::numbers::pi) : d);
-    const auto found = pivot(mirror * value, deviations, options_.level);
+    const auto found = pivot_of(definition, mirror * errors.value(), deviations);
     if (!std::isfinite(found.value)) {
       remark(measure, "no interval: too many of the refits do not determine it");
       return;
     }
-    if (definition.instant) {
-      put_instant(found, value, *slot.stretch, measure);
+    if (definition.is_instant()) {
+      put_instant(slot, found, found_value, errors.reach(), measure);
       return;
     }
     const auto bounded = [&](double x) { return mirror * (definition.sign != 0 ? std::max(0.0, x) : x); };
-    measure.value = bounded(found.value);
+    // The value of an extreme is the mean of the thinned one and of its pivot, as for paths.
+    const double value =
+        definition.curve != nullptr ? 0.5 * (mirror * errors.value() + found.value) : found.value;
+    measure.value = bounded(value);
     measure.sd = found.sd;
     auto& interval = measure.interval;
     interval.kind = data::IntervalKind::two_sided;
     interval.low = std::min(bounded(found.low), bounded(found.high));
     interval.high = std::max(bounded(found.low), bounded(found.high));
     interval.approximate = definition.approximate;
-    if (definition.extreme != 0 && at_rest(slot)) {
-      interval.kind = definition.extreme > 0 ? data::IntervalKind::at_most : data::IntervalKind::at_least;
-      (definition.extreme > 0 ? interval.low : interval.high) = kNaN;
-      remark(measure, "part of the stretch is at rest, where noise can only widen it");
-    } else if (definition.sign != 0 && found.low <= 0.0) {
+    if (definition.sign != 0 && found.low <= 0.0) {
       interval.kind = mirror > 0.0 ? data::IntervalKind::at_most : data::IntervalKind::at_least;
       (mirror > 0.0 ? interval.low : interval.high) = kNaN;
       remark(measure, "not distinguishable from 0");
@@ -422,21 +449,32 @@ class BodyMeasurement {
   }
 
   // An instant that jumps to another one has no bias that could be taken off.
-  void put_instant(const Pivoted& found, double value, const BodyStretch& stretch,
+  void put_instant(const Slot& slot, const Pivoted& found, double value, const MeasureErrors::Reach& reach,
                    data::Measure& measure) const {
-    const double last = static_cast<double>(stretch.count - 1) / record_.time.rate_hz;
-    const bool edge = value <= 0.0 || value >= last;
-    if (edge || found.high - found.low > kInstant * last || !(found.low <= value && value <= found.high)) {
+    const bool lag = slot.definition->scope == BodyScope::pair;
+    const auto most = lag ? slot.stretch->count / 4 : slot.stretch->count - 1;
+    const double last = static_cast<double>(most) / record_.time.rate_hz, first = lag ? -last : 0.0;
+    const bool edge = value <= first || value >= last;
+    const double low = std::min(found.low, value + reach.before),
+                 high = std::max(found.high, value + reach.after);
+    if (edge || high - low > kInstant * (last - first)) {
       remark(measure, edge ? "no interval: it is at an end of the stretch"
                            : "no interval: other instants are nearly as extreme");
       return;
     }
     measure.sd = found.sd;
     measure.interval = {.kind = data::IntervalKind::two_sided,
-                        .low = std::max(0.0, found.low),
-                        .high = std::min(last, found.high),
+                        .low = std::max(first, low),
+                        .high = std::min(last, high),
                         .level = options_.level,
                         .approximate = true};
+  }
+
+  // Shares, and instants, jump: their deviations are lopsided.
+  [[nodiscard]] Pivoted pivot_of(const BodyDefinition& definition, double value,
+                                 const std::vector<double>& deviations) const {
+    const bool jumps = definition.is_instant() || definition.what.quantity == data::Quantity::share;
+    return jumps ? wide_pivot(value, deviations, options_.level) : pivot(value, deviations, options_.level);
   }
 
   const BodyRecord& record_;

@@ -70,6 +70,37 @@ TEST(CoordinateSmoother, RefitsAreThePilotWithErrorsLikeThoseOfTheEstimate) {
   EXPECT_NE(s.refit(1, 3, 8), s.refit(1, 4, 8));
 }
 
+TEST(CoordinateSmoother, RefitsAreMadeOfAPathThatRestsWhereTheCoordinateDoes) {
+  Random random(12, 1);
+  VectorXd q(kFrames);
+  for (int f = 0; f < kFrames; ++f) {
+    const double u = std::clamp((f / kRate_hz - 1.0) / 0.8, 0.0, 1.0);
+    q[f] = 0.6 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) + 0.01 * random.gaussian();
+  }
+  const auto s = CoordinateSmoother::create(q, kAll, kNaN, kRate_hz).value();
+  const auto range = [](const VectorXd& x) { return x.maxCoeff() - x.minCoeff(); };
+  EXPECT_LT(range(s.pilot().head(60)), 0.6 * range(s.estimate().head(60))) << "noise that is left";
+  EXPECT_NEAR(range(s.pilot()), 0.6, 0.02);
+  EXPECT_LT((s.smoothed_pilot() - s.pilot()).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(CoordinateSmoother, SlowErrorsGoAlongWhatMovesBesideIt) {
+  auto s = CoordinateSmoother::create(noisy(0.001, 5), kAll, 0.03, kRate_hz).value();
+  Eigen::MatrixXd poses(kFrames, 2);
+  poses.col(0) = standardized(swing());
+  for (int f = 0; f < kFrames; ++f) poses(f, 1) = std::cos(2.0 * M_PI * 3.1 * f / kRate_hz);
+  poses.col(1) = standardized(poses.col(1));
+  const auto along = [&] {
+    double sum = 0.0;
+    for (int k = 0; k < 100; ++k)
+      sum += std::pow(s.slow_errors(1, 7, k).dot(poses.col(1)) / kFrames, 2) / 100.0;
+    return std::sqrt(sum) / s.noise().slow;
+  };
+  EXPECT_LT(along(), 0.15);
+  s.move_beside(std::make_shared<const Eigen::MatrixXd>(poses), 0);
+  EXPECT_NEAR(along(), std::sqrt(1.0 / 3.0), 0.15);
+}
+
 TEST(CoordinateSmoother, WithoutNoiseTheSamplesStay) {
   VectorXd line(kFrames);
   for (int f = 0; f < kFrames; ++f) line[f] = 0.25 * f;

@@ -62,11 +62,18 @@ RelativePhase relative_phase(const VectorXd& a, const VectorXd& b) {
   return {.mean = std::arg(sum), .locking = std::abs(sum) / static_cast<double>(a.size())};
 }
 
-CrossCorrelation cross_correlation(const VectorXd& a, const VectorXd& b) {
+VectorXd correlations(const VectorXd& a, const VectorXd& b) {
   if (a.size() < kLeast || is_constant(a) || is_constant(b)) return {};
   const Eigen::Index most = a.size() / 4;
   VectorXd r(2 * most + 1);
   for (Eigen::Index lag = -most; lag <= most; ++lag) r[lag + most] = correlation_at(a, b, lag);
+  return r;
+}
+
+CrossCorrelation cross_correlation(const VectorXd& a, const VectorXd& b) {
+  const VectorXd r = correlations(a, b);
+  if (r.size() == 0) return {};
+  const Eigen::Index most = r.size() / 2;
   Eigen::Index best = 0;
   const double size = r.array().abs().maxCoeff(&best);
   CrossCorrelation out{.lag = static_cast<double>(best - most), .correlation = r[best]};

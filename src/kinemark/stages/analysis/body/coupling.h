@@ -28,6 +28,10 @@ struct CrossCorrelation {
   double lag = kNaN;          ///< samples by which b follows a; between samples by a parabola
   double correlation = kNaN;  ///< Pearson's of the samples that overlap there, of the largest size
 };
+/// Pearson's correlations of the samples that overlap, at lags from minus to plus a quarter of the samples.
+/// O(n^2). Nothing where one is constant or shorter than 8.
+[[nodiscard]] Eigen::VectorXd correlations(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 /// Lags up to a quarter of the samples to both sides (Li & Caldwell 1999). O(n^2). NaN where one is constant.
 [[nodiscard]] CrossCorrelation cross_correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 

@@ -89,6 +89,20 @@ class SpectralNoise {
     for (double& a : amplitude_) a *= power > 0.0 ? static_cast<double>(length_) / std::sqrt(power) : 0.0;
   }
 
+  /// The frequency that halves its power: what draws have on average.
+  [[nodiscard]] double median_hz(double rate_hz) const {
+    double whole = 0.0, sum = 0.0;
+    for (const double a : amplitude_) whole += a * a;
+    for (std::size_t k = 0; k < amplitude_.size(); ++k) {
+      const double power = amplitude_[k] * amplitude_[k];
+      sum += power;
+      if (sum >= 0.5 * whole && power > 0.0)
+        return (static_cast<double>(k) + 0.5 - (sum - 0.5 * whole) / power) * rate_hz /
+               static_cast<double>(length_);
+    }
+    return kNaN;
+  }
+
   [[nodiscard]] VectorXd draw(std::uint64_t seed, std::uint64_t stream, std::int64_t k) {
     Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(k));
     std::vector<std::complex<double>> spectrum(at(length_)), series;
@@ -136,12 +150,17 @@ class EmgMeasurement {
           found.envelope.cwiseMax(std::max(found.rest.mean, 1e-6 * found.envelope.maxCoeff()));
       SpectralNoise noise(found.band.cwiseQuotient(strength), rate_hz_);
       const double gain = std::sqrt(found.band.cwiseQuotient(strength).array().square().mean());
+      // What the drawn channels are made of. The frequency is the spectrum's, which all of the channel tells:
+      // that of the stretch holds the stretch's own chance, which would count twice.
+      auto truth = values;
+      for (std::size_t s = 0; s < stretches_.size(); ++s)
+        truth[s * kCount + kMedian] = noise.median_hz(rate_hz_);
       for (std::int64_t k = 0; k < options_.refits; ++k) {
         const VectorXd drawn = gain * strength.cwiseProduct(noise.draw(options_.seed, stream, k));
         auto version = prepare_band(drawn);
         version.rest = found.rest, version.quick_rest = found.quick_rest;
         const auto again = values_of(version);
-        for (std::size_t i = 0; i < again.size(); ++i) deviations[i][at(k)] = again[i] - values[i];
+        for (std::size_t i = 0; i < again.size(); ++i) deviations[i][at(k)] = again[i] - truth[i];
       }
     }
     for (std::size_t s = 0; s < stretches_.size(); ++s)

@@ -81,6 +81,28 @@ TEST(EmgMeasures, IntervalsHoldTheStrengthOfTheMuscle) {
   EXPECT_GE(mean, 8);
 }
 
+TEST(EmgMeasures, TheMedianFrequencyKeepsTheChanceOfItsStretchOnce) {
+  Random random(5, 7);
+  VectorXd longer(64000);
+  for (double& x : longer) x = random.gaussian();
+  const double truth = median_frequency(band_passed(longer, kEmg_hz, {.low_pass_hz = 300.0}), kEmg_hz);
+  int inside = 0;
+  double freed = 0.0, found = 0.0;
+  constexpr int kTrials = 12;
+  for (int k = 0; k < kTrials; ++k) {
+    const auto out = measure_emg({burst(40 + static_cast<std::uint64_t>(k))}, kEmg_hz, 0.0,
+                                 {.measures = {"emg_median_frequency"},
+                                  .stretches = {{.name = "burst", .first = 1500, .count = 1000}},
+                                  .refits = 39})
+                         .value();
+    const auto& m = get(out, "emg_median_frequency", "burst");
+    inside += m.interval.low <= truth && truth <= m.interval.high;
+    freed += std::pow(m.value - truth, 2), found += std::pow(m.uncorrected - truth, 2);
+  }
+  EXPECT_GE(inside, 9);
+  EXPECT_LT(freed, 1.4 * found);
+}
+
 TEST(EmgMeasures, WithoutABurstNothingIsFreedOfABias) {
   const EmgOptions options{.stretches = {{.name = "before", .first = 0, .count = 1200}, {.count = 4000}},
                            .refits = 39};

@@ -26,6 +26,7 @@ constexpr double kStanding_s = 5.0, kStandingInRegion_s = 2.0;
 constexpr double kStanding_n = 100.0;
 constexpr double kEdge_s = 0.08;  // of standing, at both ends of the recording
 constexpr double kLowestCutOff_hz = 0.4;
+constexpr double kBeside_s = 0.05;   // of a contact, where noise may move its ends
 constexpr double kCopLoad_n = 20.0;  // of a plate that counts for the centre of pressure
 
 /// Series that are smoothed and simulated together, or as they are where they show no noise.
@@ -50,11 +51,17 @@ class SmoothedSeries {
   [[nodiscard]] double cut_off_hz() const {
     return kLessSmooth * recording_->choice.half_power * recording_->rate_hz;
   }
+  /// visit(number, smoothed refit, the same before it was smoothed)
   template <class Visit>
   void refit(std::int64_t refits, std::uint64_t seed, std::uint64_t stream, const Visit& visit) const {
-    if (recording_)
-      for_each_refit(*recording_, pilot_, refits, seed, stream,
-                     [&](std::int64_t k, const SeriesMatrix& x, const SeriesMatrix&) { visit(k, x); });
+    if (!recording_) return;
+    const auto axes = pilot_.cols();
+    for_each_batch(*recording_, pilot_, {.count = refits, .seed = seed, .stream = stream, .least_too = false},
+                   [&](const RefitBatch& batch) {
+                     for (std::int64_t k = 0; k < batch.count; ++k)
+                       visit(batch.first + k, SeriesMatrix(batch.less.middleCols(axes * k, axes)),
+                             SeriesMatrix(batch.simulated.middleCols(axes * k, axes)));
+                   });
   }
 
  private:
@@ -78,6 +85,22 @@ Eigen::Vector3d up_of_forces(const data::Wrenches& plates) {
   Index axis = 0;
   if (!(sum.cwiseAbs().maxCoeff(&axis) > 0.0)) return Eigen::Vector3d::Zero();
   return Eigen::Vector3d::Unit(axis) * (sum[axis] < 0.0 ? -1.0 : 1.0);
+}
+
+/// The contact in another version of its load: noise moves its ends. The same where there is none.
+PlateContact contact_again(const PlateContact& contact, const VectorXd& load, double rate_hz) {
+  const auto beside = static_cast<std::int64_t>(std::ceil(kBeside_s * rate_hz));
+  const auto first = std::max<std::int64_t>(0, contact.first - beside),
+             end = std::min<std::int64_t>(load.size(), contact.first + contact.count + beside);
+  PlateContact out = contact;
+  std::int64_t most = 0;
+  for (auto found : find_contacts(load.segment(first, end - first), rate_hz)) {
+    found.first += first;
+    const auto shared = std::min(found.first + found.count, contact.first + contact.count) -
+                        std::max(found.first, contact.first);
+    if (shared > most) most = shared, out.first = found.first, out.count = found.count;
+  }
+  return out;
 }
 
 class ForceMeasurement {
@@ -155,8 +178,11 @@ class ForceMeasurement {
   void measure_step(std::size_t p, const PlateContact& contact, const data::Region& region,
                     std::int64_t number, const SmoothedSeries& series, Eigen::Vector3d travel) {
     travel -= up_.dot(travel) * up_;
-    const auto view_of = [&](const SeriesMatrix& x) {
-      const Eigen::MatrixX3d force = x.middleRows(contact.first, contact.count);
+    // As it was found, and in simulated recordings where their noise puts its ends.
+    const auto view_of = [&](const SeriesMatrix& x, const SeriesMatrix* samples) {
+      const auto ends =
+          samples == nullptr ? contact : contact_again(contact, *samples * up_, plates_.time.rate_hz);
+      const Eigen::MatrixX3d force = x.middleRows(ends.first, ends.count);
       return ForceView{.force = force,
                        .load = force * up_,
                        .travel = travel,
@@ -212,7 +238,7 @@ class ForceMeasurement {
       if (!stands) continue;
       const SmoothedSeries series(pressure.middleRows(first, count), std::vector<bool>(at(count), true),
                                   plates_.time.rate_hz);
-      const auto view_of = [&](const SeriesMatrix& x) {
+      const auto view_of = [&](const SeriesMatrix& x, const SeriesMatrix*) {
         return ForceView{.force = {},
                          .load = {},
                          .travel = Eigen::Vector3d::Zero(),
@@ -234,18 +260,20 @@ class ForceMeasurement {
     std::vector<const ForceDefinition*> asked;
     for (const auto& definition : force_definitions())
       if (definition.scope == scope && is_asked(definition)) asked.push_back(&definition);
-    const auto values_of = [&](const SeriesMatrix& x) {
-      const auto view = view_of(x);
+    const auto values_of = [&](const SeriesMatrix& x, const SeriesMatrix* samples) {
+      const auto view = view_of(x, samples);
       std::vector<double> values;
       for (const auto* definition : asked) values.push_back(definition->value(view));
       return values;
     };
-    const auto values = values_of(series.estimate()), truth = values_of(series.pilot());
+    const auto values = values_of(series.estimate(), nullptr),
+               truth = values_of(series.pilot(), &series.pilot());
     std::vector<std::vector<double>> deviations(asked.size(), std::vector<double>(at(options_.refits), kNaN));
-    series.refit(options_.refits, options_.seed, stream, [&](std::int64_t k, const SeriesMatrix& x) {
-      const auto again = values_of(x);
-      for (std::size_t i = 0; i < asked.size(); ++i) deviations[i][at(k)] = again[i] - truth[i];
-    });
+    series.refit(options_.refits, options_.seed, stream,
+                 [&](std::int64_t k, const SeriesMatrix& x, const SeriesMatrix& samples) {
+                   const auto again = values_of(x, &samples);
+                   for (std::size_t i = 0; i < asked.size(); ++i) deviations[i][at(k)] = again[i] - truth[i];
+                 });
     for (std::size_t i = 0; i < asked.size(); ++i) put(*asked[i], like, values[i], deviations[i], series);
   }
 

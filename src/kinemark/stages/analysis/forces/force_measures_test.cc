@@ -119,6 +119,21 @@ TEST(ForceMeasures, IntervalsOfAStepHoldTheTruth) {
   EXPECT_GE(impulse, 6);
 }
 
+TEST(ForceMeasures, WhereNoisePutsTheEndsOfAContactIsInItsIntervals) {
+  const auto truth = measure_forces(walk(0.0, 1), {.measures = {"grf_impulse"}, .refits = 0}).value();
+  int inside = 0;
+  constexpr int kTrials = 16;
+  for (int k = 0; k < kTrials; ++k) {
+    const auto out = measure_forces(walk(3.0, 70 + static_cast<std::uint64_t>(k)),
+                                    {.measures = {"grf_impulse"}, .refits = 59})
+                         .value();
+    const auto& m = out.measures.at(0);
+    ASSERT_EQ(m.interval.kind, IntervalKind::two_sided);
+    inside += m.interval.low <= truth.measures.at(0).value && truth.measures.at(0).value <= m.interval.high;
+  }
+  EXPECT_GE(inside, 13);
+}
+
 TEST(ForceMeasures, TheFootIsThatOfThePlatesEvent) {
   const std::vector<data::GaitEvent> events{{.side = data::Side::right,
                                              .what = data::FootEvent::strike,
