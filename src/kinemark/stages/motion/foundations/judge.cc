@@ -24,6 +24,8 @@ constexpr std::int64_t kHalf = 3;        // frames on both sides that are averag
 constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
 constexpr double kRival = 6.0;           // explanations this much less likely are named
 constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
+// Of a marker of trunk, head or arms between two recordings, per axis: shoulders move on the trunk.
+constexpr double kLoose_m = 0.030;
 
 /// Where the body's markers are in a recording.
 std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
@@ -110,13 +112,25 @@ std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data:
   return out;
 }
 
+/// Shoulders, arms and heads move on the trunk by more than a rigid body tells: beside a movement, a single
+/// marker is accused on pelvis and legs alone.
+bool keeps_its_place(const StandingBody::Marker& marker) {
+  const auto landmark = landmark_of(marker.name);
+  if (!landmark) return false;
+  return landmark->part == BodyPart::pelvis || landmark->part == BodyPart::thigh ||
+         landmark->part == BodyPart::shank || landmark->part == BodyPart::foot;
+}
+
 /// What movements tell of the body, less sure by how far markers lie from one recording to the next.
 internal::SharedPrior prior_with(const StandingBody& body, const internal::SharedPrior& prior,
                                  const std::vector<internal::SeenFrame>& frames, double between_sd_m) {
   internal::SharedPrior known = internal::learn_shared(body, prior, frames);
   Eigen::MatrixXd covariance = known.information.inverse();
-  const auto sites = static_cast<Eigen::Index>(3 * body.markers.size());
-  covariance.diagonal().tail(sites).array() += between_sd_m * between_sd_m;
+  const Eigen::Index sites = covariance.rows() - static_cast<Eigen::Index>(3 * body.markers.size());
+  for (std::size_t m = 0; m < body.markers.size(); ++m) {
+    const double sd = keeps_its_place(body.markers[m]) ? between_sd_m : std::max(between_sd_m, kLoose_m);
+    covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() += sd * sd;
+  }
   known.information = covariance.inverse();
   known.information = (0.5 * (known.information + known.information.transpose())).eval();
   return known;
@@ -126,15 +140,6 @@ std::string words_of(const StandingBody& body, const internal::Hypothesis& h) {
   const std::string& first = body.markers[at(h.first)].name;
   if (h.second < 0) return fmt::format("{} {:.0f} mm off", first, 1e3 * h.shift.norm());
   return fmt::format("{} and {} exchanged", first, body.markers[at(h.second)].name);
-}
-
-/// Shoulders, arms and heads move on the trunk by more than a rigid body tells: beside a movement, a single
-/// marker is accused on pelvis and legs alone.
-bool keeps_its_place(const StandingBody::Marker& marker) {
-  const auto landmark = landmark_of(marker.name);
-  if (!landmark) return false;
-  return landmark->part == BodyPart::pelvis || landmark->part == BodyPart::thigh ||
-         landmark->part == BodyPart::shank || landmark->part == BodyPart::foot;
 }
 
 /// Spread of the length of a shift.
