@@ -245,7 +245,7 @@ TEST(BodyMeasures, AnInstantHasAnIntervalWhereItStandsOut) {
   EXPECT_THAT(slide.remark, HasSubstr("it is at an end of the stretch")) << "it only ever rises";
 }
 
-TEST(BodyMeasures, ATimeOnAPlateauIsNotTold) {
+TEST(BodyMeasures, ATimeOnAPlateauIsNotGiven) {
   auto record = swinging(0.0, 5);
   Random random(23, 0);
   for (int f = 0; f < 416; ++f) {

@@ -27,7 +27,7 @@ constexpr double kNear = 0.5;
 // Several positions count as one when they at most triple the variance that the best alone has. Three markers
 // of a segment leave open only its rotation about their line, with no mirrored position: there its SD may be
 // tripled.
-constexpr double kCompact = 2.0;  // variance added over that of the best
+constexpr double kCompact = 1.0;  // variance added over that of the best
 constexpr double kCompactOfWhole = 8.0;
 constexpr double kReach = 5.0;  // SD within which the joint lies, but for a probability that does not count
 constexpr int kHalvings = 20;   // of the interval in which it is sought
