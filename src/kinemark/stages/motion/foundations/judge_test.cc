@@ -227,24 +227,38 @@ TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
             "LKNE lies 50 mm (SD 8) from where it should in s: 30 mm down, 40 mm to the left");
 }
 
+/// Trunk, pelvis and legs, with two markers of each leg.
+data::Trajectories only(const data::Trajectories& trial) {
+  const std::vector<std::string> names{"LASI", "RASI", "LPSI", "RPSI", "C7",   "T10",  "CLAV",
+                                       "STRN", "LSHO", "RSHO", "LKNE", "RKNE", "LANK", "RANK"};
+  auto out = data::Trajectories::all_missing(names, trial.time);
+  for (std::int64_t f = 0; f < out.frames(); ++f)
+    for (std::int64_t m = 0; m < out.markers(); ++m) {
+      out.x(f, m) = trial.x(f, trial.find(names[at(m)]));
+      out.state[out.index(f, m)] = data::SampleState::measured;
+    }
+  return out;
+}
+
 TEST(Judge, MarkersOfTheTrunkAreNotAccusedBesideAMovement) {
   const auto person = subject(3, human());
-  const auto only = [](data::Trajectories trial) {
-    const std::vector<std::string> names{"LASI", "RASI", "LPSI", "RPSI", "C7",   "T10",  "CLAV",
-                                         "STRN", "LSHO", "RSHO", "LKNE", "RKNE", "LANK", "RANK"};
-    auto out = data::Trajectories::all_missing(names, trial.time);
-    for (std::int64_t f = 0; f < out.frames(); ++f)
-      for (std::int64_t m = 0; m < out.markers(); ++m) {
-        out.x(f, m) = trial.x(f, trial.find(names[at(m)]));
-        out.state[out.index(f, m)] = data::SampleState::measured;
-      }
-    return out;
-  };
   auto still = only(frames(person, 9, 0.03, 3));
   const auto movement = only(frames(person, 40, 0.25, 13));
   move(still, "LSHO", Vector3d(0.0, 0.08, 0.0));
   EXPECT_TRUE(by_names(still, &movement).findings.empty());
   move(still, "LASI", Vector3d(0.0, 0.08, 0.0));
+  const auto judgement = by_names(still, &movement);
+  ASSERT_EQ(judgement.findings.size(), 1);
+  EXPECT_EQ(judgement.findings[0].marker, "LASI");
+}
+
+TEST(Judge, ShouldersThatMovedDoNotHideAnotherMarker) {
+  const auto person = subject(4, human());
+  auto still = only(frames(person, 9, 0.03, 4));
+  const auto movement = only(frames(person, 40, 0.25, 14));
+  for (const auto* const shoulder : {"LSHO", "RSHO"}) move(still, shoulder, Vector3d(-0.05, 0.09, 0.0));
+  EXPECT_TRUE(by_names(still, &movement).findings.empty());
+  move(still, "LASI", Vector3d(0.03, -0.06, 0.0));
   const auto judgement = by_names(still, &movement);
   ASSERT_EQ(judgement.findings.size(), 1);
   EXPECT_EQ(judgement.findings[0].marker, "LASI");
