@@ -99,13 +99,14 @@ int run(int argc, char** argv) {
     const auto& all = by_id[std::string(definition.what.id)];
     double inside = 0.0, bias = 0.0, squares = 0.0;
     const double n = static_cast<double>(all.size());
-    for (const auto& j : all) inside += j.inside / n, bias += j.error / n, squares += j.error * j.error / n;
+    for (const auto& j : all) inside += j.inside, bias += j.error / n, squares += j.error * j.error / n;
     const double sd = std::sqrt(std::max(1e-30, squares - bias * bias));
+    inside = 100.0 * inside / n;
     const double least = definition.scope == analysis::ForceScope::sway ? 80.0 : 90.0;
-    print_row(all.size() > 10 && 100.0 * inside >= least && std::abs(bias) <= 0.5 * sd + 1e-9,
+    print_row(all.size() > 10 && inside >= least && std::abs(bias) <= 0.5 * sd + 1e-9,
               fmt::format("plates, simulated: {}", definition.what.id),
               fmt::format("covers {:g} % or more, bias <= 0.5 of its SD", least),
-              fmt::format("{:.1f} % of {:.0f}, bias {:.2f} SD", 100.0 * inside, n, bias / sd));
+              fmt::format("{:.1f} % of {:.0f}, bias {:.2f} SD", inside, n, bias / sd));
   }
   return testing_support::exit_status();
 }

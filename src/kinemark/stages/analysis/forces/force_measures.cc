@@ -315,7 +315,7 @@ class ForceMeasurement {
     if (options_.refits == 0 || !series.noisy()) {
       measure.remark =
           options_.refits == 0 ? "no interval was asked for" : "no interval: the samples show no noise";
-    } else if (const auto found = pivot(value, deviations, options_.level); std::isfinite(found.value)) {
+    } else if (const auto found = wide_pivot(value, deviations, options_.level); std::isfinite(found.value)) {
       measure.value = found.value;
       measure.sd = found.sd;
       measure.interval.kind = data::IntervalKind::two_sided;
