@@ -24,7 +24,7 @@ using data::SegmentKind;
 
 // Minima nearer to the best than this many of its SD are part of it.
 constexpr double kNear = 0.5;
-// Several positions count as one when they at most triple the variance that the best alone has. Three markers
+// Several positions count as one when they at most double the variance that the best alone has. Three markers
 // of a segment leave open only its rotation about their line, with no mirrored position: there its SD may be
 // tripled.
 constexpr double kCompact = 1.0;  // variance added over that of the best
