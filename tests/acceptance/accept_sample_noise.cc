@@ -23,7 +23,6 @@ namespace {
 
 using namespace kinemark;
 using math::SeriesMatrix;
-using testing_support::print_note;
 using testing_support::print_row;
 
 constexpr std::int64_t kMarkers = 12;
