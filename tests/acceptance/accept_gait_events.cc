@@ -329,8 +329,8 @@ void compare(const Found& whole, const data::Trajectories& spoiled, Scores& out)
 
 void judge_spoils(const std::vector<Found>& recordings, std::uint64_t seed) {
   const std::vector<std::pair<std::string, Spoil>> spoils{
-      {"33 Hz", [](auto x, const auto&, auto&) { return every(x, 33.0); }},
-      {"25 Hz", [](auto x, const auto&, auto&) { return every(x, 25.0); }},
+      {"33 Hz", [](const auto& x, const auto&, auto&) { return every(x, 33.0); }},
+      {"25 Hz", [](const auto& x, const auto&, auto&) { return every(x, 25.0); }},
       {"noise 5 mm", noise(0.005)},
       {"noise 10 mm", noise(0.01)},
       {"gaps of 0.15 s each second", gaps},
