@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -21,20 +22,40 @@ namespace {
 using data::FootEvent;
 using data::Side;
 
+constexpr std::int64_t kPrintDraws = 19;  // that tell what noise does to a print
+constexpr std::uint64_t kPrintSeed = 0x7072696e74;
+
 // How the ground moves, as far as it does, with an error of its speed.
 Eigen::RowVector2d belt_of(const GaitKind& kind, const Ground& ground, double error_m_per_s = 0.0) {
   if (!kind.belt) return {0.0, 0.0};
   return (1.0 + error_m_per_s / ground.velocity.norm()) * ground.velocity;
 }
 
-// Every footprint moved by its own error; one that stands in several cycles, by the same.
-void jitter(std::vector<GaitCycle>& cycles, Random& random) {
+// What of the variance of standing heels is theirs, by side: noise moves them as well, twice in a simulated
+// walk, whose noise is on top of the recording's own. One share for all prints of a foot, as one print tells
+// its noise badly.
+std::array<double, 2> own_shares(std::span<const GaitCycle> cycles,
+                                 const std::array<double, 2>& noise_variance) {
+  std::array<double, 2> sum{}, count{}, out{};
+  for (const auto& cycle : cycles)
+    if (const auto side = data::index_of(cycle.side); std::isfinite(cycle.print.x.x()))
+      sum[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
+  for (const std::size_t side : {0, 1})
+    out[side] =
+        sum[side] > 0.0 ? std::max(0.0, 1.0 - 2.0 * noise_variance[side] * count[side] / sum[side]) : 1.0;
+  return out;
+}
+
+// Every footprint moved by its own error, as far as the heel moves while it stands; one that stands in
+// several cycles, by the same.
+void jitter(std::vector<GaitCycle>& cycles, const std::array<double, 2>& noise_variance, Random& random) {
+  const auto own = own_shares(cycles, noise_variance);
   std::map<std::pair<Side, double>, Eigen::Vector2d> moved;
   const auto move = [&](Side side, double strike_s, Footprint& print) {
     const auto [found, is_new] = moved.try_emplace({side, strike_s});
     if (is_new) {
       const double x = random.gaussian(), y = random.gaussian();
-      found->second = print.sd * Eigen::Vector2d(x, y);
+      found->second = std::sqrt(own[data::index_of(side)]) * print.sd * Eigen::Vector2d(x, y);
     }
     print.x += found->second;
   };
@@ -70,11 +91,12 @@ class GaitMeasurement {
       }
   }
 
-  void measure(Gait& out) const {
+  void measure(Gait& out) {
     const auto& paths = smoother_.paths();
     out.cycles = find_cycles(paths, found_.events, belt_of(markers_.kind, markers_.belt), backward());
     const auto values = values_of(out.cycles);
     const auto refits = at(options_.refits);
+    if (refits > 0) print_noise_ = noise_of_prints();
     std::vector<std::vector<double>> deviations(slots_.size(), std::vector<double>(refits));
     std::vector<std::vector<double>> noise(found_.events.size(), std::vector<double>(refits));
     parallel_for(options_.refits, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
@@ -117,6 +139,20 @@ class GaitMeasurement {
     return out;
   }
 
+  // By how much noise moves a standing heel within the stretch that its print is the mean of: variance by
+  // side.
+  std::array<double, 2> noise_of_prints() const {
+    std::array<double, 2> sum{}, count{};
+    for (std::int64_t k = 0; k < kPrintDraws; ++k) {
+      const auto paths = smoother_.noise_alone(options_.seed ^ kPrintSeed, k);
+      for (const auto& cycle : find_cycles(paths, found_.events, {0.0, 0.0}))
+        if (const auto side = data::index_of(cycle.side); std::isfinite(cycle.print.x.x()))
+          sum[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
+    }
+    for (const auto side : {0, 1}) sum[at(side)] /= std::max(1.0, count[at(side)]);
+    return sum;
+  }
+
   // All values of a simulated recording; `noise` gets what its noise does to each event, NaN where it is not
   // found.
   std::vector<double> refit(std::int64_t k, std::vector<std::vector<double>>& noise) const {
@@ -150,7 +186,7 @@ class GaitMeasurement {
     auto cycles = find_cycles(
         paths, events, belt_of(markers_.kind, belt_velocity(paths, markers_.steps, ground), belt_error),
         backward());
-    jitter(cycles, random);
+    jitter(cycles, print_noise_, random);
     return values_of(cycles);
   }
 
@@ -203,6 +239,7 @@ class GaitMeasurement {
   const GaitOptions& options_;
   std::vector<data::Region> regions_;
   std::vector<Slot> slots_;
+  std::array<double, 2> print_noise_{};
 };
 
 // How many events come from where, how sources agree, and strikes between which one is missing.
@@ -279,6 +316,11 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   out.agreement = found.agreement;
   out.out_of_step = found.out_of_step;
   note_events(found, out);
+  if (options.refits > 0) {
+    smoother->find_noise(options.threads);
+    std::ranges::move(smoother->noise().sentences(), std::back_inserter(out.notes));
+    out.noises = smoother->noise().found;
+  }
   GaitMeasurement(*smoother, *of_markers, found, markers.time, options).measure(out);
   take_strides(out);
   if (out.kind.not_gait.empty()) out.notes.insert(out.notes.begin(), out.kind.sentence());

@@ -18,6 +18,7 @@
 #include "kinemark/stages/analysis/gait/gait_facts.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
 #include "kinemark/stages/analysis/gait/plate_events.h"
+#include "kinemark/stages/analysis/path/path_noise.h"
 
 namespace kinemark::analysis {
 
@@ -53,13 +54,14 @@ struct Gait {
   double belt_speed_m_per_s = 0.0;      ///< of a treadmill
   std::vector<Agreement> agreement;     ///< between sources
   bool out_of_step = false;             ///< plates and markers do not run on one clock
+  std::vector<PathNoise> noises;        ///< that intervals rest on, of feet and pelvis; empty: no refits
   std::vector<std::string> notes;  ///< kind, markers, sources, what is hidden or missing; a sentence each
 };
 
 /// Find events, cycles and measures of walking (docs/theory/gait.md).
 ///
-/// Intervals are the pivot of refits: marker noise through the smoother, errors of the method and of plates
-/// drawn with their SDs, all measures computed again.
+/// Intervals are the pivot of refits: marker noise of its own colour through the smoother, errors of the
+/// method and of plates drawn with their SDs, all measures computed again.
 ///
 /// @return  Code::usage for an unknown measure (callers tell what else there is) or role; Code::bad_input as
 ///          find_gait_markers() and GaitSmoother::create(), where `best` or `kinematics` is asked for and the

@@ -26,6 +26,7 @@ constexpr int kOrder = 2;                                    // gain 1 / (1 + (f
 // A smoother that halves the amplitude at f halves the power at (sqrt(2) - 1)^(1/4) f.
 constexpr double kHalfPowerOfHalfGain = 0.8022;
 constexpr double kMostOfRate = 0.4;
+constexpr std::uint64_t kNoiseStream = 0x67616974;
 
 std::vector<FrameSpan> gaps_of(const std::vector<bool>& seen) {
   std::vector<FrameSpan> out;
@@ -86,7 +87,9 @@ Result<GaitSmoother::Point> GaitSmoother::make_point(SeriesMatrix raw, std::vect
                 fmt::format("{} is believed in {} frames; need {} at least", what, count, kLeastSamples));
   double noise = math::noise_from_differences(raw, seen);
   if (!(noise > noise_sd_m)) noise = noise_sd_m;
-  return Point{.raw = std::move(raw),
+  return Point{.name = what,
+               .marker = -1,
+               .raw = std::move(raw),
                .smoother = math::DifferenceSmoother(std::move(seen), kOrder),
                .noise_sd_m = noise,
                .smooth = {}};
@@ -110,6 +113,7 @@ Status GaitSmoother::add_foot(const data::Trajectories& markers, const FootMarke
     auto raw = samples_of(markers, m, believed.seen);
     auto point = make_point(std::move(raw), std::move(believed.seen), noise_sd_m, markers.names[at(m)]);
     if (!point) return std::unexpected(point.error());
+    point->marker = m;
     points_.push_back(std::move(*point));
   }
   std::ranges::sort(how.held, {}, &FrameSpan::first);
@@ -156,6 +160,7 @@ Status GaitSmoother::add_pelvis(const data::Trajectories& markers, const GaitMar
   pelvis_known_ = bridged(any, kPelvisBridged_s, markers.time.rate_hz);
   auto point = make_point(std::move(raw), std::move(any), noise_sd_m, "the pelvis");
   if (!point) return std::unexpected(point.error());
+  if (!which.pelvis.empty()) point->marker = which.pelvis[reference];
   points_.push_back(std::move(*point));
   if (!which.front.empty() && !which.back.empty())
     front_ = mean_of_markers(markers, which.front) - mean_of_markers(markers, which.back);
@@ -196,6 +201,8 @@ Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, con
                             markers.time.rate_hz, kLeastRate_hz));
   GaitSmoother out;
   out.time_ = markers.time;
+  out.stated_sd_m_ = noise_sd_m;
+  out.filters_ = markers.filters;
   for (const auto side : data::kBothSides)
     if (which.foot(side).complete())
       if (auto s = out.add_foot(markers, which.foot(side), side, noise_sd_m); !s)
@@ -253,16 +260,42 @@ GaitPaths GaitSmoother::arrange(const std::vector<SeriesMatrix>& points) const {
   return out;
 }
 
-GaitPaths GaitSmoother::with_noise(std::uint64_t seed, std::int64_t number) const {
-  Random random(seed, mix64(0x67616974) ^ static_cast<std::uint64_t>(number));
-  std::vector<SeriesMatrix> points;
-  for (const auto& point : points_) {
-    SeriesMatrix noise(point.smooth.rows(), 3);
-    for (Eigen::Index i = 0; i < noise.size(); ++i) noise.data()[i] = point.noise_sd_m * random.gaussian();
-    point.smoother.smooth(noise);  // linear: what noise adds is what it would leave alone
-    points.push_back(point.smooth + noise);
+void GaitSmoother::find_noise(int threads) {
+  std::vector<GaitPointSamples> samples;
+  for (const auto& point : points_)
+    samples.push_back(
+        {.name = point.name,
+         .x = &point.raw,
+         .seen = &point.smoother.seen(),
+         .filter = filters_.empty() || point.marker < 0 ? nullptr : &filters_[at(point.marker)]});
+  noise_ = find_gait_noise(samples, time_, stated_sd_m_, threads);
+}
+
+// What noise leaves of itself: the smoother is linear.
+std::vector<SeriesMatrix> GaitSmoother::smooth_noise(std::uint64_t seed, std::int64_t number) const {
+  std::vector<SeriesMatrix> out;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto& point = points_[i];
+    const SeriesMatrix none = SeriesMatrix::Zero(point.smooth.rows(), 3);
+    const std::uint64_t stream = mix64(kNoiseStream + i);
+    auto noise =
+        noise_.of_points.empty()
+            ? analysis::with_noise(none, point.smoother.seen(), point.noise_sd_m, seed, stream, number)
+            : analysis::with_noise(none, noise_.of_points[i], seed, stream, number);
+    point.smoother.smooth(noise);
+    out.push_back(std::move(noise));
   }
+  return out;
+}
+
+GaitPaths GaitSmoother::with_noise(std::uint64_t seed, std::int64_t number) const {
+  auto points = smooth_noise(seed, number);
+  for (std::size_t i = 0; i < points_.size(); ++i) points[i] += points_[i].smooth;
   return arrange(points);
+}
+
+GaitPaths GaitSmoother::noise_alone(std::uint64_t seed, std::int64_t number) const {
+  return arrange(smooth_noise(seed, number));
 }
 
 }  // namespace kinemark::analysis

@@ -15,6 +15,7 @@
 #include "kinemark/math/difference_smoother.h"
 #include "kinemark/stages/analysis/gait/bad_samples.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
+#include "kinemark/stages/analysis/gait/gait_noise.h"
 
 namespace kinemark::analysis {
 
@@ -73,8 +74,14 @@ class GaitSmoother {
   [[nodiscard]] Status smooth_at(double cut_off_hz);
 
   [[nodiscard]] const GaitPaths& paths() const { return paths_; }  ///< as recorded
-  /// As recorded, with what noise of stream (1, number) of the seed leaves after smoothing.
+  /// Find what the samples err by, of whatever colour (GaitNoise). Before, with_noise() takes it as white.
+  /// @param threads  0: all cores
+  void find_noise(int threads);
+  [[nodiscard]] const GaitNoise& noise() const { return noise_; }  ///< that was found; before: nothing
+  /// As recorded, with what noise of number `number` leaves after smoothing.
   [[nodiscard]] GaitPaths with_noise(std::uint64_t seed, std::int64_t number) const;
+  /// What that noise leaves after smoothing, alone.
+  [[nodiscard]] GaitPaths noise_alone(std::uint64_t seed, std::int64_t number) const;
   /// Rotation that turns the recording's axes so that z is up.
   [[nodiscard]] const Eigen::Matrix3d& upright() const { return upright_; }
   /// How a foot was seen.
@@ -84,13 +91,16 @@ class GaitSmoother {
 
  private:
   struct Point {
-    math::SeriesMatrix raw;  // zero where not seen
+    std::string name;
+    std::int64_t marker = -1;  // whose filter it went through
+    math::SeriesMatrix raw;    // zero where not seen
     math::DifferenceSmoother smoother;
     double noise_sd_m = 0.0;
     math::SeriesMatrix smooth;
   };
   [[nodiscard]] static Result<Point> make_point(math::SeriesMatrix raw, std::vector<bool> seen,
                                                 double noise_sd_m, const std::string& what);
+  [[nodiscard]] std::vector<math::SeriesMatrix> smooth_noise(std::uint64_t seed, std::int64_t number) const;
   [[nodiscard]] Status add_foot(const data::Trajectories& markers, const FootMarkers& foot, data::Side side,
                                 double noise_sd_m);
   [[nodiscard]] Status add_pelvis(const data::Trajectories& markers, const GaitMarkers& which,
@@ -107,6 +117,9 @@ class GaitSmoother {
   math::SeriesMatrix front_, across_;  // n x 3 in the recording's axes, or 0 rows
   Eigen::Matrix3d upright_ = Eigen::Matrix3d::Identity();
   TimeBase time_;
+  double stated_sd_m_ = 0.0;
+  std::vector<data::FilterUsed> filters_;  // of the recording's markers; empty: nothing says so
+  GaitNoise noise_;
   GaitPaths paths_;
 };
 
