@@ -14,27 +14,64 @@
 namespace kinemark::analysis::internal {
 namespace {
 
-std::string lack_sentence(const SegmentDefinition& d, const std::set<std::string>& lacks,
-                          const std::vector<std::string>& without, const std::vector<std::string>& markers) {
-  std::vector<std::string> parts;
-  for (const auto& name : lacks) {
-    if (std::ranges::find(d.parameters, name, &SegmentDefinition::Parameter::name) != d.parameters.end()) {
-      parts.push_back(fmt::format("value of '{}'", name));
-    } else if (const auto l = std::ranges::find(d.landmarks, name, &SegmentDefinition::Landmark::name);
-               l != d.landmarks.end()) {
-      parts.push_back(fmt::format("landmark '{}' of the trial '{}'", name, l->trial));
-    } else if (name == "progression") {
-      parts.emplace_back("direction of progression");
-    } else {
-      const auto near = nearest_names(name, markers, 1);
-      const bool label = !near.empty() && near.front() == name;
-      parts.push_back(
-          fmt::format("{} '{}'{}", label ? "sample of marker" : "marker", name,
-                      near.empty() || label ? "" : fmt::format(" (there is '{}')", near.front())));
-    }
+// Outputs that lack the same, or things that are lacked together.
+struct LackGroup {
+  std::set<std::string> lacks;
+  std::vector<std::string> without;
+  bool alike = true;  // each of them lacks all of it
+};
+
+// Things of one kind that are not there: "marker 'A', 'B'".
+struct LackKind {
+  std::string kind;
+  std::vector<std::string> names;
+};
+
+std::pair<std::string, std::string> kind_and_name(const SegmentDefinition& d, const std::string& name,
+                                                  const std::vector<std::string>& markers) {
+  if (std::ranges::find(d.parameters, name, &SegmentDefinition::Parameter::name) != d.parameters.end())
+    return {"value of", fmt::format(" '{}'", name)};
+  if (const auto l = std::ranges::find(d.landmarks, name, &SegmentDefinition::Landmark::name);
+      l != d.landmarks.end())
+    return {fmt::format("landmark '{}' of the trial '{}'", name, l->trial), ""};
+  if (name == "progression") return {"direction of progression", ""};
+  const auto near = nearest_names(name, markers, 1);
+  if (!near.empty() && near.front() == name) return {"sample of marker", fmt::format(" '{}'", name)};
+  return {"marker",
+          fmt::format(" '{}'{}", name, near.empty() ? "" : fmt::format(" (there is '{}')", near.front()))};
+}
+
+std::string lack_sentence(const SegmentDefinition& d, const LackGroup& group,
+                          const std::vector<std::string>& markers) {
+  std::vector<LackKind> kinds;
+  for (const auto& lacked : group.lacks) {
+    auto [kind, name] = kind_and_name(d, lacked, markers);
+    auto at = std::ranges::find(kinds, kind, &LackKind::kind);
+    if (at == kinds.end()) at = kinds.insert(kinds.end(), {kind, {}});
+    at->names.push_back(std::move(name));
   }
-  return fmt::format("Not computed: {}; there is no {}.", fmt::join(without, ", "),
-                     fmt::join(parts, ", no "));
+  std::vector<std::string> parts;
+  for (const auto& [kind, names] : kinds) parts.push_back(kind + fmt::format("{}", fmt::join(names, ",")));
+  return fmt::format("Not computed: {}; there is no {}{}.", fmt::join(group.without, ", "),
+                     fmt::join(parts, ", no "), group.alike ? "" : ", and each needs one of them or more");
+}
+
+// Groups that lack something in common become one: who brings no markers of the trunk lacks arms and head
+// with them.
+void join_groups(std::vector<LackGroup>& groups) {
+  for (std::size_t i = 0; i < groups.size();) {
+    const auto shares = [&](const std::string& name) { return groups[i].lacks.contains(name); };
+    const auto other = std::find_if(groups.begin() + static_cast<std::ptrdiff_t>(i) + 1, groups.end(),
+                                    [&](const LackGroup& g) { return std::ranges::any_of(g.lacks, shares); });
+    if (other == groups.end()) {
+      ++i;
+      continue;
+    }
+    groups[i].alike = false;
+    groups[i].lacks.insert(other->lacks.begin(), other->lacks.end());
+    groups[i].without.insert(groups[i].without.end(), other->without.begin(), other->without.end());
+    groups.erase(other);
+  }
 }
 
 }  // namespace
@@ -42,16 +79,16 @@ std::string lack_sentence(const SegmentDefinition& d, const std::set<std::string
 std::vector<std::string> lack_sentences(const SegmentDefinition& definition,
                                         std::span<const std::string> names, const SegmentGraph& graph,
                                         const std::vector<std::string>& markers) {
-  std::vector<std::pair<std::set<std::string>, std::vector<std::string>>> groups;
+  std::vector<LackGroup> groups;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (graph.lacks[i].empty() || names[i].empty()) continue;
-    auto at = std::ranges::find(groups, graph.lacks[i], &decltype(groups)::value_type::first);
-    if (at == groups.end()) at = groups.insert(groups.end(), {graph.lacks[i], {}});
-    at->second.push_back(names[i]);
+    auto at = std::ranges::find(groups, graph.lacks[i], &LackGroup::lacks);
+    if (at == groups.end()) at = groups.insert(groups.end(), {.lacks = graph.lacks[i], .without = {}});
+    at->without.push_back(names[i]);
   }
+  join_groups(groups);
   std::vector<std::string> out;
-  for (const auto& [lacks, without] : groups)
-    out.push_back(lack_sentence(definition, lacks, without, markers));
+  for (const auto& group : groups) out.push_back(lack_sentence(definition, group, markers));
   return out;
 }
 

@@ -11,7 +11,8 @@
 
 namespace kinemark::analysis::internal {
 
-/// One sentence for outputs of a graph that lack the same, without those whose name is empty.
+/// One sentence for outputs of a graph that lack the same, or something in common, without those whose name
+/// is empty.
 /// @param names    of the outputs, as sentences call them
 /// @param markers  of the recording, the nearest of which is shown
 [[nodiscard]] std::vector<std::string> lack_sentences(const SegmentDefinition& definition,
