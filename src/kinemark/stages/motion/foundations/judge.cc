@@ -108,6 +108,9 @@ std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data:
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (2 * k + 1) * full.size() / (2 * n);
     out.push_back(frame_at(movement, columns, full[std::min(i, full.size() - 1)], 0, options.moving_sd_m));
+    for (std::size_t m = 0; m < body.markers.size(); ++m)
+      out.back().sd[static_cast<Eigen::Index>(m)] =
+          std::hypot(options.moving_sd_m, body.markers[m].spread.by_posture);
   }
   return out;
 }
@@ -128,7 +131,8 @@ internal::SharedPrior prior_with(const StandingBody& body, const internal::Share
   Eigen::MatrixXd covariance = known.information.inverse();
   const Eigen::Index sites = covariance.rows() - static_cast<Eigen::Index>(3 * body.markers.size());
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    const double sd = keeps_its_place(body.markers[m]) ? between_sd_m : std::max(between_sd_m, kLoose_m);
+    const double loose = keeps_its_place(body.markers[m]) ? between_sd_m : std::max(between_sd_m, kLoose_m);
+    const double sd = std::hypot(loose, body.markers[m].spread.by_posture);
     covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() += sd * sd;
   }
   known.information = covariance.inverse();

@@ -22,6 +22,7 @@ enum class BodyPart : std::uint8_t { pelvis, thigh, shank, foot, trunk, head, up
 struct PlaceSpread {
   Eigen::Vector3d common = Eigen::Vector3d::Constant(0.020);  ///< both sides alike: the laboratory's habit
   Eigen::Vector3d own = Eigen::Vector3d::Constant(0.012);     ///< each marker by itself
+  double by_posture = 0.0;  ///< from one posture to another: what it lies on may bend, as toes do; every axis
 };
 
 /// A marker's place on the body of a man of 1.75 m who stands: x forward, y up, z outward (to the right for
