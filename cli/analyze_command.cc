@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "cli/analyze_kinds.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/many_inputs.h"
@@ -87,97 +85,34 @@ void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome&
   print_result(json.dump(2) + "\n");
 }
 
-// Options that say nothing of the other kind of input: taken silently, they would seem to have been heeded.
-constexpr std::array kOfMarkers{"--drop",         "--rate", "--noise",   "--edits",     "--keep-defects",
-                                "--angles",       "--emg",  "--emg-max", "--write-emg", "--write-emg-cycles",
-                                "--participants", "--jobs"};
-// Those of a gait report, which stands beside measures, not beside tables of a motion.
-constexpr std::array kOfReports{"--figures",      "--figure-formats", "--report",
-                                "--norm",         "--angle-angle",    "--write-events",
-                                "--write-cycles", "--gait-marker",    "--events"};
-constexpr std::array kOfMotions{"--couple", "--normalize", "--bodies", "--point", "--torques", "--cutoff"};
-// Options that say what is measured; tables of the whole motion have no use for them.
-constexpr std::array kOfMeasures{"--select", "--region", "--between",  "--refits",
-                                 "--level",  "--couple", "--normalize"};
-
-Status check_options(const CLI::App& command, std::span<const char* const> of_others,
-                     const AnalyzeArguments& arguments, std::string_view needed, std::string_view given) {
-  for (const char* name : of_others)
-    if (!arguments.inputs.empty() && command.count(name) > 0)
-      return fail(Code::usage, fmt::format("{} is an option for {}; {} is {}", name, needed,
-                                           arguments.inputs.front().filename().string(), given));
-  return {};
+AnalyzeKind kind_of(const AnalyzeArguments& arguments) {
+  if (arguments.measures.list) return AnalyzeKind::list;
+  if (are_many(arguments.inputs)) return AnalyzeKind::several;
+  if (!arguments.segments.definition.empty()) return AnalyzeKind::segments;
+  if (is_of_markers(arguments)) return AnalyzeKind::markers;
+  return is_measured(arguments) ? AnalyzeKind::motion : AnalyzeKind::tables;
 }
 
-// What many recordings are measured by alone.
-Status check_many(const AnalyzeArguments& arguments) {
-  const auto& job = arguments.job;
-  for (const auto& [option, path] : {std::pair{"--model", &job.model}, std::pair{"--setup", &job.setup},
-                                     std::pair{"--forces", &job.forces}})
-    if (!path->empty())
-      return fail(
-          Code::usage,
-          fmt::format("{} {} belongs to one motion; several recordings of markers are measured without",
-                      option, path->string()));
-  if (!arguments.segments.definition.empty())
-    return fail(Code::usage, "--segments takes one recording; give them one by one");
-  for (const auto& input : arguments.inputs)
+Status check_no_motion(const std::vector<std::filesystem::path>& inputs) {
+  for (const auto& input : inputs)
     if (const auto ending = pipeline::ending_of(input); ending == ".mot" || ending == ".sto")
       return fail(Code::usage,
                   fmt::format("{}: is a motion; several recordings are of markers", input.string()));
   return {};
 }
 
-int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
-  if (are_many(arguments.inputs)) {
-    auto fitting = check_many(arguments);
-    if (fitting)
-      fitting = check_options(command, kOfMotions, arguments, "motions", "one of several recordings");
-    if (!fitting) return report_error(fitting.error());
-    auto& job = arguments.measures.job;
-    job.output = arguments.job.output;
-    job.selection.first_time_s = arguments.job.first_time_s;
-    job.selection.last_time_s = arguments.job.last_time_s;
-    return run_many_measures_command(common, arguments.measures, arguments.inputs);
-  }
-  if (!arguments.inputs.empty()) arguments.job.motion = arguments.inputs.front();
-  if (!arguments.segments.definition.empty()) {
-    auto& selection = arguments.measures.job.selection;
-    selection.first_time_s = arguments.job.first_time_s;
-    selection.last_time_s = arguments.job.last_time_s;
-    arguments.segments.input = arguments.job.motion;
-    arguments.segments.output = arguments.job.output;
-    return run_segments_command(common, arguments.segments, arguments.measures);
-  }
-  const bool of_markers = is_of_markers(arguments);
-  const auto fitting = of_markers ? check_options(command, kOfMotions, arguments, "motions", "a recording")
-                                  : check_options(command, kOfMarkers, arguments, "recordings", "a motion");
-  if (!fitting) return report_error(fitting.error());
-  if (of_markers) {
-    auto& job = arguments.measures.job;
-    job.input = arguments.job.motion;
-    job.output = arguments.job.output;
-    job.selection.first_time_s = arguments.job.first_time_s;
-    job.selection.last_time_s = arguments.job.last_time_s;
-    return run_measures_command(common, arguments.measures);
-  }
-  arguments.job.error_bars = !arguments.no_error_bars;
-  if (is_measured(arguments))
-    return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
-  for (const char* name : kOfMeasures)
-    if (command.count(name) > 0)
-      return report_error(
-          {.code = Code::usage,
-           .message = fmt::format(
-               "{} says what is measured; tables in a folder are of the whole motion: need -o FILE.csv or "
-               "--measures with it, or neither (--start and --end choose rows)",
-               name)});
-  for (const char* name : kOfReports)
-    if (command.count(name) > 0)
-      return report_error(
-          {Code::usage, fmt::format("{} goes with measures of a motion; leave the folder, --bodies, "
-                                    "--point and --setup away",
-                                    name)});
+int run_several(const CommonOptions& common, AnalyzeArguments& arguments) {
+  if (auto s = check_no_motion(arguments.inputs); !s) return report_error(s.error());
+  return run_many_measures_command(common, arguments.measures, arguments.inputs);
+}
+
+int run_segments(const CommonOptions& common, AnalyzeArguments& arguments) {
+  arguments.segments.input = arguments.job.motion;
+  arguments.segments.output = arguments.measures.job.output;
+  return run_segments_command(common, arguments.segments, arguments.measures);
+}
+
+int run_tables(const CommonOptions& common, const AnalyzeArguments& arguments) {
   auto job = arguments.job;
   for (const auto& text : arguments.points) {
     auto point = parse_point(text);
@@ -185,6 +120,39 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
     job.points.push_back(std::move(*point));
   }
   return run_job(common, "files", job, pipeline::run_analysis, print_outcome);
+}
+
+/// What the command line gives once, where each job has it.
+void share(AnalyzeArguments& arguments) {
+  auto& job = arguments.job;
+  if (!arguments.inputs.empty()) job.motion = arguments.measures.job.input = arguments.inputs.front();
+  arguments.measures.job.output = job.output;
+  const auto& times = arguments.measures.job.selection;
+  if (std::isfinite(times.first_time_s)) job.first_time_s = times.first_time_s;
+  if (std::isfinite(times.last_time_s)) job.last_time_s = times.last_time_s;
+  job.error_bars = !arguments.no_error_bars;
+}
+
+int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
+  share(arguments);
+  const auto kind = kind_of(arguments);
+  const auto input = arguments.inputs.empty() ? std::string("the motion of the setup")
+                                              : arguments.inputs.front().filename().string();
+  if (auto s = check_heeded(command, kind, input); !s) return report_error(s.error());
+  switch (kind) {
+    case AnalyzeKind::list:
+    case AnalyzeKind::markers:
+      return run_measures_command(common, arguments.measures);
+    case AnalyzeKind::several:
+      return run_several(common, arguments);
+    case AnalyzeKind::segments:
+      return run_segments(common, arguments);
+    case AnalyzeKind::motion:
+      return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
+    case AnalyzeKind::tables:
+      return run_tables(common, arguments);
+  }
+  return report_error({.code = Code::usage, .message = "nothing to analyse"});
 }
 
 void add_options(CLI::App& command, AnalyzeArguments& a) {
@@ -202,8 +170,6 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
       .add_option("--setup", job.setup,
                   "OpenSim AnalyzeTool or InverseDynamicsTool setup; other options take precedence")
       ->group("Input");
-  command.add_option("--start", job.first_time_s, "First time to write or to measure, s")->group("Input");
-  command.add_option("--end", job.last_time_s, "Last time to write or to measure, s")->group("Input");
   command
       .add_option("-o,--output", job.output,
                   "Folder for the results; for measures a table, .csv, .json or .nwb")

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/many_inputs.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/clean/clean_job.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -77,7 +78,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
     return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);
   }
   many.pages = job.report;
-  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
+  if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   const auto clean_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,
                                 const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -134,18 +135,13 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("--upsampled", arguments->upsampled,
                    "Samples that the recorder interpolated: keep, mark, missing or decimate")
       ->capture_default_str();
-  command->add_flag("--reject", job.reject_defects,
-                    "Reject spikes, swaps, stuck and false samples instead of only reporting them");
   command->add_flag("--without-unfiltered", arguments->without_unfiltered,
                     "Do not keep the samples from before the filter beside the smoothed ones");
   command->add_flag("!--keep-exchanges", job.exchange_back,
                     "Leave markers that carry each other's label as they are; told all the same");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
-  command->add_option(
-      "--edits", job.edits,
-      "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
-      "recording, where there is one");
+  add_recording_options(*command, job, pipeline::Doubtful::keep);
   command->add_option("--report", job.report, "Page to write, .html; a folder for several recordings");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

@@ -5,7 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/many_inputs.h"
-#include "cli/selection_options.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/files/convert_job.h"
 
 namespace kinemark::cli {
@@ -43,7 +43,7 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
     return report_error({.code = Code::usage,
                          .message = fmt::format("{}: files for a folder need --to and one of {}",
                                                 many.output.string(), written_formats())});
-  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
+  if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   const auto convert_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                   const std::filesystem::path& /*page*/,
                                   const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -73,24 +73,17 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto& many = arguments->many;
   add_in_and_out(*command, many, "File to read; several, or a folder of recordings");
   add_many_options(*command, many);
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
   command->add_option("--skeleton", job.skeleton,
                       "Skeleton (.asf) of an .amc; the one beside it when absent");
-  command->add_option("--rotate", job.rotate,
-                      "Turn markers and force plates: axis and degrees, \"x -90\" makes z up into y up");
   command->add_flag(
       "--merge", arguments->merge,
       "The files IN are of one recording: parts in time or sets of markers, to be one file OUT");
   command->add_option("--resample", job.resample_hz, "Write a marker file at this frame rate, Hz");
   command->add_option("-m,--model", job.model,
                       "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
-  command->add_option(
-      "--edits", job.edits,
-      "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
-      "recording, where there is one");
   command->add_flag("--ndx-pose", job.ndx_pose,
                     "In an .nwb also a PoseEstimation of ndx-pose, which pynwb then needs to read the file");
-  add_selection_options(*command, job.selection);
+  add_recording_options(*command, job, pipeline::Doubtful::keep);
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

@@ -66,6 +66,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 44> kHabits 
     {"live", "track"},
 }};
 
+/// Options that other words say by now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kFormerOptions = {{
+    {"keep-defects", "--doubtful keep"},
+    {"outliers", "--doubtful keep or --doubtful drop"},
+    {"reject", "--doubtful drop"},
+    {"keep-outliers", "--doubtful keep"},
+}};
+
 bool is_option(std::string_view word) { return word.size() > 1 && word.front() == '-'; }
 
 std::string lower(std::string word) {
@@ -102,6 +110,11 @@ std::string did_you_mean(std::vector<std::string> names, std::string_view before
 std::string unknown_option(const CLI::App& at, const std::string& word) {
   const std::string name =
       word.substr(word.find_first_not_of('-'), word.find('=') - word.find_first_not_of('-'));
+  const auto former =
+      std::ranges::find(kFormerOptions, name, &std::pair<std::string_view, std::string_view>::first);
+  const auto here = option_names(at);
+  if (former != kFormerOptions.end() && std::ranges::find(here, "doubtful") != here.end())
+    return fmt::format("unknown option '{}'; {} does that", word, former->second);
   return fmt::format("unknown option '{}'{}", word,
                      did_you_mean(nearest_names(name, option_names(at)), "--"));
 }

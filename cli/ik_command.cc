@@ -62,7 +62,7 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
   many.output = job.output;
   if (many.inputs.empty() || !many.are_many())
     return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
-  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
+  if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   many.pages = job.report;
   const auto solve_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,

@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/many_inputs.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
@@ -15,13 +16,13 @@ namespace {
 
 struct InfoArguments {
   std::vector<std::filesystem::path> given;
-  double rate_hz = 0.0;
+  pipeline::RecordingOptions recording;
 };
 
 int show_one(const CommonOptions& common, const InfoArguments& arguments) {
   pipeline::InfoJob job;
   job.file = arguments.given.front();
-  job.rate_hz = arguments.rate_hz;
+  static_cast<pipeline::RecordingOptions&>(job) = arguments.recording;
   settle(common, "files", job);
   const auto outcome = pipeline::run_info(job);
   if (!outcome) return report_error(outcome.error());
@@ -34,7 +35,8 @@ int show_one(const CommonOptions& common, const InfoArguments& arguments) {
 
 int show_many(const CommonOptions& common, const InfoArguments& arguments) {
   pipeline::ValidateJob job;
-  job.rate_hz = arguments.rate_hz;
+  job.recording = arguments.recording;
+  if (auto s = pipeline::check_for_several(job.recording); !s) return report_error(s.error());
   auto list = pipeline::list_inputs(arguments.given, pipeline::known_endings());
   if (!list) return report_error(list.error());
   job.files = std::move(list->files);
@@ -67,8 +69,7 @@ void add_info(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("FILE", arguments->given,
                    ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, .vsk, or a folder of them")
       ->required();
-  command->add_option("--rate", arguments->rate_hz,
-                      "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
+  add_recording_options(*command, arguments->recording, pipeline::Doubtful::keep);
   command->callback([&common, arguments, &run] {
     run = [&common, arguments] {
       return are_many(arguments->given) ? show_many(common, *arguments) : show_one(common, *arguments);

@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/many_inputs.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 
@@ -43,6 +44,7 @@ int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
          .message = "several recordings need a folder for what is made of them; give --output"});
   if (many.to.empty()) many.to = "csv";
   if (auto s = many.check_format(); !s) return report_error(s.error());
+  if (auto s = pipeline::check_for_several(arguments.job); !s) return report_error(s.error());
   const auto find_one = [&arguments](const std::filesystem::path& input, const std::filesystem::path& output,
                                      const std::filesystem::path& page,
                                      const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -147,12 +149,8 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_flag("--soft-tissue", job.soft_tissue,
                  "articulated: every marker has a noise of its own, found from the data")
       ->group("Estimate");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
-      ->group("Input");
+  add_recording_options(*command, job, pipeline::Doubtful::drop);
   command->add_flag("--keep-upsampled", job.keep_upsampled, "Use samples that the recorder interpolated, too")
-      ->group("Input");
-  command
-      ->add_flag("--keep-defects", job.keep_defects, "Use samples that screening calls swapped or false, too")
       ->group("Input");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });

@@ -10,7 +10,6 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/markers/marker_format.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -71,12 +70,6 @@ void add_many_options(CLI::App& command, ManyArguments& arguments) {
       ->group("Several recordings");
   command.add_flag("--keep-going", arguments.keep_going, "Go on with the others when one has failed")
       ->group("Several recordings");
-}
-
-Status check_edits(const std::filesystem::path& edits) {
-  if (edits.empty() || edits == pipeline::kEditsBeside) return {};
-  return fail(Code::usage,
-              fmt::format("--edits: {} is of one recording; need 'beside' with several", edits.string()));
 }
 
 int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,

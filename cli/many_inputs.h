@@ -45,9 +45,6 @@ void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in)
 /// --jobs and --keep-going.
 void add_many_options(CLI::App& command, ManyArguments& arguments);
 
-/// Code::usage for a journal of edits that is named: it is of one recording, "beside" is of each.
-[[nodiscard]] Status check_edits(const std::filesystem::path& edits);
-
 /// Run the job for every recording, `ending` being the outputs' (empty: each its input's), and print the
 /// table; the exit status. @param belongs  as ManyJob
 [[nodiscard]] int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,

@@ -5,6 +5,7 @@
 #include "cli/console.h"
 #include "cli/emg_options.h"
 #include "cli/gait_options.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/measures/many_measures_job.h"
@@ -41,6 +42,7 @@ int print_many(const CommonOptions& common, const pipeline::ManyMeasuresOutcome&
 
 void add_measures_options(CLI::App& command, MeasuresArguments& a) {
   auto& job = a.job;
+  add_recording_options(command, job, pipeline::Doubtful::drop);
   const char* what = "Measures of markers";
   const auto list = [&](const char* name, auto& value, const char* type, const char* text) {
     command.add_option(name, value, text)
@@ -53,23 +55,16 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->group(what);
   list("--measures", job.measures, "NAME",
        "Which, with commas between; all that apply to each movement when absent");
-  list("--select", job.selection.select, "NAME",
-       "Markers to measure, with commas between; * is any text, ? any letter");
-  list("--drop", job.selection.drop, "NAME", "Markers to leave out");
   command
       .add_option("--region", job.regions,
-                  "A stretch to measure: reach=120-300 in frames, reach=1.2s-3s. Repeatable.")
+                  "A span to measure: reach=120-300 in frames, reach=1.2s-3s. Repeatable.")
       ->type_name("NAME=FIRST-LAST")
       ->allow_extra_args(false)
       ->group(what);
   command
-      .add_option("--between", job.between,
-                  "Stretches from each event of this label to the next. Repeatable.")
+      .add_option("--between", job.between, "Spans from each event of this label to the next. Repeatable.")
       ->type_name("LABEL")
       ->allow_extra_args(false)
-      ->group(what);
-  command.add_option("--rate", job.rate_hz, "Frame rate of a file that tells none")
-      ->type_name("HZ")
       ->group(what);
   command.add_option("--noise", a.noise_mm, "Marker noise per axis; 0: found from the data")
       ->type_name("MM")
@@ -100,13 +95,6 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
                   "Page to write as well, .html: figures and tables; of walking alone, a gait report")
       ->type_name("FILE")
       ->group("Output");
-  command
-      .add_option("--edits", job.edits,
-                  "Journal of edits to apply first; 'beside': the one beside the recording")
-      ->type_name("FILE")
-      ->group(what);
-  command.add_flag("--keep-defects", job.keep_defects, "Measure spikes, swaps and stuck samples too")
-      ->group(what);
   const char* several = "Several recordings";
   command
       .add_option(

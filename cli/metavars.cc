@@ -36,7 +36,7 @@ constexpr std::array kValues = {
     Values{"imperfection misalignment soft-tissue ripple", "FACTOR"},
     Values{"threads seed jobs frames frames-per-pose leds order person pose port upsample warp-degree", "N"},
     Values{"seeds", "N-N"},
-    Values{"cutoff-rule detector estimator filter flicker gaps interpolation kind loss method outliers "
+    Values{"cutoff-rule detector estimator filter flicker gaps interpolation kind loss method "
            "upsampled scene SHELL",
            "NAME"},
     Values{"lock marker level bodies", "NAME"},

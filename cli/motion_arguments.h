@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/axes_options.h"
 #include "cli/command.h"
+#include "cli/recording_options.h"
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 
@@ -34,20 +34,11 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command.add_option("-t,--markers", a.recordings, "Marker file, .c3d, .trc, .nwb, .csv, .tsv or .v3d")
       ->group("Input");
-  command
-      .add_option("--edits", job.edits,
-                  "Journal of edits to apply first (docs/formats/edits.md); 'beside': the one beside each "
-                  "recording, where there is one")
-      ->group("Input");
-  command.add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
-      ->group("Input");
+  add_recording_options(command, job, pipeline::Doubtful::drop);
   command
       .add_option("--forces", job.forces,
                   "External forces, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
       ->group("Input");
-  command.add_option("--start", job.options.first_time_s, "First time to use, s")->group("Input");
-  command.add_option("--end", job.options.last_time_s, "Last time to use, s")->group("Input");
-  add_axes_options(command, job.axes);
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command
       .add_option("--images", a.images,
@@ -82,17 +73,6 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
   command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations and bounds")
       ->group("Output");
   command.add_flag("--no-limits", a.no_limits, "Let clamped coordinates leave their range")
-      ->group("Estimate");
-  command
-      .template add_option_function<std::string>(
-          "--outliers",
-          [&options = job.options](const std::string& what) {
-            if (what != "reject" && what != "keep")
-              throw CLI::ValidationError("--outliers", fmt::format("'{}' is not reject or keep", what));
-            options.judge_samples = what == "reject";
-          },
-          "reject: leave out samples that neither the model nor the frames beside explain; keep: believe all")
-      ->default_str(job.options.judge_samples ? "reject" : "keep")
       ->group("Estimate");
   command.add_option("--max-rms", a.max_rms_mm, "Gate: RMS marker error, mm")
       ->capture_default_str()

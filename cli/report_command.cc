@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/recording_options.h"
 #include "kinemark/pipeline/motion/report_job.h"
 
 namespace kinemark::cli {
@@ -21,15 +22,9 @@ void add_report(CLI::App& app, const CommonOptions& common, Run& run) {
                    "with its companions beside it")
       ->required();
   command->add_option("-o,--output", job->page, "Page to write, R.html")->required();
-  command->add_option("--rate", job->rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz")
-      ->group("Input");
+  add_recording_options(*command, *job, pipeline::Doubtful::keep);
   command
       ->add_option("--skeleton", job->skeleton, "Skeleton of an .amc file, .asf; default: the one beside it")
-      ->group("Input");
-  command
-      ->add_option("--up", job->up,
-                   "Axis that points up in the recording: x, y, z, -x, -y, -z, or auto to find it")
-      ->type_name("AXIS")
       ->group("Input");
   command
       ->add_option(

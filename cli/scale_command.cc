@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "cli/axes_options.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/recording_options.h"
 #include "kinemark/core/text.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/scale/scale_json.h"
@@ -99,12 +99,7 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("--joints", job.joints,
                    "Functional joint centres: folder or skeleton.json that 'joints' wrote")
       ->group("Input");
-  command->add_option("--rate", job.rate_hz, "Frame rate of marker files that store none (.v3d, .amc), Hz")
-      ->group("Input");
-  command->add_option("--start", job.adapt.ik.first_time_s, "First time of the motion to use, s")
-      ->group("Input");
-  command->add_option("--end", job.adapt.ik.last_time_s, "Last time of the motion to use, s")->group("Input");
-  add_axes_options(*command, job.axes);
+  add_recording_options(*command, job, pipeline::Doubtful::keep);
   command->add_option("-o,--output", job.output, "Model to write, M.osim")->group("Output");
   command->add_option("--report", job.report, "Also write the page that shows the result, R.html")
       ->group("Output");
@@ -137,7 +132,7 @@ void add_scale(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_flag("--no-soft-tissue", arguments->no_soft_tissue,
                  "Do not test for markers that slide on the body")
       ->group("Estimate");
-  command->add_option("--frames", job.adapt.max_frames, "Frames of the motion to use at most")
+  command->add_option("--max-frames", job.adapt.max_frames, "Frames of the motion to use at most")
       ->capture_default_str()
       ->group("Estimate");
   command->add_option("--max-rms", arguments->max_rms_mm, "Gate: RMS marker error, mm")

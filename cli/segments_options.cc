@@ -64,21 +64,13 @@ void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
                                 "A trial in which landmarks of the definition were shown. Repeatable.")
                     ->type_name("NAME=FILE")
                     ->allow_extra_args(false);
-  auto* up =
-      command.add_option("--up", job.up, "Axis against gravity: x, y, z, -x, -y, -z; found when absent")
-          ->type_name("AXIS");
-  for (auto* option : {segments, still, vsk, subject, trial, up}) option->group("Segments of markers");
-  for (auto* option : {still, vsk, subject, trial, up}) option->needs(segments);
-  for (const char* other : {"--model", "--forces", "--setup", "--measures", "--region", "--between",
-                            "--edits", "--list", "--angles", "--emg", "--write-emg", "--write-emg-cycles"})
-    segments->excludes(command.get_option(other));
+  for (auto* option : {segments, still, vsk, subject, trial}) option->group("Segments of markers");
+  for (auto* option : {still, vsk, subject, trial}) option->needs(segments);
 }
 
 int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job,
                          const MeasuresArguments& measures) {
-  job.rate_hz = measures.job.rate_hz;
-  job.selection = measures.job.selection;
-  job.keep_defects = measures.job.keep_defects;
+  static_cast<pipeline::RecordingOptions&>(job) = measures.job;
   job.noise_sd_m = 1e-3 * measures.noise_mm;
   static_cast<pipeline::GaitOutputs&>(job) = measures.job;
   job.refits = measures.job.refits;

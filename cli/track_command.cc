@@ -98,7 +98,7 @@ int run_command(const CommonOptions& common, const TrackArguments& arguments) {
   many.pages = job.report;
   if (many.inputs.empty() || !many.are_many())
     return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
-  if (auto s = check_edits(job.edits); !s) return report_error(s.error());
+  if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   const auto track_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,
                                 const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {

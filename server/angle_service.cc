@@ -130,7 +130,7 @@ Result<std::shared_ptr<const AngleService::Solution>> AngleService::solve_one(co
   pipeline::IkJob job = options_.asked;
   job.model = of->model;
   job.markers = recording;
-  if (with_edits) job.edits = pipeline::kEditsBeside;
+  job.edits = with_edits ? pipeline::kEditsBeside : pipeline::kEditsNone;
   job.threads = options_.threads;
   job.seed = options_.seed;
   job.progress = [of](std::int64_t done, std::int64_t total) {

@@ -47,9 +47,10 @@ class AngleServiceThread : public ::testing::Test {
       changed_.wait(lock, [this] { return is_open_; });
     }
     if (!job.progress(3, 10)) return fail(Code::cancelled, "stopped");
-    const std::string edits = job.edits.empty() ? "0" : io::read_text(scratch_ / "edits").value_or("0");
+    const std::string edits =
+        job.edits == pipeline::kEditsNone ? "0" : io::read_text(scratch_ / "edits").value_or("0");
     if (edits == "throw") throw std::runtime_error("a contract");
-    if (edits == "bad" || (job.edits.empty() && unsolvable_))
+    if (edits == "bad" || (job.edits == pipeline::kEditsNone && unsolvable_))
       return fail(Code::bad_input, "no marker <fits>");
     pipeline::IkPage page{.html = "<p>" + edits + page_padding_,
                           .set = "set of " + edits,

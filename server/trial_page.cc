@@ -131,6 +131,7 @@ Result<Page> make_trial_page(const std::filesystem::path& path,
   }
   pipeline::InfoJob job;
   job.file = path;
+  job.edits = pipeline::kEditsNone;
   const auto info = pipeline::run_info(job);
   if (!info) return std::unexpected(info.error());
   if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts))

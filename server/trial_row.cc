@@ -131,6 +131,7 @@ void describe_facts(const pipeline::MarkerFileFacts&, TrialRow& row) { row.kind 
 void describe_other(const fs::path& path, TrialRow& row) {
   pipeline::InfoJob job;
   job.file = path;
+  job.edits = pipeline::kEditsNone;
   const auto info = pipeline::run_info(job);
   if (!info) return fail_row(info.error(), row);
   std::visit([&](const auto& facts) { describe_facts(facts, row); }, info->facts);

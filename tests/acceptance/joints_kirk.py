@@ -39,7 +39,7 @@ def ours(folder, positions_mm, visible):
     (folder / "segments.toml").write_text(SEGMENTS, encoding="utf-8")
     subprocess.run(
         [PROGRAM, "joints", "arm.csv", "--segments", "segments.toml", "--method", "constant-distance", "--keep-upsampled",
-         "--keep-defects", "-o", "elbow.csv", "--force", "--quiet"],
+         "--doubtful", "keep", "-o", "elbow.csv", "--force", "--quiet"],
         cwd=folder, check=True,
     )
     elbow = np.full((len(positions_mm), 3), np.nan)

@@ -181,7 +181,7 @@ def solve(name, names, markers, counts, method, kind="ball"):
     parts = names[: counts[0]], names[counts[0] :]
     segments.write_text("".join(f"[[segment]]\nname = {n!r}\nmarkers = {json.dumps(m)}\n" for n, m in zip(("a", "b"), parts)))
     done = subprocess.run([PROGRAM, "joints", recording, "--segments", segments, "--method", method, "--kind", kind,
-                           "--keep-defects", "--keep-upsampled", "--json", "--quiet"], capture_output=True, text=True, check=False)
+                           "--doubtful", "keep", "--keep-upsampled", "--json", "--quiet"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"{name}: {done.stderr}")
     found = json.loads(done.stdout)

@@ -260,7 +260,7 @@ def read_loads(folder):
 def coverage_of_loads(folder, walk, still):
     """Noise on every marker of a real walk over plates: where the loads without it lie in the stated deviations."""
     names = {f"{side}{part}" for side in "LR" for part in ("ASI", "PSI", "THI", "KNE", "TIB", "ANK", "HEE", "TOE")}
-    arguments = ("--segments", "pig", "--static", still, "--keep-defects", "--force", *EXACT)
+    arguments = ("--segments", "pig", "--static", still, "--doubtful", "keep", "--force", *EXACT)
     kinemark("analyze", walk, *arguments, "--refits", "0", "-o", folder / "clean_loads")
     truth = read_loads(folder / "clean_loads")
     # Seeds 4201 and 4202 were used while working.

@@ -77,7 +77,7 @@ COMMANDS = (
     one("clean", "markers.trc", "out.nwb", "--derivatives", writes="out.nwb"),
     Command(("clean", "markers.c3d", "out.c3d", "--derivatives"), ("markers.c3d",), "out.c3d", ("--cutoff", "6")),
     Command(("joints", "arm.c3d", "--segments", "segments.toml", "-o", "out"), ("arm.c3d", "segments.toml"), "out"),
-    Command(("scale", "-m", "model.osim", "-t", "markers.trc", "-o", "out.osim", "--frames", "5"), ("model.osim", "markers.trc"), "out.osim", ("--end", "0.05")),
+    Command(("scale", "-m", "model.osim", "-t", "markers.trc", "-o", "out.osim", "--max-frames", "5"), ("model.osim", "markers.trc"), "out.osim", ("--end", "0.05")),
     Command(("scale", "--setup", "scale.xml", "-o", "out.osim"), ("scale.xml",), "out.osim"),
     Command(("ik", "-m", "model.osim", "-t", "markers.trc", "-o", "out.mot"), ("model.osim", "markers.trc"), "out.mot", ("--end", "0.05")),
     Command(("ik", "-m", "model.osim", "-t", "markers.c3d", "-o", "out.mot", "--tasks", "tasks.xml"), ("tasks.xml",), "out.mot"),

@@ -48,7 +48,7 @@ class AxesTest(CommandTest):
         self.refused(2, "--up: 'w' is not x, y, z, -x, -y or -z, or auto", *self.ik(up="w"))
         self.refused(2, "give one of them", *self.ik(up="z", rotate="x 90"))
         self.refused(2, 'is not a rotation such as "x -90"', "convert", self.trc, "b.trc", "--rotate", "x ninety")
-        self.refused(2, "only marker files can be turned", "convert", self.truth, "b.sto", "--rotate", "x 90")
+        self.refused(2, "is no recording", "convert", self.truth, "b.sto", "--rotate", "x 90")
 
     def test_there_and_back_is_the_same_file(self):
         self.good("convert", self.trc, "a.trc")

@@ -106,8 +106,8 @@ class WrongContent(CommandTest):
     def test_time_ranges_outside_the_data(self):
         self.refused(3, ["markers.c3d", "no frame in the time range", "0 to 0.99 s"], *self.ik(start=50))
         self.refused(3, "no frame in the time range", *self.ik(end=-5))
-        self.refused(2, "empty", *self.ik(start=0.8, end=0.2))
-        self.refused(2, "time range", *self.ik(start="nan"))
+        self.refused(2, "no time lies between", *self.ik(start=0.8, end=0.2))
+        self.refused(2, "no time lies between", *self.ik(start="nan"))
 
     def test_a_report_that_is_not_one(self):
         self.write("q_report.json", "{not json")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""Edits by hand: `kinemark edit`, and `--edits` of clean and convert."""
+"""Edits by hand: `kinemark edit`, and the journals that commands apply."""
 
 import json
 import shutil
@@ -28,7 +28,7 @@ class EditsTest(CommandTest):
 
     def rows(self, name):
         """{(frame, marker): (x, y, z, state)} of a recording, by its CSV."""
-        self.good("convert", name, "rows.csv", "--force", "--quiet")
+        self.good("convert", name, "rows.csv", "--edits", "none", "--force", "--quiet")
         lines = (line for line in (self.folder / "rows.csv").read_text().splitlines() if not line.startswith("#"))
         names = next(lines).split(",")
         where = [names.index(n) for n in ("frame", "marker", "x_m", "y_m", "z_m", "state")]
@@ -105,7 +105,7 @@ class EditsTest(CommandTest):
             self.assertEqual(*numbers)
             self.assertIn("edits", {i["role"] for i in json.loads((self.folder / f"{solver}_report.json").read_text())["inputs"]})
         self.refused(4, "absent.jsonl", "ik", "-m", self.model, "-t", "walk.c3d", "--edits", "absent.jsonl", "-o", "x.mot")
-        self.refused(2, "need 'beside' with several", "ik", "-m", self.model, "-t", "walk.c3d", "edited.c3d", "--edits", "walk_edits.jsonl", "-o", "out")
+        self.refused(2, "need 'beside' or 'none' with several", "ik", "-m", self.model, "-t", "walk.c3d", "edited.c3d", "--edits", "walk_edits.jsonl", "-o", "out")
 
     def test_what_cannot_be_done_is_one_sentence(self):
         a, b = self.labels[:2]
@@ -184,7 +184,7 @@ class EditsTest(CommandTest):
         self.assertIn("mine", self.info("out/a.c3d")["labels"])
         self.assertNotIn("mine", self.info("out/b.c3d")["labels"])
         self.refused(2, "is of one recording", "clean", "in", "out2", "--edits", "in/a_edits.jsonl")
-        self.refused(2, "--edits is for one marker file", "convert", self.truth, "t.sto", "--edits", "in/a_edits.jsonl")
+        self.refused(2, "is no recording", "convert", self.truth, "t.sto", "--edits", "in/a_edits.jsonl")
 
     def test_a_study_takes_them_along(self):
         self.edit("--relabel", self.labels[0], "mine")

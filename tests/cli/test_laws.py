@@ -65,12 +65,12 @@ class LeastSquares(CommandTest):
                 row["y_m"] = repr(float(row["y_m"]) + 0.3)
         write_csv(self.folder / "out.csv", rows)
         clean = self.error(self.solve(self.c3d), spoilt)
-        square = self.error(self.solve("out.csv", "--outliers", "keep"), spoilt)
+        square = self.error(self.solve("out.csv", "--doubtful", "keep"), spoilt)
         self.assertGreater(square, 3 * clean)
         for loss in ("huber", "cauchy"):
-            robust = self.error(self.solve("out.csv", "--outliers", "keep", "--loss", loss), spoilt)
+            robust = self.error(self.solve("out.csv", "--doubtful", "keep", "--loss", loss), spoilt)
             self.assertLess(robust, 0.5 * square, loss)
-        self.assertLess(self.error(self.solve("out.csv", "--outliers", "keep", "--loss", "cauchy"), spoilt), 1.5 * clean)
+        self.assertLess(self.error(self.solve("out.csv", "--doubtful", "keep", "--loss", "cauchy"), spoilt), 1.5 * clean)
         self.assertLess(self.error(self.solve("out.csv"), spoilt), 1.5 * clean, "judged samples, the default")
 
     def test_frames_before_and_after_do_not_matter(self):

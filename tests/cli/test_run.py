@@ -16,7 +16,7 @@ steps = ["scale", "clean", "ik", "report"]
 
 [scale]
 model = "model.osim"
-frames = 40
+max-frames = 40
 
 [clean]
 gaps = "cubic"

@@ -91,7 +91,7 @@ class Segments(CommandTest):
             (("--segments", "pigg"), 2, "'pigg' is no definition of segments; expected pig, isb-shoulder or a .toml file"),
             (("--segments", "pig", "--subject", "LegLength"), 2, "is not NAME=VALUE"),
             (("--segments", "pig", "--subject", "LLegLenght=3"), 2, "it has LLegLength"),
-            (("--segments", "pig", "--up", "w"), 2, "expected x, y, z"),
+            (("--segments", "pig", "--up", "w"), 2, "is not x, y, z"),
             (("--static", self.file), 2, "--static"),
             (("--segments", "pig", "--measures", "path_length"), 2, "--measures"),
             (("--segments", self.folder / "none.toml"), 4, "none.toml"),

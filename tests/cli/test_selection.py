@@ -66,7 +66,7 @@ class SelectionTest(CommandTest):
         self.refused(3, "no marker is left", "convert", self.trc, "a.trc", "--drop", "*")
         self.refused(2, "is no range of frames", "convert", self.trc, "a.trc", "--frames", "9-3")
         self.refused(2, "OLD=NEW", "convert", self.trc, "a.trc", "--rename", label)
-        self.refused(2, "only of marker files", "convert", self.truth, "a.sto", "--drop", "knee*")
+        self.refused(2, "is no recording", "convert", self.truth, "a.sto", "--drop", "knee*")
         self.assertFalse((self.folder / "a.trc").exists())
 
     def test_a_file_is_not_merged_with_itself(self):

@@ -19,8 +19,7 @@
 #include "kinemark/pipeline/body/body_record.h"
 #include "kinemark/pipeline/body/motion_cycles.h"
 #include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/files/marker_input.h"
-#include "kinemark/pipeline/files/plates.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
@@ -118,16 +117,26 @@ analysis::BodyStretch stretch_of(const data::Region& region, const TimeBase& tim
           .count = region.last_frame - region.first_frame + 1};
 }
 
+/// The recording that the motion is of, whose events and plates count.
+RecordingSource recording_of(const MotionMeasuresJob& job) {
+  return {.path = job.forces,
+          .needs_samples = true,
+          .plates = true,
+          .force = job.force,
+          .seed = job.seed,
+          .threads = job.threads};
+}
+
 /// Events of the recording on the motion's clock: its own, or those of its feet where a label has none.
 Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionMeasuresOutcome& out) {
-  auto input = read_marker_input({.path = job.forces, .needs_samples = true});
-  if (!input) return std::unexpected(input.error());
-  auto& trial = input->trial;
+  auto recording = open_recording(recording_of(job), {});
+  if (!recording) return std::unexpected(recording.error());
+  auto& trial = recording->trial;
   const auto two = [&](const std::string& label) {
     return std::ranges::count(trial.events, label, &data::Event::label) > 1;
   };
   if (!std::ranges::all_of(job.between, two)) {
-    if (auto gait = measure_gait(job.forces, trial, {.refits = 0})) {
+    if (auto gait = measure_gait(*recording, {.refits = 0})) {
       const auto of_feet = pipeline::events_of(*gait, trial.markers.time);
       trial = with_events(std::move(trial), of_feet);
       out.warnings.push_back(
@@ -211,9 +220,9 @@ Status add_inputs(const char* role, const std::vector<std::filesystem::path>& pa
 // The motion over the cycles of the recording's feet.
 Status draw_walking(const MotionMeasuresJob& job, const RatedMotion& read, const BodyInput& input,
                     GaitDrawing& drawing, MotionMeasuresOutcome& out) {
-  const auto recording = read_marker_input({.path = job.forces, .needs_samples = true});
+  const auto recording = open_recording(recording_of(job), {});
   if (!recording) return std::unexpected(recording.error());
-  if (auto s = drawing.find_walking(job.forces, recording->trial); !s) {
+  if (auto s = drawing.find_walking(*recording); !s) {
     if (s.error().code == Code::usage) return s;
     out.warnings.push_back("walking is not drawn: " + s.error().message);
     return {};
@@ -226,9 +235,8 @@ Status draw_walking(const MotionMeasuresJob& job, const RatedMotion& read, const
   for (const auto& one : inputs)
     if (one.curves.quantity == data::Quantity::angle || one.curves.quantity == data::Quantity::length)
       curves.push_back(one.curves);
-  const auto plates = plates_of(job.forces, recording->trial);
   const auto vertical = vertical_of_plates(recording->trial);
-  if (plates && vertical) add_ground_reaction(*plates, vertical->up, gait, inputs);
+  if (recording->plates && vertical) add_ground_reaction(*recording->plates, vertical->up, gait, inputs);
   return drawing.write(job.forces, recording->trial, curves, inputs,
                        {.angles_from = fmt::format("coordinates of {} in {}", job.model.filename().string(),
                                                    job.motion.filename().string()),

@@ -36,7 +36,7 @@ report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial) {
                  {"marker noise", or_found(1e3 * filter.noise_sd_m, "mm")},
                  {"samples that the recorder made", std::string(to_string(job.recorder_made))},
                  {"exchanged labels", job.exchange_back ? "exchanged back" : "told"},
-                 {"defects", job.reject_defects ? "rejected" : "told"},
+                 {"defects", job.drops_doubtful(false) ? "rejected" : "told"},
                  {"derivatives", job.derivatives ? "written" : "not written"}};
   if (filter.method == trajectory::FilterMethod::butterworth) {
     run.options.emplace_back("cut-off rule", trajectory::to_string(filter.cutoff_rule));
@@ -61,7 +61,7 @@ std::vector<data::Defect> settle_defects(const CleanJob& job, std::vector<data::
       out.push_back({std::move(finding), "exchanged back", true});
       continue;
     }
-    const bool handled = job.reject_defects && finding.confidence >= kRejectConfidence &&
+    const bool handled = job.drops_doubtful(false) && finding.confidence >= kRejectConfidence &&
                          finding.kind != data::FindingKind::clock_jump;
     out.push_back({std::move(finding), handled ? "rejected" : "left as it is", handled});
   }

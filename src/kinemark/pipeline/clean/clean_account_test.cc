@@ -70,7 +70,7 @@ TEST(CleanAccount, ExchangedLabelsAndSpikesAreHandledWhereThatWasAsked) {
   job.exchange_back = false;
   EXPECT_EQ(done(job, data::FindingKind::spike, 0.99), "left as it is");
   EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.99), "left as it is");
-  job.reject_defects = true;
+  job.doubtful = Doubtful::drop;
   EXPECT_THAT(done(job, data::FindingKind::spike, 0.99), Not(HasSubstr("left as it is")));
   EXPECT_EQ(done(job, data::FindingKind::spike, 0.5 * kRejectConfidence), "left as it is");
   EXPECT_EQ(done(job, data::FindingKind::clock_jump, 0.99), "left as it is") << "no sample of it is wrong";

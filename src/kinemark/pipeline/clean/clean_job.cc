@@ -14,9 +14,8 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
@@ -62,7 +61,7 @@ std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
 Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
   auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
                                                   .exchange_back = job.exchange_back,
-                                                  .reject_defects = job.reject_defects,
+                                                  .reject_defects = job.drops_doubtful(false),
                                                   .sure = internal::kRejectConfidence});
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
@@ -133,25 +132,25 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   const CleanFiles files(job);
   auto staging = Staging::create(files.all(), job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());
-  auto input = read_marker_input({.path = job.input, .needs_samples = true, .record = true});
-  if (!input) return std::unexpected(input.error());
+  const RecordingSource source{.path = job.input,
+                               .needs_samples = true,
+                               .record = true,
+                               .force = job.force,
+                               .seed = job.seed,
+                               .threads = job.threads};
+  auto recording = read_recording(source, job);
+  if (!recording) return std::unexpected(recording.error());
+  const std::string filtered = begin_unfiltered(job, recording->trial.markers);
+  if (auto s = prepare_recording(source, job, *recording); !s) return std::unexpected(s.error());
   CleanOutcome outcome;
   auto& report = outcome.report;
-  auto& trial = outcome.trial = std::move(input->trial);
-  const std::string filtered = begin_unfiltered(job, trial.markers);
-  auto edits = take_edits({.edits = job.edits,
-                           .recording = job.input,
-                           .force = job.force,
-                           .seed = job.seed,
-                           .threads = job.threads},
-                          trial);
-  if (!edits) return std::unexpected(edits.error());
+  auto& trial = outcome.trial = std::move(recording->trial);
   report.run = internal::describe_run(job, trial);
   if (!filtered.empty()) report.run.warnings.push_back(filtered);
-  report.run.inputs.push_back(std::move(input->file));
-  if (edits->file) report.run.inputs.push_back(*edits->file);
-  std::ranges::move(edit_options(*edits), std::back_inserter(report.run.options));
-  std::ranges::copy(edits->notes, std::back_inserter(report.run.warnings));
+  report.run.inputs.push_back(std::move(recording->file));
+  if (recording->edits.file) report.run.inputs.push_back(*recording->edits.file);
+  std::ranges::move(edit_options(recording->edits), std::back_inserter(report.run.options));
+  std::ranges::copy(recording->notes, std::back_inserter(report.run.warnings));
   const auto start = std::chrono::steady_clock::now();
   if (auto s = screen_trial(job, outcome); !s) return fail_at(job.input.string(), s.error());
   // Fill and smooth: each marker goes into the output as soon as it is done.

@@ -141,7 +141,7 @@ TEST_F(RunClean, DefectsAreReportedAndRejectedOnlyWhenAsked) {
   EXPECT_EQ(reported.report.account.defects[0].finding.kind, data::FindingKind::spike);
   EXPECT_EQ(reported.report.account.defects[0].done, "left as it is");
   j = job("rejected.c3d");
-  j.reject_defects = true;
+  j.doubtful = Doubtful::drop;
   const auto rejected = run_clean(j).value();
   EXPECT_TRUE(rejected.report.account.defects[0].handled);
   EXPECT_FALSE(rejected.trial.markers.present(50, 3));
@@ -190,7 +190,6 @@ TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
   ASSERT_TRUE(
       journal->append({.kind = data::EditKind::cut, .marker = "WRB", .first_frame = 51, .last_frame = 60}));
   auto edited = job("edited.c3d");
-  edited.edits = kEditsBeside;
   edited.filter.method = trajectory::FilterMethod::none;
   const auto out = run_clean(edited);
   ASSERT_TRUE(out) << out.error().message;

@@ -61,7 +61,7 @@ Result<Axes> settle_axes(const AxesChoice& choice, const std::filesystem::path& 
   }
   const Vector3d& up = *against_gravity;
   if (!choice.up.empty() && choice.up != "auto") return with_up(parse_axis(choice.up).value(), up);
-  const auto found = find_vertical(path, trial, model);
+  const auto found = find_vertical(trial, model);
   if (choice.up == "auto") {
     if (!found)
       return fail(

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -19,8 +21,7 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
 #include "kinemark/pipeline/files/motion_bids_files.h"
@@ -96,9 +97,10 @@ Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
 }
 
 /// A scene has y up: a recording whose vertical is known is turned, which is said.
-void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
-  auto vertical = vertical_of_plates(trial);
-  if (!vertical) vertical = vertical_of_screen(path);
+/// @param vertical  as it is stated; none: nobody states it
+void turn_y_up(std::optional<Vertical> vertical, data::Trial& trial) {
+  if (!vertical) vertical = vertical_of_plates(trial);
+  if (!vertical) vertical = vertical_of_screen(trial);
   if (!vertical) {
     trial.warnings.emplace_back(
         "which way is up is not known and y is taken, as a .glb has it; --rotate turns a recording, \"x "
@@ -111,45 +113,68 @@ void turn_y_up(const std::filesystem::path& path, data::Trial& trial) {
                                        name_of_direction(vertical->up), vertical->from));
 }
 
+/// The files of one recording together, each by its own journal.
+Result<Recording> read_merged(const ConvertJob& job, const std::vector<std::filesystem::path>& files) {
+  RecordingOptions options;
+  options.rate_hz = job.rate_hz;
+  options.edits = job.edits;
+  Recording out;
+  std::vector<data::Trial> trials;
+  for (const auto& file : files) {
+    auto one = open_recording({.path = file,
+                               .skeleton = job.skeleton,
+                               .force = job.force,
+                               .seed = job.seed,
+                               .threads = job.threads},
+                              options);
+    if (!one) return one;
+    trials.push_back(std::move(one->trial));
+    std::ranges::move(one->notes, std::back_inserter(out.notes));
+  }
+  auto trial = merge_trials(std::move(trials));
+  if (!trial) return std::unexpected(trial.error());
+  out.trial = std::move(*trial);
+  return out;
+}
+
+/// The recording as it is to be written.
+Result<Recording> read_prepared(const ConvertJob& job, const std::vector<std::filesystem::path>& files) {
+  auto recording = read_merged(job, files);
+  if (!recording) return recording;
+  RecordingOptions rest = job;
+  rest.edits = kEditsNone;
+  auto notes = std::exchange(recording->notes, {});
+  if (auto s = prepare_recording({.path = job.in}, rest, *recording); !s) return std::unexpected(s.error());
+  auto& trial = recording->trial;
+  if (job.drops_doubtful(false))
+    if (auto s = leave_out_defects(trial, false, notes); !s) return fail_at(job.in.string(), s.error());
+  if (job.resample_hz)
+    if (auto s = resample(trial, *job.resample_hz); !s) return fail_at(job.in.string(), s.error());
+  if (job.axes.rotate.empty() && ending_of(job.out) == ".glb") turn_y_up(stated_vertical(job.axes), trial);
+  std::ranges::move(notes, std::back_inserter(recording->notes));
+  return recording;
+}
+
 /// @param written  gets the files of a format that has several
 Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
                                                  std::vector<std::filesystem::path>& written) {
-  std::vector<data::Trial> trials;
   std::vector<std::filesystem::path> files{job.in};
   files.insert(files.end(), job.merged.begin(), job.merged.end());
-  for (const auto& file : files) {
-    auto input = read_marker_input({.path = file, .rate_hz = job.rate_hz, .skeleton = job.skeleton});
-    if (!input) return std::unexpected(input.error());
-    trials.push_back(std::move(input->trial));
-  }
-  const auto edits = take_edits(
-      {.edits = job.edits, .recording = job.in, .force = job.force, .seed = job.seed, .threads = job.threads},
-      trials.front());
-  if (!edits) return std::unexpected(edits.error());
-  auto trial = merge_trials(std::move(trials));
-  if (!trial) return std::unexpected(trial.error());
-  if (auto s = take_selection(job.selection, *trial); !s) return fail_at(job.in.string(), s.error());
-  if (job.resample_hz)
-    if (auto s = resample(*trial, *job.resample_hz); !s) return fail_at(job.in.string(), s.error());
-  if (!job.rotate.empty()) {
-    const auto turning = parse_rotation(job.rotate);
-    if (!turning) return std::unexpected(turning.error());
-    turn(*trial, *turning);
-  } else if (ending_of(job.out) == ".glb") {
-    turn_y_up(job.in, *trial);
-  }
-  auto notes = trial->warnings;
-  notes.insert(notes.end(), edits->notes.begin(), edits->notes.end());
+  const auto recording = read_prepared(job, files);
+  if (!recording) return std::unexpected(recording.error());
+  const auto& trial = recording->trial;
+  auto notes = trial.warnings;
+  notes.insert(notes.end(), recording->notes.begin(), recording->notes.end());
   if (ending_of(job.out) == ".tsv") {
-    auto made = write_motion_bids(job.out, *trial, job.force, files);
+    auto made = write_motion_bids(job.out, trial, job.force, files);
     if (!made) return std::unexpected(made.error());
     written = std::move(*made);
-    const auto lost = io::lost_in(*io::written_format(".tsv"), *trial);
+    const auto lost = io::lost_in(*io::written_format(".tsv"), trial);
     notes.insert(notes.end(), lost.begin(), lost.end());
     return notes;
   }
   if (auto s =
-          io::write_markers(job.out, *trial, {.force = job.force, .ndx_pose = job.ndx_pose, .lost = &notes});
+          io::write_markers(job.out, trial, {.force = job.force, .ndx_pose = job.ndx_pose, .lost = &notes});
       !s)
     return std::unexpected(s.error());
   return notes;
@@ -203,20 +228,22 @@ Status check_each_once(const ConvertJob& job) {
 Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
   const std::string from = ending_of(job.in);
-  if (!job.rotate.empty() && kind_of(from) != Kind::markers)
-    return fail(Code::usage, fmt::format("{}: only marker files can be turned", job.in.string()));
-  if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
-  if (!job.selection.empty() && kind_of(from) != Kind::markers)
-    return fail(Code::usage, fmt::format("{}: only of marker files a part can be taken", job.in.string()));
+  if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
+  if (!job.RecordingOptions::empty() && kind_of(from) != Kind::markers)
+    return fail(Code::usage,
+                fmt::format("{}: is no recording; --rate, --edits, --select and the other options "
+                            "of a recording are not for it",
+                            job.in.string()));
   if ((!job.merged.empty() || job.resample_hz) && kind_of(from) != Kind::markers)
     return fail(Code::usage,
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
-  if (!job.edits.empty() && (kind_of(from) != Kind::markers || !job.merged.empty()))
-    return fail(Code::usage, fmt::format("{}: --edits is for one marker file", job.in.string()));
+  if (!job.merged.empty())
+    if (auto s = check_for_several(job); !s) return std::unexpected(s.error());
   if (job.ndx_pose && ending_of(job.out) != ".nwb")
     return fail(Code::usage, fmt::format("--ndx-pose: {} is no .nwb file", job.out.string()));
   if (auto s = check_each_once(job); !s) return std::unexpected(s.error());
-  std::vector<std::filesystem::path> inputs{job.in, job.model, job.skeleton, job.edits};
+  auto inputs = files_of(job.in, job);
+  inputs.insert(inputs.end(), {job.model, job.skeleton});
   inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
   if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;

@@ -18,6 +18,15 @@ namespace kinemark::pipeline {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// walk.c3d and walk.trc have one place for a journal: it is of the one that it names.
+bool is_of_another(const io::EditsRead& read, const data::EditedRecording& recording) {
+  return read.list.recording.name != recording.name && !read.list.recording.same_bytes(recording);
+}
+
+}  // namespace
+
 fs::path edits_of(const fs::path& recording) { return beside(recording, "_edits.jsonl"); }
 
 Result<data::EditedRecording> identify_recording(const fs::path& recording) {
@@ -56,9 +65,10 @@ Result<data::EditList> append_edit(const fs::path& journal, const data::EditedRe
 
 Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {
   EditsTaken taken;
-  if (source.edits.empty()) return taken;
+  if (source.edits.empty() || source.edits == kEditsNone) return taken;
   auto path = source.edits;
-  if (path == kEditsBeside) {
+  const bool beside_it = path == kEditsBeside;
+  if (beside_it) {
     path = edits_of(source.recording);
     std::error_code absent;
     if (!fs::exists(path, absent)) return taken;
@@ -67,6 +77,11 @@ Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {
   if (!read) return std::unexpected(read.error());
   const auto recording = identify_recording(source.recording);
   if (!recording) return std::unexpected(recording.error());
+  if (beside_it && is_of_another(*read, *recording)) {
+    taken.notes.push_back(
+        fmt::format("{} is of '{}' and is not applied", path.string(), printable(read->list.recording.name)));
+    return taken;
+  }
   taken.notes = std::move(read->notes);
   if (auto s = io::check_recording(path, read->list.recording, *recording); !s) {
     if (!source.force) return std::unexpected(s.error());

@@ -21,6 +21,8 @@ namespace kinemark::pipeline {
 
 /// The value of `--edits` that stands for the journal beside each recording, if it has one.
 inline constexpr const char* kEditsBeside = "beside";
+/// And the one for no journal.
+inline constexpr const char* kEditsNone = "none";
 
 /// The journal of a recording: NAME_edits.jsonl beside it.
 [[nodiscard]] std::filesystem::path edits_of(const std::filesystem::path& recording);
@@ -41,7 +43,8 @@ inline constexpr const char* kEditsBeside = "beside";
 
 /// Edits to apply to a recording as it was read.
 struct EditsSource {
-  std::filesystem::path edits;      ///< journal; "beside": edits_of(recording), if it is there; empty: none
+  std::filesystem::path edits;  ///< journal; "beside": edits_of(recording), if it is there and does not name
+                                ///< another file; "none" or empty: none
   std::filesystem::path recording;  ///< that the trial was read from
   bool force = false;               ///< apply those of another recording too
   std::uint64_t seed = 1;           ///< of fills

@@ -116,14 +116,14 @@ TEST_F(EditInputTest, ConvertAppliesThemBeforeItsSelection) {
   ConvertJob job;
   job.in = recording_;
   job.out = scratch_ / "out.c3d";
-  job.edits = kEditsBeside;
   job.selection.select = {"LHEE"};
   const auto out = run_convert(job);
   ASSERT_TRUE(out) << out.error().message;
   EXPECT_THAT(out->warnings, Contains(HasSubstr("1 edit of")));
   EXPECT_THAT(io::read_markers(job.out)->markers.names, ElementsAre("LHEE"));
-  job.merged = {recording_};
-  EXPECT_THAT(run_convert(job).error().message, HasSubstr("--edits is for one marker file"));
+  job.merged = {scratch_ / "other.c3d"};
+  job.edits = journal_;
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("is of one recording"));
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/files/info_job.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/data/filtering.h"
@@ -14,7 +17,8 @@
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/exchanged_labels.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/turn.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -37,18 +41,29 @@ std::vector<ChannelFacts> describe_channels(const data::Channels& channels) {
   return facts;
 }
 
+std::string describe_up(const InfoJob& job, const data::Trial& trial) {
+  auto vertical = stated_vertical(job.axes);
+  if (!vertical) vertical = vertical_of_plates(trial);
+  if (!vertical) vertical = vertical_of_screen(trial);
+  return vertical ? fmt::format("{}, by {}", name_of_direction(vertical->up), vertical->from) : "";
+}
+
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
-  const auto input =
-      read_marker_input({.path = job.file, .rate_hz = job.rate_hz, .rate = RateRule::or_unknown});
-  if (!input) return std::unexpected(input.error());
-  const auto& trial = input->trial;
+  auto recording = open_recording({.path = job.file, .rate = RateRule::or_unknown, .force = job.force}, job);
+  if (!recording) return std::unexpected(recording.error());
+  auto& trial = recording->trial;
+  out.warnings = trial.warnings;
+  std::ranges::move(recording->notes, std::back_inserter(out.warnings));
+  if (job.drops_doubtful(false))
+    if (auto s = leave_out_defects(trial, false, out.warnings); !s)
+      return fail_at(job.file.string(), s.error());
   const auto& markers = trial.markers;
   MarkerFileFacts facts{.format = trial.format,
                         .units = trial.units_in_file,
                         .software = trial.software,
                         .points = markers.markers(),
                         .frames = markers.frames(),
-                        .rate_hz = input->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt,
+                        .rate_hz = recording->rate_known ? std::optional(markers.time.rate_hz) : std::nullopt,
                         .first_frame = trial.first_frame,
                         .last_frame = trial.last_frame(),
                         .missing = markers.count_missing(),
@@ -58,12 +73,12 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .events = trial.events.size(),
                         .labels = markers.names,
                         .channels = describe_channels(trial.channels),
+                        .up = describe_up(job, trial),
                         .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);
-  out.warnings = trial.warnings;
-  if (!job.find_exchanges || !input->rate_known) return {};
+  if (!job.find_exchanges || !recording->rate_known) return {};
   const auto swaps = find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());
   for (const auto& swap : sure_swaps(*swaps)) out.warnings.push_back(sentence_of(swap, markers.time));
@@ -160,6 +175,11 @@ Result<InfoOutcome> run_info(const InfoJob& job) {
                         : ending == ".mcap"                    ? describe_recording
                         : io::is_vsk_ending(ending)            ? describe_skeleton
                                                                : describe_markers;
+  if (describe != describe_markers && describe != describe_recording && !job.RecordingOptions::empty())
+    return fail(Code::usage,
+                fmt::format("{}: is no recording; --rate, --edits, --select and the other options of "
+                            "a recording are not for it",
+                            job.file.string()));
   InfoOutcome out;
   out.file = job.file;
   if (auto s = describe(job, out); !s) return std::unexpected(s.error());

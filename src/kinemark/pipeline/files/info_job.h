@@ -13,13 +13,15 @@
 #include "kinemark/io/recording/reader.h"
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/recording.h"
 
 namespace kinemark::pipeline {
 
-/// What `kinemark info` is asked to do.
-struct InfoJob : JobSettings {
+/// What `kinemark info` is asked to do. The options of a recording are for marker files alone; the rate of
+/// one that tells none stays unknown where none is given, and doubtful samples are kept unless they are to be
+/// dropped.
+struct InfoJob : JobSettings, RecordingOptions {
   std::filesystem::path file;   ///< to look at
-  double rate_hz = 0.0;         ///< of marker files that tell none; 0: not given, theirs stays unknown
   bool find_exchanges = false;  ///< warn of markers that carry each other's label
 };
 
@@ -43,7 +45,8 @@ struct MarkerFileFacts {
   std::vector<std::string> labels;               ///< of the markers
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
   std::vector<ChannelFacts> channels;            ///< points that are no markers
-  std::string filtered;                          ///< by what markers were smoothed, and whether the samples
+  std::string up;        ///< "z, by the force plates": which way is up; empty: nothing says it
+  std::string filtered;  ///< by what markers were smoothed, and whether the samples
                          ///< from before are there; empty: the file tells of no filter
 };
 

@@ -99,6 +99,7 @@ void add(const MarkerFileFacts& facts, Json& to) {
                               {"unit", channel.unit},
                               {"rate_hz", channel.rate_hz},
                               {"missing", channel.missing}});
+  if (!facts.up.empty()) to["up"] = facts.up;
   if (!facts.filtered.empty()) to["filtered"] = facts.filtered;
 }
 

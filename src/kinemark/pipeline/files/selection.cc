@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -148,6 +149,28 @@ Result<std::vector<std::string>> new_names(const Selection& selection, const Nam
 bool Selection::empty() const {
   return select.empty() && drop.empty() && rename.empty() && frames.empty() && std::isinf(first_time_s) &&
          std::isinf(last_time_s);
+}
+
+Selection Selection::without_times() const {
+  const Selection unbounded;
+  Selection out = *this;
+  out.first_time_s = unbounded.first_time_s;
+  out.last_time_s = unbounded.last_time_s;
+  return out;
+}
+
+Selection Selection::names_in(const data::Trial& trial) const {
+  const Names names(names_of(trial));
+  const auto is_there = [&](const std::string& name) { return names.find(name).has_value(); };
+  Selection out;
+  std::ranges::copy_if(select, std::back_inserter(out.select), is_there);
+  if (out.select.empty()) out.select = select;
+  std::ranges::copy_if(drop, std::back_inserter(out.drop), is_there);
+  std::ranges::copy_if(rename, std::back_inserter(out.rename), [&](const std::string& text) {
+    const auto pair = parse_rename(text);
+    return pair && is_there(pair->first);
+  });
+  return out;
 }
 
 Status Selection::check() const {

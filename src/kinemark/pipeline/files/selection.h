@@ -25,6 +25,10 @@ struct Selection {
 
   /// Whether everything is kept as it is.
   [[nodiscard]] bool empty() const;
+  /// The same without times, for a job whose solver has a range of its own.
+  [[nodiscard]] Selection without_times() const;
+  /// The same with those names alone that a recording has, and no frames: for a recording beside another.
+  [[nodiscard]] Selection names_in(const data::Trial& trial) const;
   /// What can be said without a recording: Code::usage.
   [[nodiscard]] Status check() const;
 };

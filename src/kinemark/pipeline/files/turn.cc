@@ -15,6 +15,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/io/c3d/parameters.h"
 #include "kinemark/io/number.h"
+#include "kinemark/pipeline/files/screen_axes.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -72,11 +73,7 @@ void turn_modeled_markers(data::Channels& channels, const Matrix3d& to_from) {
 /// "+Z" turned, in the letters of a C3D file; empty: it is no axis any more.
 std::string turned_axis(const std::string& text, const Matrix3d& to_from) {
   const auto axis = parse_axis(io::trim(text));
-  if (!axis) return "";
-  const Vector3d now = to_from * *axis;
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(now[i]) > 1.0 - 1e-12) return std::string(now[i] < 0.0 ? "-" : "+") + "XYZ"[i];
-  return "";
+  return axis ? letters_of_axis(to_from * *axis) : "";
 }
 
 /// Of what is carried for other programs: axes of the screen are turned, what tells where the laboratory or a

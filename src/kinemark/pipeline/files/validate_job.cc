@@ -8,6 +8,7 @@
 
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_set.h"
+#include "kinemark/pipeline/files/input_list.h"
 
 namespace kinemark::pipeline {
 
@@ -24,12 +25,15 @@ int ValidateOutcome::exit_status() const {
 
 Result<ValidateOutcome> run_validate(const ValidateJob& job) {
   ValidateOutcome out;
+  const auto recordings = marker_endings();
   const auto total = static_cast<std::int64_t>(job.files.size());
   for (const auto& file : job.files) {
     InfoJob info;
     info.file = file;
     info.find_exchanges = true;
-    info.rate_hz = io::needs_rate(file) ? job.rate_hz : 0.0;
+    if (std::ranges::find(recordings, ending_of(file)) != recordings.end())
+      static_cast<RecordingOptions&>(info) = job.recording;
+    if (!io::needs_rate(file)) info.rate_hz = 0.0;
     auto facts = run_info(info);
     CheckedFile& checked = out.files.emplace_back();
     checked.file = file;

@@ -16,7 +16,7 @@ namespace kinemark::pipeline {
 /// What `kinemark validate` is asked to do.
 struct ValidateJob : JobSettings {
   std::vector<std::filesystem::path> files;  ///< to look at
-  double rate_hz = 0.0;                      ///< for those of them that tell none; 0: not given
+  RecordingOptions recording;  ///< of those that are recordings; the rate: of those that tell none
 };
 
 /// One file that was looked at.

@@ -12,11 +12,9 @@
 
 #include "kinemark/core/units.h"
 #include "kinemark/data/name_index.h"
-#include "kinemark/io/c3d/reader.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
-#include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/turn.h"
+#include "kinemark/pipeline/files/screen_axes.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -137,20 +135,16 @@ std::optional<Vertical> vertical_of_body(const data::Trajectories& markers, cons
   return Vertical{*axis, "the body"};
 }
 
-std::optional<Vertical> vertical_of_screen(const std::filesystem::path& path) {
-  if (ending_of(path) != ".c3d") return std::nullopt;
-  const auto reader = io::C3dReader::open(path);
-  if (!reader) return std::nullopt;
-  const auto axis = parse_axis(reader->parameters().text("POINT", "Y_SCREEN"));
+std::optional<Vertical> vertical_of_screen(const data::Trial& trial) {
+  const auto axis = screen_up(trial);
   if (!axis || axis->minCoeff() < 0.0) return std::nullopt;
   return Vertical{*axis, "POINT:Y_SCREEN of the file"};
 }
 
-std::optional<Vertical> find_vertical(const std::filesystem::path& path, const data::Trial& trial,
-                                      const model::Model& model) {
+std::optional<Vertical> find_vertical(const data::Trial& trial, const model::Model& model) {
   if (auto plates = vertical_of_plates(trial)) return plates;
   if (auto body = vertical_of_body(trial.markers, model)) return body;
-  return vertical_of_screen(path);
+  return vertical_of_screen(trial);
 }
 
 }  // namespace kinemark::pipeline

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -32,12 +31,11 @@ struct Vertical {
 [[nodiscard]] std::optional<Vertical> vertical_of_body(const data::Trajectories& markers,
                                                        const model::Model& model);
 
-/// What a C3D file says goes up the screen (POINT:Y_SCREEN). None for other files, nor for an axis that is
-/// negated: files that say "-Z" stand on plates with z up.
-[[nodiscard]] std::optional<Vertical> vertical_of_screen(const std::filesystem::path& path);
+/// What the recording says goes up the screen (POINT:Y_SCREEN of a C3D file). None where it says nothing, nor
+/// for an axis that is negated: files that say "-Z" stand on plates with z up.
+[[nodiscard]] std::optional<Vertical> vertical_of_screen(const data::Trial& trial);
 
 /// The first that tells: plates, body, file.
-[[nodiscard]] std::optional<Vertical> find_vertical(const std::filesystem::path& path,
-                                                    const data::Trial& trial, const model::Model& model);
+[[nodiscard]] std::optional<Vertical> find_vertical(const data::Trial& trial, const model::Model& model);
 
 }  // namespace kinemark::pipeline

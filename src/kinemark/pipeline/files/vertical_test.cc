@@ -88,18 +88,15 @@ TEST(VerticalOfPlates, LiesAcrossThemTowardsTheBody) {
   EXPECT_FALSE(vertical_of_plates(trial)) << "one of them is a wall";
 }
 
-TEST(VerticalOfScreen, IsForC3dOnly) {
-  EXPECT_FALSE(vertical_of_screen("walk.trc"));
-  EXPECT_FALSE(vertical_of_screen("not_there.c3d"));
-}
+TEST(VerticalOfScreen, IsNoneWhereTheRecordingSaysNothing) { EXPECT_FALSE(vertical_of_screen({})); }
 
 TEST(VerticalOfScreen, TellsTheAxisOfARealFileUnlessItIsNegated) {
   KINEMARK_REQUIRE_TEST_DATA(data);
-  const auto up = vertical_of_screen(data / "btk-others/PiG_Motion3_FF.c3d");
+  const auto up = vertical_of_screen(io::read_markers(data / "btk-others/PiG_Motion3_FF.c3d").value());
   ASSERT_TRUE(up);
   EXPECT_EQ(up->up, Vector3d::UnitZ());
   EXPECT_EQ(up->from, "POINT:Y_SCREEN of the file");
-  EXPECT_FALSE(vertical_of_screen(data / "ezc3d-testFiles/Qualisys.c3d"))
+  EXPECT_FALSE(vertical_of_screen(io::read_markers(data / "ezc3d-testFiles/Qualisys.c3d").value()))
       << "it says -Z; its plates and markers have z up";
 }
 

@@ -13,7 +13,6 @@
 #include "kinemark/data/filtering.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -63,7 +62,7 @@ Status check_options(const JointsJob& job) {
 Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& outcome) {
   const auto screening = screen_markers(trial, {.find_upsampling = !job.keep_upsampled,
                                                 .recorder_made = RecorderMade::missing,
-                                                .find_defects = !job.keep_defects,
+                                                .find_defects = job.drops_doubtful(true),
                                                 .exchange_back = true,
                                                 .reject_defects = true,
                                                 .most_rejected = kMostDefects,
@@ -239,7 +238,8 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
 Result<Staging> stage(const JointsJob& job) {
   const auto& output = job.output;
   if (output.empty()) return Staging::create({}, job.force, {});
-  const std::vector<fs::path> inputs{job.input, job.segments};
+  auto inputs = files_of(job.input, job);
+  inputs.push_back(job.segments);
   if (!into_folder(output))
     return Staging::create({output, beside(output, "_skeleton.json")}, job.force, inputs);
   return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"},
@@ -273,16 +273,19 @@ std::string name_set(const JointsJob& job, const JointsOutcome& outcome, const d
 Result<JointsOutcome> run_joints(const JointsJob& job) {
   // Prepare: markers, without what is not to be trusted; segments; where results go.
   if (auto s = check_options(job); !s) return std::unexpected(s.error());
-  auto input = read_marker_input({.path = job.input,
-                                  .rate_hz = job.rate_hz,
-                                  .rate = RateRule::where_needed,
-                                  .needs_samples = true,
-                                  .record = true});
-  if (!input) return std::unexpected(input.error());
-  auto& trial = input->trial;
+  auto recording = open_recording({.path = job.input,
+                                   .needs_samples = true,
+                                   .record = true,
+                                   .force = job.force,
+                                   .seed = job.seed,
+                                   .threads = job.threads},
+                                  job);
+  if (!recording) return std::unexpected(recording.error());
+  auto& trial = recording->trial;
   JointsOutcome outcome;
-  outcome.input = std::move(input->file);
+  outcome.input = std::move(recording->file);
   outcome.markers = trial.markers.names;
+  outcome.warnings = std::move(recording->notes);
   if (auto note = data::note_on_noise(trial.markers); !note.empty() && job.noise_sd_m == 0.0)
     outcome.warnings.push_back(std::move(note));
   const std::string name = job.input.string();
@@ -291,7 +294,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
   auto others = staging->targets();
-  others.insert(others.end(), {job.input, job.segments});
+  std::ranges::copy(files_of(job.input, job), std::back_inserter(others));
+  others.push_back(job.segments);
   auto page = PageFile::begin(job.report, others, job.force);
   if (!page) return std::unexpected(page.error());
   // Solve and judge.

@@ -14,6 +14,7 @@
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/stages/skeleton/functional/functional.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
 #include "kinemark/stages/skeleton/plausibility/plausibility.h"
@@ -22,10 +23,10 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark joints` is asked to do. Paths that are empty are not used.
-struct JointsJob : JobSettings {
+/// What `kinemark joints` is asked to do. Paths that are empty are not used. Doubtful samples are dropped
+/// unless they are to be kept.
+struct JointsJob : JobSettings, RecordingOptions {
   std::filesystem::path input;     ///< .c3d, .trc, .csv, .nwb or .v3d
-  double rate_hz = 0.0;            ///< for a marker file that stores none (.v3d); 0: not given
   std::filesystem::path segments;  ///< TOML, see read_segments(), or the .vsk of a Vicon subject, see
                                    ///< layout_of(); empty: by the markers' names or from the data
   /// A folder (no ending, or there already): centres.csv, centres.c3d, segments.toml and skeleton.json. A
@@ -41,7 +42,6 @@ struct JointsJob : JobSettings {
   bool continuity = true;                                 ///< articulated: smooth in time and bridge
   bool soft_tissue = false;     ///< articulated alone: every marker has a noise of its own
   bool keep_upsampled = false;  ///< use the samples that the recorder made as well
-  bool keep_defects = false;    ///< use what screening calls swapped, stuck, false
 };
 
 /// Warnings: what was done before and after, and what is odd. Gates: nothing had to be left out as no body's,

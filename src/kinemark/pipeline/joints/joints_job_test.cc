@@ -316,7 +316,7 @@ TEST_F(JointsJobTest, SoftTissueTellsEveryMarkersNoise) {
            for (double& c : markers.x(f, 2)) c += 0.006 * skin.gaussian();
        });
   write_segments();
-  job.keep_defects = true;
+  job.doubtful = Doubtful::keep;
   job.soft_tissue = true;
   EXPECT_EQ(run_joints(job).error().code, Code::usage) << "SCoRE has no such term";
   job.method = "articulated";

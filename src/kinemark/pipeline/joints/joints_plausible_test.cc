@@ -49,7 +49,7 @@ class JointsPlausibleTest : public ::testing::Test {
     job.segments = scratch / "segments.toml";
     ASSERT_TRUE(io::write_text(job.segments, segments_text(recording.layout, trial.markers.names), true));
     job.output = scratch / "out";
-    job.keep_defects = true;
+    job.doubtful = Doubtful::keep;
   }
   testing_support::ScratchFolder scratch;
   data::SegmentLayout layout;

@@ -132,8 +132,8 @@ Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_
     if (!model) return std::unexpected(model.error());
     out.model = std::move(*model);
   }
-  const auto found = out.model ? find_vertical(path, input->trial, *out.model) : std::nullopt;
-  const auto vertical = found ? *found : vertical_without_model(path, input->trial);
+  const auto found = out.model ? find_vertical(input->trial, *out.model) : std::nullopt;
+  const auto vertical = found ? *found : vertical_without_model(input->trial);
   out.up = vertical.up;
   out.up_from = vertical.from;
   out.markers = std::move(input->trial.markers);

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <utility>
 
-#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
@@ -19,12 +18,11 @@
 
 namespace kinemark::pipeline {
 
-void add_recorded_kinetics(const std::filesystem::path& path, const data::Trial& trial,
-                           const analysis::Gait& gait, std::vector<SheetInput>& out) {
-  add_kinetic_channels(trial, gait.cycles, out);
-  const auto plates = plates_of(path, trial);
-  const auto vertical = vertical_of_plates(trial);
-  if (plates && vertical) add_ground_reaction(*plates, vertical->up, gait, out);
+void add_recorded_kinetics(const Recording& recording, const analysis::Gait& gait,
+                           std::vector<SheetInput>& out) {
+  add_kinetic_channels(recording.trial, gait.cycles, out);
+  const auto vertical = vertical_of_plates(recording.trial);
+  if (recording.plates && vertical) add_ground_reaction(*recording.plates, vertical->up, gait, out);
 }
 
 Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others) {
@@ -45,7 +43,7 @@ Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std
   return out;
 }
 
-Status GaitDrawing::find_walking(const std::filesystem::path& path, const data::Trial& trial) {
+Status GaitDrawing::find_walking(const Recording& recording) {
   auto options = gait_options(job_.gait, true);
   if (!options) return std::unexpected(options.error());
   options->refits = job_.refits;
@@ -53,7 +51,7 @@ Status GaitDrawing::find_walking(const std::filesystem::path& path, const data::
   options->noise_sd_m = job_.noise_sd_m;
   options->seed = job_.seed;
   options->threads = job_.threads;
-  auto gait = measure_gait(path, trial, *options);
+  auto gait = measure_gait(recording, *options);
   if (!gait) return std::unexpected(gait.error());
   gait_ = std::move(*gait);
   return {};

@@ -13,6 +13,7 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/gait/gait_report.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -33,8 +34,8 @@ struct GaitDrawingJob : JobSettings, GaitOutputs {
 
 /// Curves over the cycle with what else a recording has: joint kinetics among its channels, the force of
 /// plates under each foot.
-void add_recorded_kinetics(const std::filesystem::path& path, const data::Trial& trial,
-                           const analysis::Gait& gait, std::vector<SheetInput>& out);
+void add_recorded_kinetics(const Recording& recording, const analysis::Gait& gait,
+                           std::vector<SheetInput>& out);
 
 /// The outputs of a gait report, begun before a long computation.
 class GaitDrawing {
@@ -46,7 +47,7 @@ class GaitDrawing {
   static Result<GaitDrawing> begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others);
 
   /// Find walking in the recording. Code::bad_input as measure_gait().
-  [[nodiscard]] Status find_walking(const std::filesystem::path& path, const data::Trial& trial);
+  [[nodiscard]] Status find_walking(const Recording& recording);
   /// What was found; nothing before find_walking().
   [[nodiscard]] const std::optional<analysis::Gait>& gait() const { return gait_; }
 

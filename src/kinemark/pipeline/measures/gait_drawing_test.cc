@@ -50,7 +50,7 @@ class GaitDrawingTest : public ::testing::Test {
   Status draw(JobOutcome& outcome) {
     auto drawing = GaitDrawing::begin(job_, {});
     if (!drawing) return std::unexpected(drawing.error());
-    if (auto s = drawing->find_walking("walk.trc", trial_); !s) return s;
+    if (auto s = drawing->find_walking({.trial = trial_}); !s) return s;
     const auto inputs = angles(*drawing->gait());
     std::vector<data::CycleCurves> curves;
     for (const auto& one : inputs) curves.push_back(one.curves);

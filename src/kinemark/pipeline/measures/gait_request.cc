@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/files/settings_file.h"
 
 namespace kinemark::pipeline {
@@ -77,9 +76,9 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool draw
   return out;
 }
 
-Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
-                                    const analysis::GaitOptions& options) {
-  const auto plates = plates_of(path, trial);
+Result<analysis::Gait> measure_gait(const Recording& recording, const analysis::GaitOptions& options) {
+  const auto& trial = recording.trial;
+  const auto& plates = recording.plates;
   analysis::GaitEvidence evidence{
       .plates = plates ? &*plates : nullptr, .corners = {}, .events = trial.events};
   for (const auto& plate : trial.force_plates) evidence.corners.push_back(plate.corners_in_world);

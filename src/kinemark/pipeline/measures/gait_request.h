@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/trial.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/gait/gait_report.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 
@@ -51,9 +51,9 @@ struct GaitOutputs {
 /// @param drawn  as GaitRequest::check()
 [[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);
 
-/// Walking in a trial: its markers as they are, the plates of its file where that is a .c3d, its events.
+/// Walking in a recording: its markers as they are, its plates, its events.
 /// Code::bad_input as analysis::analyze_gait().
-[[nodiscard]] Result<analysis::Gait> measure_gait(const std::filesystem::path& path, const data::Trial& trial,
+[[nodiscard]] Result<analysis::Gait> measure_gait(const Recording& recording,
                                                   const analysis::GaitOptions& options);
 
 /// "type" (walk, run, sprint), "direction" (forward, backward, sideways,

@@ -41,9 +41,7 @@ Status check_many(const ManyMeasuresJob& job) {
   if (!job.emg.write_cycles.empty()) return alone("--write-emg-cycles", job.emg.write_cycles);
   if (!job.gait.angles.empty()) return alone("--angles", job.gait.angles);
   if (ending_of(job.gait.write_events) == ".c3d") return alone("--write-events", job.gait.write_events);
-  if (!job.edits.empty() && job.edits != kEditsBeside)
-    return fail(Code::usage, fmt::format("--edits: {} is of one recording; need 'beside' with several",
-                                         job.edits.string()));
+  if (auto s = check_for_several(job); !s) return s;
   return check_measures_output(job.output);
 }
 

@@ -8,10 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
-#include "kinemark/pipeline/files/plates.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
 
 namespace kinemark::pipeline {
@@ -32,27 +29,19 @@ Result<std::vector<data::Region>> regions_of(const MeasuresJob& job, const data:
   return regions;
 }
 
-// Edits, selection, screening; the regions to measure.
-Result<std::vector<data::Region>> prepare(const MeasuresJob& job, data::Trial& trial,
+// Screening, after which the recording is as it is measured; the regions to measure.
+Result<std::vector<data::Region>> prepare(const MeasuresJob& job, Recording& recording,
                                           MeasuresOutcome& outcome) {
-  auto taken = take_edits({.edits = job.edits,
-                           .recording = job.input,
-                           .force = job.force,
-                           .seed = job.seed,
-                           .threads = job.threads},
-                          trial);
-  if (!taken) return std::unexpected(taken.error());
-  std::ranges::move(taken->notes, std::back_inserter(outcome.warnings));
-  if (auto s = take_selection(job.selection, trial); !s) return std::unexpected(s.error());
-  if (auto s = leave_out_defects(trial, job.keep_defects, outcome.warnings); !s)
+  std::ranges::move(recording.notes, std::back_inserter(outcome.warnings));
+  std::ranges::move(std::exchange(recording.trial.warnings, {}), std::back_inserter(outcome.warnings));
+  if (auto s = leave_out_defects(recording.trial, !job.drops_doubtful(true), outcome.warnings); !s)
     return std::unexpected(s.error());
-  return regions_of(job, trial, std::move(taken->regions));
+  return regions_of(job, recording.trial, std::move(recording.edits.regions));
 }
 
 // Steps and standing on plates.
-Status measure_plates(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
-                      MeasuresOutcome& outcome) {
-  const auto plates = plates_of(job.input, trial);
+Status measure_plates(const AskedMeasures& asked, const Recording& recording, MeasuresOutcome& outcome) {
+  const auto& plates = recording.plates;
   if (!plates) return fail(Code::bad_input, "there are no force plates whose forces can be read");
   auto options = asked.plates;
   options.regions = asked.path.regions;
@@ -94,11 +83,12 @@ std::string why_nothing(const analysis::PathMeasures& measured) {
 }
 
 // Walking, plates, EMG, then paths; what fails is reported where something else is measured.
-Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const data::Trial& trial,
+Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const Recording& recording,
                    std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
+  const auto& trial = recording.trial;
   const bool events_needed = job.gait.writes() || !job.emg.write_cycles.empty();
   if (asked.walking) {
-    auto gait = measure_gait(job.input, trial, asked.gait);
+    auto gait = measure_gait(recording, asked.gait);
     if (gait) {
       std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
       outcome.measures = gait->measures;
@@ -115,8 +105,8 @@ Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const dat
   }
   const bool others = asked.paths || asked.by_name;
   if (asked.forces)
-    if (auto s = take_failure(measure_plates(job, asked, trial, outcome), "Force plates",
-                              asked.forces_by_name, !others && !asked.muscles_by_name, outcome);
+    if (auto s = take_failure(measure_plates(asked, recording, outcome), "Force plates", asked.forces_by_name,
+                              !others && !asked.muscles_by_name, outcome);
         !s)
       return s;
   if (asked.muscles)
@@ -180,31 +170,40 @@ void note_aimless(const MeasuresOutcome& outcome, std::vector<std::string>& note
 }  // namespace
 
 Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasures asked) {
-  auto input =
-      read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .needs_samples = true, .record = true});
-  if (!input) return std::unexpected(input.error());
-  MeasuredRecording out{.name = name_of_recording(job.input), .trial = std::move(input->trial)};
+  const RecordingSource source{.path = job.input,
+                               .needs_samples = true,
+                               .record = true,
+                               .plates = true,
+                               .force = job.force,
+                               .seed = job.seed,
+                               .threads = job.threads};
+  auto read = read_recording(source, job);
+  if (!read) return std::unexpected(read.error());
+  MeasuredRecording out{.name = name_of_recording(job.input), .recording = std::move(*read)};
+  auto& trial = out.recording.trial;
   auto& outcome = out.outcome;
-  outcome.input = std::move(input->file);
-  outcome.warnings = std::move(out.trial.warnings);
+  outcome.input = std::move(out.recording.file);
+  outcome.warnings = std::exchange(trial.warnings, {});
   if (job.participants && !take_participant(*job.participants, out.name))
     outcome.warnings.push_back(fmt::format("{}: {} has no row for {}", out.name.file,
                                            job.participants->table.name,
                                            out.name.participant.empty() ? "it" : out.name.participant));
   const std::string name = job.input.string();
-  if (ending_of(job.gait.write_events) == ".c3d") out.recorded = out.trial;
-  auto regions = prepare(job, out.trial, outcome);
+  if (ending_of(job.gait.write_events) == ".c3d") out.recorded = trial;
+  if (auto s = prepare_recording(source, job, out.recording); !s) return std::unexpected(s.error());
+  auto regions = prepare(job, out.recording, outcome);
   if (!regions) return fail_at(name, regions.error());
   asked.path.regions = asked.gait.regions = std::move(*regions);
-  if (auto s = measure_all(job, asked, out.trial, out.curves, outcome); !s) return fail_at(name, s.error());
-  const auto& time = out.trial.markers.time;
+  if (auto s = measure_all(job, asked, out.recording, out.curves, outcome); !s)
+    return fail_at(name, s.error());
+  const auto& time = trial.markers.time;
   if (outcome.gait)
     out.events = events_of(*outcome.gait, time);
   else
     out.events = events_of(outcome.rhythms, time);
   if (job.gait.write_cycles.empty()) return out;
   note_aimless(outcome, outcome.warnings);
-  auto cycles = cycles_of(job, out.trial, outcome);
+  auto cycles = cycles_of(job, trial, outcome);
   if (!cycles) return fail_at(name, cycles.error());
   out.cycles = std::move(*cycles);
   return out;

@@ -8,6 +8,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measures_asked.h"
@@ -21,7 +22,7 @@ namespace kinemark::pipeline {
 struct MeasuredRecording {
   RecordingName name;                        ///< of its rows
   MeasuresOutcome outcome;                   ///< measures and warnings; nothing is written
-  data::Trial trial;                         ///< as it was measured
+  Recording recording;                       ///< as it was measured
   std::optional<data::Trial> recorded;       ///< as it was read, where a recording with its events is written
   std::vector<analysis::PathCurves> curves;  ///< for figures, where they are asked for
   std::vector<EventRow> events;              ///< of feet, or of the markers' own movements

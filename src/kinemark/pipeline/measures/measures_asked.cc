@@ -52,7 +52,7 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
                              .seed = job.seed,
                              .threads = job.threads,
                              .curves = drawn,
-                             .keep_outliers = job.keep_defects},
+                             .keep_outliers = !job.drops_doubtful(true)},
                     .gait = std::move(*gait)};
   if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
   bool all_of_walking = false, all_of_plates = false, all_of_emg = false;

@@ -133,7 +133,7 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
   const bool per_cent = !job.emg.maximum.empty();
   if (!job.emg.write.empty()) {
     const auto table = [&, per_cent] {
-      return envelope_table(measured.trial, *measured.outcome.emg, per_cent);
+      return envelope_table(measured.recording.trial, *measured.outcome.emg, per_cent);
     };
     out.push_back(ending_of(job.emg.write) == ".csv"
                       ? text_file(job.emg.write, [table] { return envelope_csv(table()); })
@@ -142,8 +142,9 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
   if (!job.emg.write_cycles.empty())
     out.push_back(text_file(job.emg.write_cycles, [&, per_cent] {
       const auto& found = measured.outcome;
-      return curves_csv({{"", envelope_cycles(measured.trial, *found.emg, found.gait->cycles, per_cent)}},
-                        measured.name);
+      return curves_csv(
+          {{"", envelope_cycles(measured.recording.trial, *found.emg, found.gait->cycles, per_cent)}},
+          measured.name);
     }));
   if (!job.gait.write_cycles.empty())
     out.push_back(
@@ -152,17 +153,17 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
 }
 
 // Walking drawn, where there is some; what cannot be drawn is told.
-Result<std::unique_ptr<GaitReport>> draw_walking(const MeasuresJob& job, const data::Trial& trial,
+Result<std::unique_ptr<GaitReport>> draw_walking(const MeasuresJob& job, const Recording& recording,
                                                  const GaitNorms& norms, MeasuresOutcome& outcome) {
   if ((job.figures.empty() && job.report.empty()) || !outcome.gait) return nullptr;
   std::vector<SheetInput> inputs;
-  if (const auto curves = gait_curves(trial, outcome.gait->cycles, job.gait.angles))
+  if (const auto curves = gait_curves(recording.trial, outcome.gait->cycles, job.gait.angles))
     add_curves(*curves, inputs);
   else if (!job.gait.angles.empty())
     return std::unexpected(curves.error());
   else if (job.gait.wanted() || !job.measures.empty())
     outcome.warnings.push_back("no angles are drawn: " + curves.error().message);
-  add_recorded_kinetics(job.input, trial, *outcome.gait, inputs);
+  add_recorded_kinetics(recording, *outcome.gait, inputs);
   if (inputs.empty() && !job.gait.wanted() && job.measures.empty()) return nullptr;
   auto report = make_gait_report(job.input.filename().string(), inputs, *outcome.gait, norms,
                                  job.gait.sheet.angle_angle);
@@ -181,7 +182,7 @@ Status check_measures_output(const std::filesystem::path& output) {
 Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
-  if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
+  if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
   auto asked = asked_measures(job);
   if (!asked) return std::unexpected(asked.error());
   const auto formats = parse_figure_formats(job.figure_formats);
@@ -198,17 +199,20 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   auto read = job.gait.sheet.norms;
   const auto norms = read_gait_norms(read);
   if (!norms) return std::unexpected(norms.error());
-  for (const auto& path : {job.input, job.edits, job.gait.angles, job.participants_file})
-    read.push_back(path);
+  const auto recording = files_of(job.input, job);
+  read.insert(read.end(), recording.begin(), recording.end());
+  for (const auto& path : {job.gait.angles, job.participants_file}) read.push_back(path);
   auto staging = Staging::create(targets, job.force, read);
   if (!staging) return std::unexpected(staging.error());
-  auto page = PageFile::begin(job.report, {job.input, job.edits, job.output}, job.force);
+  auto others = recording;
+  others.push_back(job.output);
+  auto page = PageFile::begin(job.report, others, job.force);
   if (!page) return std::unexpected(page.error());
   auto measured = measure_recording(job, std::move(*asked));
   if (!measured) return std::unexpected(measured.error());
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
-  const auto report = draw_walking(job, measured->trial, *norms, measured->outcome);
+  const auto report = draw_walking(job, measured->recording, *norms, measured->outcome);
   if (!report) return fail_at(job.input.string(), report.error());
   if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)
     return std::unexpected(s.error());

@@ -14,7 +14,7 @@
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/emg_request.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measure_choice.h"
@@ -26,18 +26,14 @@ namespace kinemark::pipeline {
 
 /// What `kinemark analyze` is asked to do with a recording of markers: ids of paths, of walking ("gait": all
 /// of these), of plates ("plates") and of EMG ("emg"), regions beside those of the journal; figures and page
-/// are of paths, too. Paths that are empty are not used.
-struct MeasuresJob : JobSettings, MeasureChoice, GaitOutputs {
-  std::filesystem::path input;  ///< marker file
-  double rate_hz = 0.0;         ///< for a file that tells none; 0: not given
-  std::filesystem::path
-      edits;            ///< journal, applied first; "beside": the one beside the recording, if there is one
-  Selection selection;  ///< which markers, which frames
-  std::filesystem::path output;             ///< .csv, .json or .nwb
-  double noise_sd_m = 0.0;                  ///< per axis; 0: found from the samples
-  bool keep_defects = false;                ///< measure what screening calls spikes, swaps, stuck too
-  EmgRequest emg;                           ///< electromyograms
-  std::filesystem::path participants_file;  ///< table to join to the rows, as read_participants()
+/// are of paths, too. Paths that are empty are not used. Doubtful samples are dropped unless they are to be
+/// kept.
+struct MeasuresJob : JobSettings, RecordingOptions, MeasureChoice, GaitOutputs {
+  std::filesystem::path input;                       ///< marker file
+  std::filesystem::path output;                      ///< .csv, .json or .nwb
+  double noise_sd_m = 0.0;                           ///< per axis; 0: found from the samples
+  EmgRequest emg;                                    ///< electromyograms
+  std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
   std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };
 

@@ -103,7 +103,7 @@ TEST_F(MeasuresJobTest, SamplesThatScreeningRejectsAreNotMeasured) {
   EXPECT_THAT(outcome->warnings, ::testing::Contains(HasSubstr("RFIN")));
   EXPECT_GT(outcome->measures[1].share_not_measured, 0.0);
   EXPECT_NEAR(outcome->measures[1].value, 1.875 * std::hypot(0.3, 0.05) / 0.7, 0.03);
-  job_.keep_defects = true;
+  job_.doubtful = Doubtful::keep;
   EXPECT_EQ(run_measures(job_)->measures[1].share_not_measured, 0.0);
 }
 

@@ -77,7 +77,8 @@ Json edited_page_json(const EditSession& session) {
 Result<std::string> edited_page(const std::filesystem::path& recording) {
   const auto session = EditSession::open(recording);
   if (session) return report::markers_report_html(EditedReport(*session).report);
-  return markers_page(recording, {.editing = {{"refused", session.error().message}}});
+  return markers_page(
+      recording, {.recording = {.edits = kEditsNone}, .editing = {{"refused", session.error().message}}});
 }
 
 }  // namespace kinemark::pipeline

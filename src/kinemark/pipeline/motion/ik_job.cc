@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "kinemark/io/edits/edit_line.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
@@ -121,6 +120,7 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
 
 /// Fill in what a setup names and what options follow from others, and check that it is enough.
 Status complete(IkJob& job) {
+  internal::take_recording_options(job, job.options);
   if (auto s = apply_setup(job); !s) return s;
   if (auto s = internal::check_named(job, kOrSetup); !s) return s;
   if (job.images.any() && job.estimator != Estimator::smoother)

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "kinemark/core/version.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/motion/external_forces.h"
 #include "kinemark/stages/report/markers_report.h"
@@ -76,18 +77,9 @@ data::Wrenches plate_forces(const std::filesystem::path& path, const data::Trial
 
 }  // namespace
 
-Status MarkersPageOptions::check() const {
-  if (!(rate_hz >= 0.0) || !std::isfinite(rate_hz))
-    return fail(Code::usage, fmt::format("--rate is {} Hz; need a number above 0", rate_hz));
-  if (!up.empty() && up != "auto")
-    if (const auto axis = parse_axis(up); !axis)
-      return fail(Code::usage, fmt::format("--up: {}, or auto", axis.error().message));
-  return {};
-}
-
-Vertical vertical_without_model(const std::filesystem::path& path, const data::Trial& trial) {
+Vertical vertical_without_model(const data::Trial& trial) {
   if (auto plates = vertical_of_plates(trial)) return *plates;
-  if (auto screen = vertical_of_screen(path)) return *screen;
+  if (auto screen = vertical_of_screen(trial)) return *screen;
   if (auto extent = vertical_of_extent(trial.markers)) return *extent;
   return {Vector3d::UnitZ(), ""};
 }
@@ -96,35 +88,39 @@ MarkersPageParts markers_page_parts(const std::filesystem::path& path, const dat
                                     const data::Trial& trial) {
   MarkersPageParts parts;
   parts.forces = plate_forces(path, trial, parts.remarks);
-  parts.vertical = vertical_without_model(path, recorded);
+  parts.vertical = vertical_without_model(recorded);
   return parts;
 }
 
 Result<std::string> markers_page(const std::filesystem::path& path, const MarkersPageOptions& options) {
-  if (auto s = options.check(); !s) return std::unexpected(s.error());
-  auto input = read_marker_input({.path = path,
-                                  .rate_hz = options.rate_hz,
-                                  .rate = RateRule::or_unknown,
-                                  .skeleton = options.skeleton,
-                                  .record = true});
-  if (!input) return std::unexpected(input.error());
-  report::MarkersReport report{
-      .trial = path.filename().string(),
-      .version = std::string(kVersion),
-      .command_line = options.command_line,
-      .recording = &input->trial,
-      .rate_known = input->rate_known,
-      .inputs = {input->file},
-      .cycles = internal::cycle_spans(input->trial.events, input->trial.markers.time),
-      .editing = options.editing};
-  const auto parts = markers_page_parts(path, input->trial, input->trial);
-  report.warnings = parts.remarks;
+  auto recording = open_recording(
+      {.path = path, .skeleton = options.skeleton, .rate = RateRule::or_unknown, .record = true},
+      options.recording);
+  if (!recording) return std::unexpected(recording.error());
+  auto& trial = recording->trial;
+  std::vector<std::string> notes = recording->notes;
+  if (options.recording.drops_doubtful(false))
+    if (auto s = leave_out_defects(trial, false, notes); !s) return fail_at(path.string(), s.error());
+  report::MarkersReport report{.trial = path.filename().string(),
+                               .version = std::string(kVersion),
+                               .command_line = options.command_line,
+                               .recording = &trial,
+                               .rate_known = recording->rate_known,
+                               .inputs = {recording->file},
+                               .cycles = internal::cycle_spans(trial.events, trial.markers.time),
+                               .editing = options.editing};
+  if (recording->edits.file) report.inputs.push_back(*recording->edits.file);
+  auto parts = markers_page_parts(path, trial, trial);
+  if (!options.recording.axes.rotate.empty())
+    turn(parts.forces, parse_rotation(options.recording.axes.rotate).value());
+  report.warnings = std::move(notes);
+  std::ranges::move(parts.remarks, std::back_inserter(report.warnings));
   if (!parts.forces.items.empty()) report.forces = &parts.forces;
   report.up = parts.vertical.up;
   report.up_from = parts.vertical.from;
-  if (!options.up.empty() && options.up != "auto") {
-    report.up = parse_axis(options.up).value();
-    report.up_from = "--up";
+  if (const auto stated = stated_vertical(options.recording.axes)) {
+    report.up = stated->up;
+    report.up_from = stated->from;
   }
   return report::markers_report_html(report);
 }

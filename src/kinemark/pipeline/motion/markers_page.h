@@ -10,26 +10,24 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/data/wrenches.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/vertical.h"
 
 namespace kinemark::pipeline {
 
 /// What a page of a recording has to know besides its file.
 struct MarkersPageOptions {
-  double rate_hz = 0.0;                 ///< of a file that tells none (.v3d, .amc); 0: not given
+  RecordingOptions recording = {};      ///< doubtful samples are kept unless they are to be dropped
   std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
-  std::string up;                       ///< axis that points up, "z"; empty or "auto": the one that is found
   std::string command_line;             ///< as typed, for the record
   std::vector<std::filesystem::path> geometry = {};  ///< of joint angles: folders of the model's meshes
   nlohmann::ordered_json editing;                    ///< as report::MarkersReport::editing
-
-  [[nodiscard]] Status check() const;  ///< The rate is not negative, the axis is understood: Code::usage.
 };
 
 /// Which way is up in a recording without a model: its plates, POINT:Y_SCREEN of a C3D file, else the axis
 /// along which the markers reach farthest in most frames, when they reach over 0.8 m there and 1.2 times as
 /// far as along the others; else z, and `from` is empty.
-[[nodiscard]] Vertical vertical_without_model(const std::filesystem::path& path, const data::Trial& trial);
+[[nodiscard]] Vertical vertical_without_model(const data::Trial& trial);
 
 /// What a page of a recording shows around its samples.
 struct MarkersPageParts {

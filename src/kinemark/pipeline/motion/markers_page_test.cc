@@ -84,21 +84,22 @@ TEST_F(MarkersPage, ReportWritesThePageAndRefusesWhatItCannotRead) {
 }
 
 TEST_F(MarkersPage, OptionsAreChecked) {
-  EXPECT_EQ(page_of(at("in/markers.c3d"), {.up = "w"}).error().code, Code::usage);
-  EXPECT_EQ(page_of(at("in/markers.c3d"), {.rate_hz = -1.0}).error().code, Code::usage);
-  EXPECT_EQ(page_of(at("R.mot"), {.up = "y"}).error().code, Code::usage) << "not of joint angles";
-  const auto data = data_of(page_of(at("in/markers.c3d"), {.up = "-x"}).value());
+  EXPECT_EQ(page_of(at("in/markers.c3d"), {.recording = {.axes = {.up = "w"}}}).error().code, Code::usage);
+  EXPECT_EQ(page_of(at("in/markers.c3d"), {.recording = {.rate_hz = -1.0}}).error().code, Code::usage);
+  EXPECT_EQ(page_of(at("R.mot"), {.recording = {.axes = {.up = "y"}}}).error().code, Code::usage)
+      << "not of joint angles";
+  const auto data = data_of(page_of(at("in/markers.c3d"), {.recording = {.axes = {.up = "-x"}}}).value());
   EXPECT_EQ(data["scene"]["up"][0], -1.0);
   EXPECT_EQ(data["scene"]["up_from"], "--up");
 }
 
 TEST(VerticalWithoutModel, IsTheAxisAlongWhichABodyStands) {
-  EXPECT_TRUE(vertical_without_model("a.trc", line({0.2, 1.6, 0.3})).up.isApprox(Eigen::Vector3d::UnitY()));
-  EXPECT_TRUE(vertical_without_model("a.trc", line({0.2, 0.4, 1.6})).up.isApprox(Eigen::Vector3d::UnitZ()));
-  const auto unsure = vertical_without_model("a.trc", line({0.9, 0.9, 0.1}));
+  EXPECT_TRUE(vertical_without_model(line({0.2, 1.6, 0.3})).up.isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(vertical_without_model(line({0.2, 0.4, 1.6})).up.isApprox(Eigen::Vector3d::UnitZ()));
+  const auto unsure = vertical_without_model(line({0.9, 0.9, 0.1}));
   EXPECT_TRUE(unsure.up.isApprox(Eigen::Vector3d::UnitZ()));
   EXPECT_EQ(unsure.from, "") << "nobody says so";
-  EXPECT_EQ(vertical_without_model("a.trc", line({0.0, 0.5, 0.1})).from, "") << "too short for a body";
+  EXPECT_EQ(vertical_without_model(line({0.0, 0.5, 0.1})).from, "") << "too short for a body";
 }
 
 TEST(VerticalWithoutModel, PlatesComeFirst) {
@@ -106,8 +107,8 @@ TEST(VerticalWithoutModel, PlatesComeFirst) {
   auto& plate = trial.force_plates.emplace_back();
   plate.corners_in_world = {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, -1), Eigen::Vector3d(1, 1, -1),
                             Eigen::Vector3d(0, 1, -1)};
-  EXPECT_EQ(vertical_without_model("a.trc", trial).from, "the force plates");
-  EXPECT_TRUE(vertical_without_model("a.trc", trial).up.isApprox(Eigen::Vector3d::UnitZ()));
+  EXPECT_EQ(vertical_without_model(trial).from, "the force plates");
+  EXPECT_TRUE(vertical_without_model(trial).up.isApprox(Eigen::Vector3d::UnitZ()));
 }
 
 }  // namespace

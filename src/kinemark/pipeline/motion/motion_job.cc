@@ -16,7 +16,6 @@
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
@@ -53,7 +52,7 @@ Status add_images(const MotionJob& job, MotionInputs& inputs) {
 Status check_named(const MotionJob& job, std::string_view or_else) {
   if (job.model.empty()) return fail(Code::usage, fmt::format("no model; give --model{}", or_else));
   if (job.markers.empty()) return fail(Code::usage, fmt::format("no marker file; give --markers{}", or_else));
-  if (auto s = job.axes.check(); !s) return s;
+  if (auto s = job.RecordingOptions::check(); !s) return s;
   return job.images.check();
 }
 
@@ -66,15 +65,16 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
   if (auto s = check_geometry(job.geometry); !s) return std::unexpected(s.error());
   auto model = read_model_input(job.model);
   if (!model) return std::unexpected(model.error());
-  auto markers = read_marker_input({.path = job.markers, .rate_hz = job.rate_hz, .record = true});
+  RecordingOptions options = job;
+  options.selection = job.selection.without_times();
+  auto markers = open_recording({.path = job.markers,
+                                 .record = true,
+                                 .turns = false,
+                                 .force = job.force,
+                                 .seed = job.seed,
+                                 .threads = job.threads},
+                                options);
   if (!markers) return std::unexpected(markers.error());
-  auto edits = take_edits({.edits = job.edits,
-                           .recording = job.markers,
-                           .force = job.force,
-                           .seed = job.seed,
-                           .threads = job.threads},
-                          markers->trial);
-  if (!edits) return std::unexpected(edits.error());
   auto axes = bring_into_axes(job.axes, job.markers, markers->trial, model->model);
   if (!axes) return std::unexpected(axes.error());
   if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))
@@ -83,7 +83,7 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
         "images are seen in the axes of their rig, which --up and --rotate do not turn; turn the model");
   MotionInputs inputs{.model = std::move(model->model),
                       .trial = std::move(markers->trial),
-                      .edits = std::move(*edits),
+                      .edits = std::move(markers->edits),
                       .axes = std::move(*axes),
                       .images = {},
                       .files = {std::move(model->file), std::move(markers->file)}};
@@ -197,7 +197,8 @@ Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suff
   std::vector<fs::path> targets{job.output};
   for (const auto& suffix : suffixes) targets.push_back(beside(job.output, suffix));
   targets.insert(targets.end(), further.begin(), further.end());
-  std::vector<fs::path> inputs{job.model, job.markers, job.edits, job.forces, job.images.rig};
+  auto inputs = files_of(job.markers, job);
+  inputs.insert(inputs.end(), {job.model, job.forces, job.images.rig});
   for (const auto& camera : job.images.cameras) inputs.push_back(camera.points);
   inputs.insert(inputs.end(), also_read.begin(), also_read.end());
   return Staging::create(std::move(targets), job.force, inputs);

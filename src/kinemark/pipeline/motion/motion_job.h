@@ -7,24 +7,21 @@
 #include <filesystem>
 #include <vector>
 
-#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/motion/image_files.h"
 #include "kinemark/stages/report/ik_summary.h"
 
 namespace kinemark::pipeline {
 
-/// What `kinemark ik` and `track` are asked alike.
-struct MotionJob : JobSettings {
+/// What `kinemark ik` and `track` are asked alike. Axes say how recording and forces are turned into those of
+/// the model; times of the selection take precedence over those of a setup.
+struct MotionJob : JobSettings, RecordingOptions {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
-  std::filesystem::path
-      edits;  ///< journal applied to the markers first; "beside": theirs, where there is one
-  std::filesystem::path output;  ///< Q.mot; all other results go beside it
+  std::filesystem::path output;          ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes, for the page
-  AxesChoice axes;                              ///< how recording and forces are turned into the model's axes
   ImageFiles images;                            ///< seen besides the markers; none: nothing
-  double rate_hz = 0.0;                         ///< for a marker file that stores none (.v3d); 0: not given
   double max_rms_m = 0.05;                      ///< quality gate: RMS distance of measured and model markers
   double max_offset_m = 0.05;                   ///< quality gate: length of the mean distance vector
 };

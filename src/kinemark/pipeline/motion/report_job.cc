@@ -224,11 +224,12 @@ Result<Page> solved_page(const fs::path& solved, std::span<const fs::path> geome
 }
 
 Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) {
-  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = options.recording.check(); !s) return std::unexpected(s.error());
   if (is_solved(path)) {
-    if (options.rate_hz > 0.0 || !options.up.empty() || !options.skeleton.empty())
+    if (!options.recording.empty() || !options.skeleton.empty())
       return fail(Code::usage,
-                  fmt::format("{}: --rate, --up and --skeleton are for marker files, not for joint angles",
+                  fmt::format("{}: the options of a recording and --skeleton are for marker files, not for "
+                              "joint angles",
                               path.string()));
     if (auto s = check_geometry(options.geometry); !s) return std::unexpected(s.error());
     return solved_page(path, options.geometry);
@@ -239,7 +240,7 @@ Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) 
                             path.string()));
   auto html = markers_page(path, options);
   if (!html) return std::unexpected(html.error());
-  return Page{.html = std::move(*html), .read = {path}};
+  return Page{.html = std::move(*html), .read = files_of(path, options.recording)};
 }
 
 }  // namespace
@@ -251,9 +252,8 @@ Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& opti
 }
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
-  auto page = make_page(job.input, {.rate_hz = job.rate_hz,
+  auto page = make_page(job.input, {.recording = job,
                                     .skeleton = job.skeleton,
-                                    .up = job.up,
                                     .command_line = job.command_line,
                                     .geometry = job.geometry});
   if (!page) return std::unexpected(page.error());

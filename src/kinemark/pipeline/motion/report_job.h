@@ -11,14 +11,13 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark report` is asked to do.
-struct ReportJob : JobSettings {
+/// What `kinemark report` is asked to do. The options of a recording are for marker files alone; doubtful
+/// samples are kept unless they are to be dropped.
+struct ReportJob : JobSettings, RecordingOptions {
   std::filesystem::path input;  ///< Q.mot (or Q_report.json) as `kinemark ik` wrote it, the rest lies beside
                                 ///< it; or a marker file
   std::filesystem::path page;   ///< to write, .html
-  double rate_hz = 0.0;         ///< as MarkersPageOptions::rate_hz; marker files only
   std::filesystem::path skeleton = {};          ///< as MarkersPageOptions::skeleton
-  std::string up;                               ///< as MarkersPageOptions::up
   std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes
 };
 

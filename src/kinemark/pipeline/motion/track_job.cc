@@ -140,6 +140,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   // Prepare: options, model and markers, where results go.
   job.options.threads = job.threads;
   job.options.seed = job.seed;
+  internal::take_recording_options(job, job.options);
   if (auto s = internal::check_named(job); !s) return std::unexpected(s.error());
   if (auto s = internal::check_output_named(job); !s) return std::unexpected(s.error());
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());

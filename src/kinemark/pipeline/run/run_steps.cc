@@ -238,6 +238,7 @@ class Planner {
   /// With its options behind its own words; every value that names a file is an input.
   std::size_t add(RunStep step, const std::vector<Setting>& options, const std::string& subject,
                   const std::string& trial) {
+    std::string edits = kEditsBeside;  // as the commands take them by themselves
     for (const auto& setting : options) {
       if (setting.is_switch) {
         if (setting.on) step.words.push_back("--" + setting.name), step.lines.push_back(setting.line);
@@ -254,11 +255,12 @@ class Planner {
               std::ranges::find(step.inputs, fs::path(file)) == step.inputs.end())
             step.inputs.emplace_back(file);
         }
-        if (setting.name == "edits" && value == kEditsBeside) add_edits(step.inputs);
+        if (setting.name == "edits") edits = value;
         if (setting.name == "images" && behind != std::string::npos)
           add_frames(value.substr(behind + 1), step.inputs);
       }
     }
+    if (edits == kEditsBeside) add_edits(step.inputs);
     steps_.push_back(std::move(step));
     return steps_.size() - 1;
   }

@@ -17,13 +17,13 @@
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/skeleton_file.h"
 #include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/pipeline/scale/scale_page.h"
+#include "kinemark/pipeline/scale/scale_recordings.h"
 #include "kinemark/pipeline/scale/scale_setup_options.h"
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/masses.h"
@@ -42,6 +42,9 @@ class ScaleRun {
   explicit ScaleRun(ScaleJob job) : job_(std::move(job)) {
     job_.adapt.threads = job_.threads;
     job_.adapt.ik.seed = job_.seed;
+    const auto& times = job_.selection;
+    if (std::isfinite(times.first_time_s)) job_.adapt.ik.first_time_s = times.first_time_s;
+    if (std::isfinite(times.last_time_s)) job_.adapt.ik.last_time_s = times.last_time_s;
   }
 
   Status read_setup() {
@@ -66,7 +69,8 @@ class ScaleRun {
       return fail(Code::usage, "nothing to scale by; give --static, --setup or --markers");
     if (!std::isfinite(job_.mass_kg) || job_.mass_kg < 0.0)
       return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", job_.mass_kg));
-    if (auto s = job_.axes.check(); !s) return s;
+    if (auto s = job_.RecordingOptions::check(); !s) return s;
+    if (auto s = check_for_several(job_); !s && count() > 1) return s;
     if (job_.dempster && job_.mass_kg == 0.0)
       return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
     if (!job_.joints.empty() && !adapts())
@@ -319,24 +323,32 @@ class ScaleRun {
     const fs::path& path = by_setup && !job_.static_trial.empty() ? job_.static_trial : named;
     if (path.empty())
       return fail(Code::usage, fmt::format("{} needs a marker file; give --static or name it there", what));
-    auto input = read_marker_input({.path = path, .rate_hz = job_.rate_hz, .rate = RateRule::where_needed});
-    if (!input) return std::unexpected(input.error());
+    auto recording = open_scale_recording(job_, count(), path);
+    if (!recording) return std::unexpected(recording.error());
     const auto model = model::Model::compile(out_.model);
     if (!model) return fail_at(job_.model.string(), model.error());
-    const auto axes = bring_into_axes(job_.axes, path, input->trial, *model);
+    const auto axes = bring_into_axes(job_.axes, path, recording->trial, *model);
     if (!axes) return std::unexpected(axes.error());
-    if (const auto note = data::note_on_noise(input->trial.markers); !note.empty())
-      out_.warnings.push_back(fmt::format("{}: {}", path.string(), note));
-    if (!axes->note.empty()) out_.warnings.push_back(fmt::format("{}: {}", path.string(), axes->note));
-    out = std::move(input->trial.markers);
+    if (const auto note = data::note_on_noise(recording->trial.markers); !note.empty()) say(path, note);
+    for (const auto& note : recording->notes) say(path, note);
+    if (!axes->note.empty()) say(path, axes->note);
+    out = std::move(recording->trial.markers);
     return {};
   }
 
+  void say(const fs::path& path, const std::string& note) {
+    auto sentence = fmt::format("{}: {}", path.string(), note);
+    if (std::ranges::find(out_.warnings, sentence) == out_.warnings.end())
+      out_.warnings.push_back(std::move(sentence));
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_recordings(job_, setup_ ? &*setup_ : nullptr); }
+
   /// As the file has them: a judge turns them itself.
   Status read_markers(const fs::path& path, data::Trajectories& out) const {
-    auto input = read_marker_input({.path = path, .rate_hz = job_.rate_hz, .rate = RateRule::where_needed});
-    if (!input) return std::unexpected(input.error());
-    out = std::move(input->trial.markers);
+    auto recording = open_scale_recording(job_, count(), path);
+    if (!recording) return std::unexpected(recording.error());
+    out = std::move(recording->trial.markers);
     return {};
   }
 

@@ -9,8 +9,8 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/muscle_path.h"
-#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/stages/motion/foundations/judge.h"
 #include "kinemark/stages/motion/scaling/adapt.h"
 #include "kinemark/stages/motion/scaling/place.h"
@@ -18,8 +18,10 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark scale` is asked to do. Paths that are empty are not used.
-struct ScaleJob : JobSettings {
+/// What `kinemark scale` is asked to do. Paths that are empty are not used. The options of a recording count
+/// for the motion and for static trials, but for frames and times, which are the motion's; names that a
+/// static trial beside a motion does not have are passed over there.
+struct ScaleJob : JobSettings, RecordingOptions {
   std::filesystem::path model;         ///< .osim to scale
   std::filesystem::path setup;         ///< OpenSim ScaleTool file; fills what the other fields leave open
   std::filesystem::path static_trial;  ///< marker file of a static trial
@@ -27,8 +29,6 @@ struct ScaleJob : JobSettings {
   std::filesystem::path joints;        ///< skeleton.json of a motion, or its folder
   std::filesystem::path output;        ///< M.osim; M_report.json goes beside it
   std::filesystem::path report;        ///< page to write as well, .html
-  double rate_hz = 0.0;                ///< for marker files that store none (.v3d); 0: not given
-  AxesChoice axes;                     ///< how marker files are turned into the model's axes
   double mass_kg = 0.0;                ///< 0: the setup's, or as the factors make it
   bool dempster = false;               ///< distribute the mass by Dempster's fractions
   bool clavicles = false;              ///< set shoulders free first

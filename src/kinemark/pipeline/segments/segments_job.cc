@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 
 /// All that is read. Formulas see the markers with modelled points where some stand in for markers.
 struct Files {
-  data::Trial recording;
+  Recording recording;
   std::unique_ptr<data::Trial> static_trial;  // null: none, or the recording
   bool static_is_recording = false;
   std::map<std::string, std::unique_ptr<data::Trial>> trials;
@@ -50,21 +50,43 @@ struct Files {
   }
 };
 
-Result<data::Trial> read_trial(const SegmentsJob& job, const fs::path& path, SegmentsOutcome& outcome) {
-  auto input = read_marker_input({.path = path,
-                                  .rate_hz = job.rate_hz,
-                                  .rate = RateRule::where_needed,
-                                  .needs_samples = true,
-                                  .record = true});
-  if (!input) return std::unexpected(input.error());
-  outcome.inputs.push_back(std::move(input->file));
-  std::ranges::move(input->trial.warnings, std::back_inserter(outcome.warnings));
-  input->trial.warnings.clear();
-  // The recording is screened when its part is taken.
-  if (path != job.input)
-    if (auto s = leave_out_defects(input->trial, job.keep_defects, outcome.warnings); !s)
-      return fail_at(path.string(), s.error());
-  return std::move(input->trial);
+/// A recording beside the one that is measured is used as that one is, but whole and by its own journal.
+RecordingOptions beside_options(const SegmentsJob& job) {
+  RecordingOptions out;
+  out.rate_hz = job.rate_hz;
+  if (job.edits.empty() || job.edits == kEditsNone) out.edits = kEditsNone;
+  out.axes = job.axes;
+  return out;
+}
+
+/// @param options  those of the recording, or beside_options()
+Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const RecordingOptions& options,
+                           SegmentsOutcome& outcome) {
+  const bool alone = job.static_trial.empty() && job.trials.empty();
+  auto read = open_recording({.path = path,
+                              .rate = alone ? RateRule::given : RateRule::where_needed,
+                              .needs_samples = true,
+                              .record = true,
+                              .plates = path == job.input,
+                              .force = job.force,
+                              .seed = job.seed,
+                              .threads = job.threads},
+                             options);
+  if (!read) return std::unexpected(read.error());
+  outcome.inputs.push_back(std::move(read->file));
+  if (read->edits.file) outcome.inputs.push_back(*read->edits.file);
+  std::ranges::move(std::exchange(read->trial.warnings, {}), std::back_inserter(outcome.warnings));
+  std::ranges::move(read->notes, std::back_inserter(outcome.warnings));
+  if (auto s = leave_out_defects(read->trial, !job.drops_doubtful(true), outcome.warnings); !s)
+    return fail_at(path.string(), s.error());
+  return read;
+}
+
+Result<std::unique_ptr<data::Trial>> read_beside(const SegmentsJob& job, const fs::path& path,
+                                                 SegmentsOutcome& outcome) {
+  auto read = read_one(job, path, beside_options(job), outcome);
+  if (!read) return std::unexpected(read.error());
+  return std::make_unique<data::Trial>(std::move(read->trial));
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -74,26 +96,22 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 Result<Files> read_files(const SegmentsJob& job, SegmentsOutcome& outcome) {
   Files out;
-  auto recording = read_trial(job, job.input, outcome);
+  auto recording = read_one(job, job.input, job, outcome);
   if (!recording) return std::unexpected(recording.error());
   out.recording = std::move(*recording);
-  if (auto s = take_selection(job.selection, out.recording); !s)
-    return fail_at(job.input.string(), s.error());
-  if (auto s = leave_out_defects(out.recording, job.keep_defects, outcome.warnings); !s)
-    return fail_at(job.input.string(), s.error());
   out.static_is_recording = !job.static_trial.empty() && same_file(job.static_trial, job.input);
   if (!job.static_trial.empty() && !out.static_is_recording) {
-    auto trial = read_trial(job, job.static_trial, outcome);
+    auto trial = read_beside(job, job.static_trial, outcome);
     if (!trial) return std::unexpected(trial.error());
-    out.static_trial = std::make_unique<data::Trial>(std::move(*trial));
+    out.static_trial = std::move(*trial);
   }
   for (const auto& text : job.trials) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       return fail(Code::usage, fmt::format("'{}' is not NAME=FILE", text));
-    auto trial = read_trial(job, text.substr(equals + 1), outcome);
+    auto trial = read_beside(job, text.substr(equals + 1), outcome);
     if (!trial) return std::unexpected(trial.error());
-    out.trials[text.substr(0, equals)] = std::make_unique<data::Trial>(std::move(*trial));
+    out.trials[text.substr(0, equals)] = std::move(*trial);
   }
   return out;
 }
@@ -119,7 +137,7 @@ void join_points(const SegmentsJob& job, const analysis::SegmentDefinition& defi
       input.aliases.try_emplace(name, theirs);
     return files.markers_of(trial);
   };
-  input.markers = take(files.recording, job.input);
+  input.markers = take(files.recording.trial, job.input);
   if (files.static_is_recording) input.static_trial = input.markers;
   if (files.static_trial) input.static_trial = take(*files.static_trial, job.static_trial);
   for (const auto& [name, trial] : files.trials) input.trials[name] = take(*trial, name);
@@ -144,16 +162,11 @@ bool measures_offsets(const data::Trial& trial) {
   });
 }
 
-Result<Eigen::Vector3d> up_of(const SegmentsJob& job, const data::Trial& trial) {
-  if (job.up.empty()) {
-    if (const auto plates = vertical_of_plates(trial)) return plates->up;
-    if (const auto screen_up = vertical_of_screen(job.input)) return screen_up->up;
-    return Eigen::Vector3d::UnitZ();
-  }
-  const std::string_view axis = job.up.front() == '-' ? std::string_view(job.up).substr(1) : job.up;
-  if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
-    return fail(Code::usage, fmt::format("up is '{}'; expected x, y, z, -x, -y or -z", job.up));
-  return Eigen::Vector3d(Eigen::Vector3d::Unit(axis[0] - 'x') * (job.up.front() == '-' ? -1.0 : 1.0));
+Eigen::Vector3d up_of(const SegmentsJob& job, const data::Trial& trial) {
+  if (const auto stated = stated_vertical(job.axes)) return stated->up;
+  if (const auto plates = vertical_of_plates(trial)) return plates->up;
+  if (const auto screen_up = vertical_of_screen(trial)) return screen_up->up;
+  return Eigen::Vector3d::UnitZ();
 }
 
 Status find_values(const SegmentsJob& job, const analysis::SegmentDefinition& definition, const Files& files,
@@ -173,8 +186,8 @@ Status find_values(const SegmentsJob& job, const analysis::SegmentDefinition& de
     outcome.inputs.push_back({.role = "subject", .path = job.vsk.string()});
     take(std::move(*values));
   }
-  take(subject_values(files.recording, definition));
-  input.zeros_doubtful = measures_offsets(files.recording);
+  take(subject_values(files.recording.trial, definition));
+  input.zeros_doubtful = measures_offsets(files.recording.trial);
   if (files.static_trial) {
     take(subject_values(*files.static_trial, definition));
     input.zeros_doubtful = input.zeros_doubtful || measures_offsets(*files.static_trial);
@@ -223,12 +236,12 @@ void find_cross_talk(const analysis::SegmentDefinition& definition, SegmentsOutc
 }
 
 Status find_loads(const SegmentsJob& job, const analysis::SegmentDefinition& definition,
-                  const data::Trial& recording, const analysis::SegmentInput& input,
+                  const Recording& recording, const analysis::SegmentInput& input,
                   const analysis::SegmentOptions& options, SegmentsOutcome& outcome) {
-  const auto plates = plates_of(job.input, recording);
+  const auto& plates = recording.plates;
   if (!plates || input.static_trial == input.markers) return {};
   analysis::PlateEvidence evidence{.plates = &*plates, .corners = {}};
-  for (const auto& plate : recording.force_plates) evidence.corners.push_back(plate.corners_in_world);
+  for (const auto& plate : recording.trial.force_plates) evidence.corners.push_back(plate.corners_in_world);
   auto loads = analysis::find_joint_loads(definition, input, evidence,
                                           {.segments = options, .refits = job.refits, .seed = job.seed});
   if (!loads) return fail_at(job.input.string(), loads.error());
@@ -246,8 +259,8 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
   if (!staging) return std::unexpected(staging.error());
   const auto& motion = outcome.motion;
   const SeriesList angles = series_of(motion), loads = series_of(outcome.loads);
-  const data::Trial points = points_trial(motion, files.recording);
-  const data::Trial whole = trial_with(motion, outcome.loads, files.recording);
+  const data::Trial points = points_trial(motion, files.recording.trial);
+  const data::Trial whole = trial_with(motion, outcome.loads, files.recording.trial);
   const auto& targets = staging->targets();
   std::vector<ResultFile> made{
       table_file(targets[0], [&] { return series_table(angles, motion.time, "angles"); }),
@@ -273,9 +286,9 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
 /// The static trial by the names of its markers, and against the recording, before anything is built on it.
 Status judge_static(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
   if (job.static_trial.empty()) return {};
-  const auto& still = files.static_trial ? files.static_trial->markers : files.recording.markers;
+  const auto& still = files.static_trial ? files.static_trial->markers : files.recording.trial.markers;
   std::vector<const data::Trajectories*> movements;
-  if (files.static_trial) movements.push_back(&files.recording.markers);
+  if (files.static_trial) movements.push_back(&files.recording.trial.markers);
   auto judgement = judge_static_trial(job.static_trial.filename().string(),
                                       motion::body_of_names(still.names), still, movements, outcome);
   if (!judgement) return std::unexpected(judgement.error());
@@ -294,9 +307,9 @@ GaitDrawingJob drawing_of(const SegmentsJob& job) {
 }
 
 // Angles and values over the cycle, and what else of them is drawn.
-Status draw_walking(const SegmentsJob& job, const data::Trial& recording, GaitDrawing& drawing,
+Status draw_walking(const SegmentsJob& job, const Recording& recording, GaitDrawing& drawing,
                     SegmentsOutcome& outcome) {
-  if (auto s = drawing.find_walking(job.input, recording); !s) {
+  if (auto s = drawing.find_walking(recording); !s) {
     if (s.error().code == Code::usage || job.output.empty()) return s;
     outcome.warnings.push_back("walking is not drawn: " + s.error().message);
     return {};
@@ -312,17 +325,17 @@ Status draw_walking(const SegmentsJob& job, const data::Trial& recording, GaitDr
   std::vector<data::CycleCurves> curves;
   for (const auto& input : inputs) curves.push_back(input.curves);
   // Moments that the recording holds give way to those that were computed.
-  data::Trial plates = recording;
-  if (!outcome.loads.series.empty()) plates.channels = {};
-  add_recorded_kinetics(job.input, plates, *outcome.gait, inputs);
-  return drawing.write(job.input, recording, curves, inputs,
+  Recording others = recording;
+  if (!outcome.loads.series.empty()) others.trial.channels = {};
+  add_recorded_kinetics(others, *outcome.gait, inputs);
+  return drawing.write(job.input, recording.trial, curves, inputs,
                        {.angles_from = outcome.title, .inputs = outcome.inputs}, outcome);
 }
 
 }  // namespace
 
 Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
-  if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
+  if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
   const auto definition = find_definition(job.definition);
   if (!definition) return std::unexpected(definition.error());
   std::optional<GaitDrawing> drawing;
@@ -338,12 +351,11 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   auto files = read_files(job, outcome);
   if (!files) return std::unexpected(files.error());
   if (auto s = judge_static(job, *files, outcome); !s) return std::unexpected(s.error());
-  const auto up = up_of(job, files->recording);
-  if (!up) return std::unexpected(up.error());
+  const auto up = up_of(job, files->recording.trial);
   analysis::SegmentInput input;
   join_points(job, *definition, *files, input, outcome.warnings);
   if (auto s = find_values(job, *definition, *files, input, outcome); !s) return std::unexpected(s.error());
-  const analysis::SegmentOptions options{.noise_sd_m = job.noise_sd_m, .up = *up, .threads = job.threads};
+  const analysis::SegmentOptions options{.noise_sd_m = job.noise_sd_m, .up = up, .threads = job.threads};
   auto motion = analysis::compute_segments(*definition, input, options);
   if (!motion) return fail_at(job.input.string(), motion.error());
   outcome.motion = std::move(*motion);
@@ -351,7 +363,7 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
     input.noise = &*outcome.motion.noise;
     std::ranges::move(input.noise->sentences(), std::back_inserter(outcome.warnings));
   }
-  auto comparison = compare_outputs(*definition, input, options, outcome.motion, files->recording);
+  auto comparison = compare_outputs(*definition, input, options, outcome.motion, files->recording.trial);
   if (!comparison) return fail_at(job.input.string(), comparison.error());
   outcome.comparison = std::move(*comparison);
   if (auto s = find_loads(job, *definition, files->recording, input, options, outcome); !s)

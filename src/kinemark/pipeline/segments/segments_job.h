@@ -14,7 +14,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/segments/output_comparison.h"
 #include "kinemark/stages/analysis/kinetics/joint_loads.h"
@@ -24,19 +24,18 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze --segments` is asked to do. Paths that are empty are not used.
-struct SegmentsJob : JobSettings, GaitOutputs {
+/// What `kinemark analyze --segments` is asked to do. Paths that are empty are not used. Of the options of a
+/// recording the rate, the journals beside, the axes and what becomes of doubtful samples (dropped unless
+/// they are to be kept) count for the static trial and the others too; up is found where nobody says it, else
+/// z.
+struct SegmentsJob : JobSettings, RecordingOptions, GaitOutputs {
   std::filesystem::path input;         ///< marker file
-  double rate_hz = 0.0;                ///< for a file that tells none; 0: not given
-  Selection selection;                 ///< which markers and frames
   std::string definition;              ///< name of a shipped one, or a .toml
   std::filesystem::path static_trial;  ///< marker file; the recording itself: it is its own static trial
   std::vector<std::string> trials;     ///< NAME=FILE, trials in which landmarks were shown
   std::filesystem::path vsk;           ///< measures of the subject, .vsk or .mp
   std::vector<std::string> subject;    ///< NAME=VALUE or NAME=VALUE+-SD, mm, deg, kg
-  std::string up;                      ///< "x", "y" or "z", also "-y"; empty: found, else z
   double noise_sd_m = 0.0;             ///< per axis; 0: of the file, else found
-  bool keep_defects = false;           ///< use what screening calls spikes, swaps, stuck too
   std::filesystem::path output;        ///< folder; empty: nothing is written
   std::int64_t refits = 99;            ///< behind deviations of loads and intervals of walking; 0: none
   double level = 0.95;                 ///< of these intervals

@@ -75,7 +75,7 @@ class SegmentsJobTest : public ::testing::Test {
     job_.input = scratch_ / "walk.c3d";
     job_.definition = (scratch_ / "knee.toml").string();
     job_.output = scratch_ / "out";
-    job_.keep_defects = true;
+    job_.doubtful = Doubtful::keep;
   }
   void write(double turn) {
     data::Trial trial;
@@ -216,7 +216,7 @@ TEST_F(SegmentsJobTest, RefusesWhatMakesNoSense) {
     EXPECT_FALSE(outcome);
     return outcome ? std::string() : outcome.error().message;
   };
-  EXPECT_THAT(refused([](auto& j) { j.up = "w"; }), HasSubstr("up is 'w'; expected x, y, z"));
+  EXPECT_THAT(refused([](auto& j) { j.axes.up = "w"; }), HasSubstr("--up: 'w' is not x, y, z"));
   EXPECT_THAT(refused([](auto& j) { j.trials = {"pointer"}; }), HasSubstr("'pointer' is not NAME=FILE"));
   EXPECT_THAT(refused([](auto& j) { j.subject = {"x=1"}; }), HasSubstr("no parameter 'x'"));
   EXPECT_THAT(refused([](auto& j) { j.definition = "nobody"; }), HasSubstr("no definition"));
@@ -267,7 +267,7 @@ class LegJobTest : public ::testing::Test {
     job_.input = scratch_ / "leg.c3d";
     job_.definition = "pig";
     job_.noise_sd_m = 0.001;
-    job_.keep_defects = true;
+    job_.doubtful = Doubtful::keep;
   }
   void give(const OffsetLeg& leg) {
     for (const auto& value : leg.values()) {

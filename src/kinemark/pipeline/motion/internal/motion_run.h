@@ -3,6 +3,7 @@
 // The steps of a MotionJob that do not depend on how the motion is found: read, name the files, judge, write.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,15 @@ struct MotionInputs {
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
   std::vector<data::InputFile> files;       ///< all that were read, for the record
 };
+
+/// What of a recording's options a solver has of its own: the range of time, and whether samples are judged.
+template <class Options>
+void take_recording_options(const RecordingOptions& recording, Options& options) {
+  if (std::isfinite(recording.selection.first_time_s))
+    options.first_time_s = recording.selection.first_time_s;
+  if (std::isfinite(recording.selection.last_time_s)) options.last_time_s = recording.selection.last_time_s;
+  options.judge_samples = recording.drops_doubtful(options.judge_samples);
+}
 
 /// Model and markers are named, images as they must be. `or_else` ends the advice: " or a --setup that names
 /// one".

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/analyze_kinds.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/core/text.h"
+
+namespace kinemark::cli {
+namespace {
+
+using Kinds = unsigned;
+
+constexpr Kinds one(AnalyzeKind kind) { return 1U << static_cast<unsigned>(kind); }
+
+constexpr Kinds kList = one(AnalyzeKind::list), kMarkers = one(AnalyzeKind::markers),
+                kSeveral = one(AnalyzeKind::several), kSegments = one(AnalyzeKind::segments),
+                kMotion = one(AnalyzeKind::motion), kTables = one(AnalyzeKind::tables);
+constexpr Kinds kRecordings = kMarkers | kSeveral | kSegments, kMotions = kMotion | kTables,
+                kMeasures = kMarkers | kSeveral | kMotion, kDrawn = kMarkers | kSegments | kMotion;
+
+/// Options, and the analyses that heed them. An option that is in no line is heeded by none.
+struct Heeded {
+  std::string_view names;
+  Kinds kinds;
+};
+
+constexpr std::array kHeeded = {
+    Heeded{"IN start end output", kRecordings | kMotions},
+    Heeded{"list", kList},
+    Heeded{"rate edits drop rename frames up rotate doubtful noise", kRecordings},
+    Heeded{"select refits level", kRecordings | kMotion},
+    Heeded{"measures region between", kMeasures},
+    Heeded{"model forces setup no-error-bars torques cutoff", kMotions},
+    Heeded{"bodies point", kTables},
+    Heeded{"couple normalize", kMotion},
+    Heeded{"segments static vsk subject trial", kSegments},
+    Heeded{"events gait-marker write-events write-cycles", kDrawn | kSeveral},
+    Heeded{"figures figure-formats report norm angle-angle", kDrawn | kSeveral},
+    Heeded{"angles", kMarkers | kSeveral},
+    Heeded{
+        "emg emg-high-pass emg-low-pass emg-envelope emg-rms emg-max write-emg write-emg-cycles participants "
+        "jobs",
+        kMarkers | kSeveral},
+};
+
+struct Said {
+  AnalyzeKind kind;
+  const char* of;     ///< "... is an option for {}"
+  const char* given;  ///< "walk.c3d is {}"
+};
+
+constexpr std::array kSaid = {
+    Said{AnalyzeKind::list, "--list", "not needed for --list"},
+    Said{AnalyzeKind::markers, "measures of markers", "a recording of markers"},
+    Said{AnalyzeKind::several, "several recordings", "one of several recordings"},
+    Said{AnalyzeKind::segments, "--segments", "a recording whose segments are asked for"},
+    Said{AnalyzeKind::motion, "measures of a motion", "a motion that is measured"},
+    Said{AnalyzeKind::tables, "tables of a motion", "a motion whose tables go into a folder"},
+};
+
+bool has_word(std::string_view words, std::string_view word) {
+  for (std::size_t begin = 0; begin < words.size();) {
+    const auto end = std::min(words.find(' ', begin), words.size());
+    if (words.substr(begin, end - begin) == word) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+Kinds heeded_by(std::string_view name) {
+  const auto line =
+      std::ranges::find_if(kHeeded, [&](const Heeded& heeded) { return has_word(heeded.names, name); });
+  return line == kHeeded.end() ? 0U : line->kinds;
+}
+
+std::string sentence(const std::string& name, Kinds kinds, AnalyzeKind kind, const std::string& input) {
+  std::vector<std::string> of;
+  for (const auto& said : kSaid)
+    if ((kinds & one(said.kind)) != 0) of.emplace_back(said.of);
+  const auto given = std::ranges::find(kSaid, kind, &Said::kind)->given;
+  return fmt::format("{} is an option for {}; {} is {}", name, join(of), input, given);
+}
+
+}  // namespace
+
+Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string& input) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    const bool positional = option->get_lnames().empty();
+    const std::string name = positional ? option->get_name() : option->get_lnames().front();
+    const auto kinds = heeded_by(name);
+    if ((kinds & one(kind)) == 0)
+      return fail(Code::usage, sentence(positional ? name : "--" + name, kinds, kind, input));
+  }
+  return {};
+}
+
+}  // namespace kinemark::cli

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "kinemark/core/result.h"
+
+namespace kinemark::cli {
+
+/// What `analyze` does, by what it is given.
+enum class AnalyzeKind : std::uint8_t {
+  list,      ///< say what measures there are
+  markers,   ///< measures of a recording of markers
+  several,   ///< the same of several recordings, in one table
+  segments,  ///< joint centres and angles of a recording by a definition
+  motion,    ///< measures of a motion
+  tables,    ///< tables of a motion, into a folder
+};
+
+/// Every option that was given is heeded by this kind of analysis: Code::usage names the first that is not,
+/// what it is for, and what this is.
+/// @param input  name of the file that is analysed
+[[nodiscard]] Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string& input);
+
+}  // namespace kinemark::cli

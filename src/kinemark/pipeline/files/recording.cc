@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/files/recording.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "kinemark/pipeline/files/plates.h"
+#include "kinemark/pipeline/files/screen_axes.h"
+#include "kinemark/pipeline/files/turn.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+Status apply_edits(const RecordingSource& source, const RecordingOptions& options, Recording& recording) {
+  auto taken = take_edits({.edits = options.edits,
+                           .recording = source.path,
+                           .force = source.force,
+                           .seed = source.seed,
+                           .threads = source.threads},
+                          recording.trial);
+  if (!taken && options.edits == kEditsBeside)
+    return fail(taken.error().code,
+                fmt::format("{}; --edits none passes the journal over", taken.error().message));
+  if (!taken) return std::unexpected(taken.error());
+  recording.notes = taken->notes;
+  recording.edits = std::move(*taken);
+  return {};
+}
+
+/// Which way is up as it is said, beside what the plates say of it.
+void state_up(const Vertical& stated, Recording& recording) {
+  if (const auto plates = vertical_of_plates(recording.trial); plates && !plates->up.isApprox(stated.up))
+    recording.notes.push_back(fmt::format("--up says that {} points up, {} say {}",
+                                          name_of_direction(stated.up), plates->from,
+                                          name_of_direction(plates->up)));
+  set_screen_up(recording.trial, stated.up);
+}
+
+void turn_axes(const RecordingOptions& options, Recording& recording) {
+  if (const auto stated = stated_vertical(options.axes)) state_up(*stated, recording);
+  if (options.axes.rotate.empty()) return;
+  const auto rotation = parse_rotation(options.axes.rotate).value();  // it was checked
+  turn(recording.trial, rotation);
+  if (recording.plates) turn(*recording.plates, rotation);
+  recording.notes.push_back(fmt::format("the recording was turned: {}", options.axes.rotate));
+}
+
+}  // namespace
+
+std::string_view to_string(Doubtful doubtful) { return doubtful == Doubtful::drop ? "drop" : "keep"; }
+
+Result<Doubtful> parse_doubtful(std::string_view name) {
+  for (const auto doubtful : {Doubtful::drop, Doubtful::keep})
+    if (name == to_string(doubtful)) return doubtful;
+  return fail(Code::usage, fmt::format("--doubtful: '{}' is not drop or keep", name));
+}
+
+bool RecordingOptions::empty() const {
+  return rate_hz == 0.0 && (edits.empty() || edits == kEditsBeside) && selection.empty() && axes.up.empty() &&
+         axes.rotate.empty() && !doubtful;
+}
+
+Status RecordingOptions::check() const {
+  if (!(rate_hz >= 0.0) || !std::isfinite(rate_hz))
+    return fail(Code::usage, fmt::format("--rate is {} Hz; need a number above 0", rate_hz));
+  if (auto s = selection.check(); !s) return s;
+  return axes.check();
+}
+
+Result<Recording> read_recording(const RecordingSource& source, const RecordingOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  auto input = read_marker_input({.path = source.path,
+                                  .rate_hz = options.rate_hz,
+                                  .rate = source.rate,
+                                  .skeleton = source.skeleton,
+                                  .needs_samples = source.needs_samples,
+                                  .record = source.record});
+  if (!input) return std::unexpected(input.error());
+  return Recording{.trial = std::move(input->trial),
+                   .plates = {},
+                   .file = std::move(input->file),
+                   .edits = {},
+                   .rate_known = input->rate_known,
+                   .notes = {}};
+}
+
+Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
+                         Recording& recording) {
+  if (auto s = apply_edits(source, options, recording); !s) return s;
+  if (auto s = take_selection(options.selection, recording.trial); !s)
+    return fail_at(source.path.string(), s.error());
+  if (source.plates) recording.plates = plates_of(source.path, recording.trial);
+  if (source.turns) turn_axes(options, recording);
+  return {};
+}
+
+Result<Recording> open_recording(const RecordingSource& source, const RecordingOptions& options) {
+  auto recording = read_recording(source, options);
+  if (!recording) return recording;
+  if (auto s = prepare_recording(source, options, *recording); !s) return std::unexpected(s.error());
+  return recording;
+}
+
+std::optional<Vertical> stated_vertical(const AxesChoice& axes) {
+  if (axes.up.empty() || axes.up == "auto") return std::nullopt;
+  return Vertical{.up = parse_axis(axes.up).value(), .from = "--up"};
+}
+
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
+                                            const RecordingOptions& options) {
+  std::vector<std::filesystem::path> files{recording};
+  if (options.edits == kEditsBeside)
+    files.push_back(edits_of(recording));
+  else if (!options.edits.empty() && options.edits != kEditsNone)
+    files.push_back(options.edits);
+  return files;
+}
+
+Status check_for_several(const RecordingOptions& options) {
+  const auto& edits = options.edits;
+  if (edits.empty() || edits == kEditsBeside || edits == kEditsNone) return {};
+  return fail(
+      Code::usage,
+      fmt::format("--edits: {} is of one recording; need 'beside' or 'none' with several", edits.string()));
+}
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A recording as it is to be used: read, edited, selected, turned. Every job that reads markers opens them
+// here, with the same options in the same order.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/data/trial.h"
+#include "kinemark/data/wrenches.h"
+#include "kinemark/pipeline/files/axes.h"
+#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/pipeline/files/selection.h"
+#include "kinemark/pipeline/files/vertical.h"
+
+namespace kinemark::pipeline {
+
+/// What becomes of samples that are surely swapped, stuck or false.
+enum class Doubtful : std::uint8_t {
+  drop,  ///< they are not used
+  keep,  ///< they are used like all others
+};
+
+[[nodiscard]] std::string_view to_string(Doubtful doubtful);  ///< "drop" or "keep"
+/// The choice of that name. Anything else: Code::usage.
+[[nodiscard]] Result<Doubtful> parse_doubtful(std::string_view name);
+
+/// How a recording is to be used, asked alike of every job that reads one.
+struct RecordingOptions {
+  double rate_hz = 0.0;  ///< of a file that tells none; any other refuses it; 0: not given
+  std::filesystem::path edits = kEditsBeside;  ///< journal applied first; "beside": the recording's own,
+                                               ///< where there is one; "none" or empty: none
+  Selection selection;                         ///< markers, names, frames
+  AxesChoice axes;                             ///< which way is up, or a rotation
+  std::optional<Doubtful> doubtful;            ///< none: as the job does by itself
+
+  /// Whether doubtful samples are left out, by a job that does so by itself or does not.
+  [[nodiscard]] bool drops_doubtful(bool by_itself) const {
+    return doubtful ? *doubtful == Doubtful::drop : by_itself;
+  }
+  /// Whether nothing is asked for: the recording is used as it is, but for a journal beside it.
+  [[nodiscard]] bool empty() const;
+  /// What can be said without a recording: Code::usage.
+  [[nodiscard]] Status check() const;
+};
+
+/// A recording to open, and what a job needs of it.
+struct RecordingSource {
+  std::filesystem::path path;           ///< any marker file
+  std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
+  RateRule rate = RateRule::given;      ///< what becomes of the rate that is given
+  bool needs_samples = false;           ///< refuse a file without markers or without frames
+  bool record = false;                  ///< size and checksum, which reads the file once more
+  bool plates = false;                  ///< forces of its plates are wanted
+  bool turns = true;                    ///< false: the job itself turns it, into the axes of a model
+  bool force = false;                   ///< apply edits of another recording too
+  std::uint64_t seed = 1;               ///< of fills among the edits
+  int threads = 1;                      ///< 0: all cores. Any number gives the same bits.
+};
+
+/// A recording as it is to be used.
+struct Recording {
+  data::Trial trial;  ///< its warnings stay those of the reader
+  std::optional<data::Wrenches>
+      plates;                      ///< forces of its plates on its frames; none: not wanted, or not there
+  data::InputFile file;            ///< role "markers"; bytes and hash only when asked for
+  EditsTaken edits;                ///< that were applied
+  bool rate_known = true;          ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
+  std::vector<std::string> notes;  ///< what was done to it, one sentence each
+};
+
+/// The recording as its file has it: the first half of open_recording(), for jobs that do something in
+/// between. Code::usage as RecordingOptions::check(); else as read_marker_input().
+[[nodiscard]] Result<Recording> read_recording(const RecordingSource& source,
+                                               const RecordingOptions& options);
+
+/// What was read as the options ask for it, in this order: edits of its journal, markers and names, frames,
+/// rotation. Defects are looked for by the job, in what is left (marker_screening.h). Fails as take_edits()
+/// and take_selection(), naming the file.
+[[nodiscard]] Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
+                                       Recording& recording);
+
+/// read_recording(), then prepare_recording().
+[[nodiscard]] Result<Recording> open_recording(const RecordingSource& source,
+                                               const RecordingOptions& options);
+
+/// The axis that is said to point up; none: nobody says one, or it is to be found. `options` are checked.
+[[nodiscard]] std::optional<Vertical> stated_vertical(const AxesChoice& axes);
+
+/// The files that opening a recording reads: its own, and the journal, whether it is there or not.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
+                                                          const RecordingOptions& options);
+
+/// Code::usage where a journal is named for several recordings: it is of one of them.
+[[nodiscard]] Status check_for_several(const RecordingOptions& options);
+
+}  // namespace kinemark::pipeline
