@@ -59,10 +59,13 @@ double share(View v, std::size_t pattern) {
 bool has_centre(View v) { return v.series.centre.rows() > 0; }
 auto centre(View v) { return v.series.centre.middleRows(v.first, v.count); }
 
-VectorXd level_speed(View v) {
+// Horizontal velocities, one behind the other.
+VectorXd level_velocities(View v) {
+  if (!has_centre(v)) return {};
   const auto level = level_of(v.record.up);
-  VectorXd out(v.count);
-  for (std::int64_t f = 0; f < v.count; ++f) out[f] = level(v.series.centre_velocity.row(v.first + f)).norm();
+  VectorXd out(3 * v.count);
+  for (std::int64_t f = 0; f < v.count; ++f)
+    out.segment<3>(3 * f) << level(v.series.centre_velocity.row(v.first + f)), 0.0;
   return out;
 }
 
@@ -224,10 +227,9 @@ constexpr std::array kDefinitions{
             "share of steps within 22.5 deg of 90 deg", kChang, [](View v) { return share(v, 3); }),
     of_body("com_vertical_range", Quantity::length, "Vertical range of the mass centre",
             "highest less lowest", kDefinition, BodyScope::body, Pick::range, heights, 1),
-    of_body(
-        "com_speed", Quantity::speed, "Mean level speed of the mass centre",
-        "mean size of the horizontal velocity", kDefinition, BodyScope::body,
-        [](View v) { return has_centre(v) ? level_speed(v).mean() : kNaN; }, 1),
+    of_body("com_speed", Quantity::speed, "Mean level speed of the mass centre",
+            "mean size of the horizontal velocity", kDefinition, BodyScope::body, Pick::mean_size,
+            level_velocities, 1),
     of_body("com_peak_speed", Quantity::speed, "Peak speed of the mass centre", "max |v|", kDefinition,
             BodyScope::body, Pick::largest, speeds, 1),
     of_body("margin_of_stability", Quantity::length, "Least margin of stability",

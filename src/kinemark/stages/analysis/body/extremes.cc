@@ -21,8 +21,21 @@ Index farthest(const VectorXd& curve, double sign) {
 
 double value_at(const VectorXd& curve, Index i) { return i < 0 ? kNaN : curve[i]; }
 
+// Mean over vectors of three values: the component of `value` along `place`.
+double mean_along(const VectorXd& place, const VectorXd& value) {
+  const Index vectors = place.size() / 3;
+  if (vectors == 0) return kNaN;
+  double sum = 0.0;
+  for (Index i = 0; i < vectors; ++i) {
+    const double length = place.segment<3>(3 * i).norm();
+    if (length != 0.0) sum += place.segment<3>(3 * i).dot(value.segment<3>(3 * i)) / length;
+  }
+  return sum / static_cast<double>(vectors);
+}
+
 // `value` where `place` has the extreme.
 double taken_from(Pick pick, const VectorXd& place, const VectorXd& value) {
+  if (pick == Pick::mean_size) return mean_along(place, value);
   const Index most = farthest(place, 1.0), least = farthest(place, -1.0);
   switch (pick) {
     case Pick::largest:

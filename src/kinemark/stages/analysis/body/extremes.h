@@ -18,6 +18,7 @@ enum class Pick : std::uint8_t {
   size,              ///< the largest absolute value
   time_of_largest,   ///< the sample of the largest value, the first of equal ones
   time_of_smallest,  ///< of the smallest
+  mean_size,  ///< mean length of vectors, three values each: the largest component of each in any direction
 };
 
 /// That number; NaN of a curve without values.
@@ -25,7 +26,8 @@ enum class Pick : std::uint8_t {
 
 /// The place of the extreme from curve + noise and its value from curve - noise, and the other way round: the
 /// mean of both. Where `noise` is distributed as that of the curve, the noise of both is independent, so that
-/// the largest is not the luckiest (coupled bootstrap: Oliveira, Lei & Tibshirani 2021). Not of times.
+/// the largest is not the luckiest (coupled bootstrap: Oliveira, Lei & Tibshirani 2021). Of vectors the
+/// direction from one and the component from the other: noise alone has no length. Not of times.
 [[nodiscard]] double thinned(Pick pick, const Eigen::VectorXd& curve, const Eigen::VectorXd& noise);
 
 /// Samples that may be the extreme one.

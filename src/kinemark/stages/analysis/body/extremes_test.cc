@@ -107,5 +107,23 @@ TEST(MeasureErrors, AnExtremeAndItsInstantFromRefits) {
   EXPECT_EQ(most.reach().after, 0.0);
 }
 
+TEST(Extremes, LengthsOfVectorsThatAreNoiseAloneAreThinnedToNothing) {
+  Random random(3, 1);
+  Eigen::VectorXd curve(3000), noise(3000);
+  for (Eigen::Index i = 0; i < curve.size(); ++i) curve[i] = random.gaussian(), noise[i] = random.gaussian();
+  EXPECT_NEAR(picked(Pick::mean_size, curve), 1.596, 0.06);  // sqrt(8 / pi), Maxwell's mean
+  EXPECT_NEAR(thinned(Pick::mean_size, curve, noise), 0.0, 0.06);
+}
+
+TEST(Extremes, LengthsOfVectorsFarAboveNoiseStay) {
+  Random random(3, 2);
+  Eigen::VectorXd curve(3000), noise(3000);
+  for (Eigen::Index i = 0; i < curve.size(); ++i)
+    curve[i] = i % 3 == 1 ? -20.0 : 0.0, noise[i] = random.gaussian();
+  EXPECT_DOUBLE_EQ(picked(Pick::mean_size, curve), 20.0);
+  EXPECT_NEAR(thinned(Pick::mean_size, curve, noise), 19.85, 0.05) << "1.5 of what noise turns them by";
+  EXPECT_TRUE(std::isnan(picked(Pick::mean_size, {})));
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

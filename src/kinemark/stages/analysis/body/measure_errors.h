@@ -39,7 +39,7 @@ class MeasureErrors {
   struct Reach {
     double before = 0.0, after = 0.0;  ///< not positive, not negative
   };
-  /// Of an instant: samples that are as extreme within twice the deviation of the difference.
+  /// Of an instant: samples that are as extreme within three times the deviation of the difference.
   [[nodiscard]] Reach reach() const;
 
  private:
