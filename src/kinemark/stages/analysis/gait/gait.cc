@@ -96,7 +96,7 @@ class GaitMeasurement {
     out.cycles = find_cycles(paths, found_.events, belt_of(markers_.kind, markers_.belt), backward());
     const auto values = values_of(out.cycles);
     const auto refits = at(options_.refits);
-    if (refits > 0) print_noise_ = noise_of_prints();
+    if (refits > 0) noise_alone_ = measure_noise();
     std::vector<std::vector<double>> deviations(slots_.size(), std::vector<double>(refits));
     std::vector<std::vector<double>> noise(found_.events.size(), std::vector<double>(refits));
     parallel_for(options_.refits, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
@@ -139,18 +139,25 @@ class GaitMeasurement {
     return out;
   }
 
-  // By how much noise moves a standing heel within the stretch that its print is the mean of: variance by
-  // side.
-  std::array<double, 2> noise_of_prints() const {
-    std::array<double, 2> sum{}, count{};
+  // What noise by itself does to footprints and to the belt.
+  struct NoiseAlone {
+    std::array<double, 2>
+        print{};        // variance of a standing heel within the stretch of its print, m^2, by side
+    double belt = 0.0;  // squared half of what heels and toes differ by, (m/s)^2
+  };
+  NoiseAlone measure_noise() const {
+    NoiseAlone out;
+    std::array<double, 2> count{};
     for (std::int64_t k = 0; k < kPrintDraws; ++k) {
       const auto paths = smoother_.noise_alone(options_.seed ^ kPrintSeed, k);
       for (const auto& cycle : find_cycles(paths, found_.events, {0.0, 0.0}))
         if (const auto side = data::index_of(cycle.side); std::isfinite(cycle.print.x.x()))
-          sum[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
+          out.print[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
+      const double apart = belt_velocity(paths, markers_.steps, Ground{}).sd;
+      out.belt += apart * apart / static_cast<double>(kPrintDraws);
     }
-    for (const auto side : {0, 1}) sum[at(side)] /= std::max(1.0, count[at(side)]);
-    return sum;
+    for (const std::size_t side : {0, 1}) out.print[side] /= std::max(1.0, count[side]);
+    return out;
   }
 
   // All values of a simulated recording; `noise` gets what its noise does to each event, NaN where it is not
@@ -182,11 +189,12 @@ class GaitMeasurement {
     }
     // What this recording would not have shown, no cycle can begin or end with.
     std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
-    const double belt_error = markers_.belt.sd * random.gaussian();
+    const double belt_variance = markers_.belt.sd * markers_.belt.sd - noise_alone_.belt;
+    const double belt_error = std::sqrt(std::max(0.0, belt_variance)) * random.gaussian();
     auto cycles = find_cycles(
         paths, events, belt_of(markers_.kind, belt_velocity(paths, markers_.steps, ground), belt_error),
         backward());
-    jitter(cycles, print_noise_, random);
+    jitter(cycles, noise_alone_.print, random);
     return values_of(cycles);
   }
 
@@ -239,7 +247,7 @@ class GaitMeasurement {
   const GaitOptions& options_;
   std::vector<data::Region> regions_;
   std::vector<Slot> slots_;
-  std::array<double, 2> print_noise_{};
+  NoiseAlone noise_alone_;
 };
 
 // How many events come from where, how sources agree, and strikes between which one is missing.
