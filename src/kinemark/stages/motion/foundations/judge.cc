@@ -158,7 +158,7 @@ Status FoundationOptions::check() const {
   for (const double sd : {still_sd_m, moving_sd_m, between_sd_m})
     if (!(sd > 0.0 && sd < 1.0))
       return fail(Code::usage, fmt::format("a spread of {} m; need above 0, below 1", sd));
-  for (const double score : {least_score, least_fall})
+  for (const double score : {least_score, least_score_alone, least_fall})
     if (!(score > 0.0)) return fail(Code::usage, fmt::format("a score of {}; need a number above 0", score));
   if (moving_frames < 1 || most_findings < 1)
     return fail(Code::usage,
@@ -207,7 +207,9 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
     if (explanations.empty() || explanations.front().score < options.least_score) break;
     auto best = explanations.front();
     if (best.second < 0 && best.shift.norm() < kLeastShift_m) break;
-    if (best.second < 0 && moving.empty() && best.gain * best.misfit < options.least_fall) break;
+    const bool alone = best.second < 0 && moving.empty();
+    if (alone && (best.score < options.least_score_alone || best.gain * best.misfit < options.least_fall))
+      break;
     std::vector<std::string> rivals;
     for (std::size_t i = 1; i < explanations.size(); ++i)
       if (explanations[i].score > best.score - kRival) rivals.push_back(words_of(body, explanations[i]));

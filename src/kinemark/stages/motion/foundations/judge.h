@@ -18,9 +18,10 @@ namespace kinemark::motion {
 /// Options of judge_foundation().
 struct FoundationOptions {
   double least_score = 12.0;  ///< of a finding: twice the log of how much likelier it makes the recording
-  /// Of a single marker where no movement tells its place: fall of the cost by the spreads as they are, which
-  /// is a chi-square of three by chance, beyond 20 in 2 of 10,000 markers.
-  double least_fall = 20.0;
+  /// Of a single marker where no movement tells its place: score, and fall of the cost by the spreads as they
+  /// are. The score alone accuses clean subjects whose markers lie better than the spreads say.
+  double least_score_alone = 16.0;
+  double least_fall = 8.0;      ///< see least_score_alone
   double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
   double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue
   double between_sd_m = 0.004;  ///< of a marker between two recordings, per axis

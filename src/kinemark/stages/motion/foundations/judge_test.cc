@@ -202,8 +202,9 @@ TEST(Judge, ASingleMarkerNeedsMoreWhereNoMovementTellsItsPlace) {
         .value()
         .findings.size();
   };
-  EXPECT_EQ(found_with(20.0), 1);
+  EXPECT_EQ(found_with(8.0), 1);
   EXPECT_EQ(found_with(2000.0), 0);
+  EXPECT_TRUE(judge_foundation(body, still, {}, {.least_score_alone = 2000.0}).value().findings.empty());
 }
 
 TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
@@ -238,6 +239,18 @@ data::Trajectories only(const data::Trajectories& trial) {
       out.state[out.index(f, m)] = data::SampleState::measured;
     }
   return out;
+}
+
+TEST(Judge, ToesThatBentAreNoMistakeAndAHeelElsewhereIs) {
+  const auto person = subject(5);
+  auto still = frames(person, 9, 0.03, 5);
+  const auto movement = frames(person, 40, 0.25, 15);
+  move(still, "LTOE", Vector3d(0.0, -0.030, 0.0));
+  EXPECT_TRUE(by_names(still, &movement).findings.empty());
+  move(still, "LHEE", Vector3d(0.0, 0.0, 0.050));
+  const auto judgement = by_names(still, &movement);
+  ASSERT_FALSE(judgement.findings.empty());
+  EXPECT_EQ(judgement.findings[0].marker, "LHEE");
 }
 
 TEST(Judge, MarkersOfTheTrunkAreNotAccusedBesideAMovement) {
@@ -330,6 +343,7 @@ TEST(Judge, TooFewMarkersAreNotJudged) {
 
 TEST(Judge, OptionsAreChecked) {
   EXPECT_FALSE(FoundationOptions{.least_score = 0.0}.check());
+  EXPECT_FALSE(FoundationOptions{.least_score_alone = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.least_fall = -1.0}.check());
   EXPECT_FALSE(FoundationOptions{.most_findings = 0}.check());
   EXPECT_FALSE(FoundationOptions{.between_sd_m = 2.0}.check());

@@ -58,6 +58,13 @@ TEST(Landmarks, AWandsHeightIsFreeOnEachSide) {
   EXPECT_LT(bone->spread.own.y(), 0.015);
 }
 
+TEST(Landmarks, ToesBendAndBonesOfTheFootDoNot) {
+  EXPECT_GT(landmark_of("LTOE")->spread.by_posture, 0.01);
+  EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, 0.0);
+  EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, 0.0);
+  EXPECT_EQ(landmark_of("LMT2")->x_in_part, landmark_of("LTOE")->x_in_part);
+}
+
 TEST(Landmarks, NamesAreCutIntoSideAndRest) {
   EXPECT_EQ(split_marker_name("R.Thigh.Upper").stem, split_marker_name("L.Thigh.Upper").stem);
   EXPECT_EQ(split_marker_name("R.Thigh.Upper").side, Side::right);
