@@ -31,31 +31,28 @@ Eigen::RowVector2d belt_of(const GaitKind& kind, const Ground& ground, double er
   return (1.0 + error_m_per_s / ground.velocity.norm()) * ground.velocity;
 }
 
-// What of the variance of standing heels is theirs, by side: noise moves them as well, twice in a simulated
-// walk, whose noise is on top of the recording's own. One share for all prints of a foot, as one print tells
-// its noise badly.
-std::array<double, 2> own_shares(std::span<const GaitCycle> cycles,
-                                 const std::array<double, 2>& noise_variance) {
-  std::array<double, 2> sum{}, count{}, out{};
+// By how much heels move while they stand, by side: variance in the stretch of a print, m^2, less what noise
+// makes of it. One share for all prints, as a few tell their noise badly.
+std::array<double, 2> own_variances(std::span<const GaitCycle> cycles,
+                                    const std::array<double, 2>& noise_variance) {
+  std::array<double, 2> sum{}, count{};
   for (const auto& cycle : cycles)
     if (const auto side = data::index_of(cycle.side); std::isfinite(cycle.print.x.x()))
       sum[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
-  for (const std::size_t side : {0, 1})
-    out[side] =
-        sum[side] > 0.0 ? std::max(0.0, 1.0 - 2.0 * noise_variance[side] * count[side] / sum[side]) : 1.0;
-  return out;
+  const double all = sum[0] + sum[1], noise = noise_variance[0] * count[0] + noise_variance[1] * count[1];
+  const double share = all > 0.0 ? std::max(0.0, 1.0 - noise / all) : 0.0;
+  for (const std::size_t side : {0, 1}) sum[side] *= share / std::max(1.0, count[side]);
+  return sum;
 }
 
-// Every footprint moved by its own error, as far as the heel moves while it stands; one that stands in
-// several cycles, by the same.
-void jitter(std::vector<GaitCycle>& cycles, const std::array<double, 2>& noise_variance, Random& random) {
-  const auto own = own_shares(cycles, noise_variance);
+// Every footprint moved by its own error; one that stands in several cycles, by the same.
+void jitter(std::vector<GaitCycle>& cycles, const std::array<double, 2>& variance, Random& random) {
   std::map<std::pair<Side, double>, Eigen::Vector2d> moved;
   const auto move = [&](Side side, double strike_s, Footprint& print) {
     const auto [found, is_new] = moved.try_emplace({side, strike_s});
     if (is_new) {
       const double x = random.gaussian(), y = random.gaussian();
-      found->second = std::sqrt(own[data::index_of(side)]) * print.sd * Eigen::Vector2d(x, y);
+      found->second = std::sqrt(variance[data::index_of(side)]) * Eigen::Vector2d(x, y);
     }
     print.x += found->second;
   };
@@ -97,6 +94,7 @@ class GaitMeasurement {
     const auto values = values_of(out.cycles);
     const auto refits = at(options_.refits);
     if (refits > 0) noise_alone_ = measure_noise();
+    own_variances_ = own_variances(out.cycles, noise_alone_.print);
     std::vector<std::vector<double>> deviations(slots_.size(), std::vector<double>(refits));
     std::vector<std::vector<double>> noise(found_.events.size(), std::vector<double>(refits));
     parallel_for(options_.refits, 1, options_.threads, [&](std::int64_t begin, std::int64_t end) {
@@ -194,7 +192,7 @@ class GaitMeasurement {
     auto cycles = find_cycles(
         paths, events, belt_of(markers_.kind, belt_velocity(paths, markers_.steps, ground), belt_error),
         backward());
-    jitter(cycles, noise_alone_.print, random);
+    jitter(cycles, own_variances_, random);
     return values_of(cycles);
   }
 
@@ -248,6 +246,7 @@ class GaitMeasurement {
   std::vector<data::Region> regions_;
   std::vector<Slot> slots_;
   NoiseAlone noise_alone_;
+  std::array<double, 2> own_variances_{};  // of standing heels
 };
 
 // How many events come from where, how sources agree, and strikes between which one is missing.
