@@ -49,20 +49,24 @@ constexpr std::array kHeeded = {
         kMarkers | kSeveral},
 };
 
-struct Said {
-  AnalyzeKind kind;
-  const char* of;     ///< "... is an option for {}"
-  const char* given;  ///< "walk.c3d is {}"
-};
-
-constexpr std::array kSaid = {
-    Said{AnalyzeKind::list, "--list", "not needed for --list"},
-    Said{AnalyzeKind::markers, "measures of markers", "a recording of markers"},
-    Said{AnalyzeKind::several, "several recordings", "one of several recordings"},
-    Said{AnalyzeKind::segments, "--segments", "a recording whose segments are asked for"},
-    Said{AnalyzeKind::motion, "measures of a motion", "a motion that is measured"},
-    Said{AnalyzeKind::tables, "tables of a motion", "a motion whose tables go into a folder"},
-};
+/// "walk.c3d is {}"
+const char* describe(AnalyzeKind kind) {
+  switch (kind) {
+    case AnalyzeKind::list:
+      return "not needed for --list";
+    case AnalyzeKind::markers:
+      return "a recording of markers";
+    case AnalyzeKind::several:
+      return "one of several recordings";
+    case AnalyzeKind::segments:
+      return "a recording whose segments are asked for";
+    case AnalyzeKind::motion:
+      return "a motion that is measured";
+    case AnalyzeKind::tables:
+      return "a motion whose tables go into a folder";
+  }
+  return "";
+}
 
 bool has_word(std::string_view words, std::string_view word) {
   for (std::size_t begin = 0; begin < words.size();) {
@@ -79,12 +83,24 @@ Kinds heeded_by(std::string_view name) {
   return line == kHeeded.end() ? 0U : line->kinds;
 }
 
-std::string sentence(const std::string& name, Kinds kinds, AnalyzeKind kind, const std::string& input) {
+/// "recordings and measures of a motion"
+std::string describe(Kinds kinds) {
   std::vector<std::string> of;
-  for (const auto& said : kSaid)
-    if ((kinds & one(said.kind)) != 0) of.emplace_back(said.of);
-  const auto given = std::ranges::find(kSaid, kind, &Said::kind)->given;
-  return fmt::format("{} is an option for {}; {} is {}", name, join(of), input, given);
+  const auto add = [&](Kinds all, const char* name) {
+    if ((kinds & all) != all) return false;
+    of.emplace_back(name);
+    return true;
+  };
+  add(kList, "--list");
+  if (!add(kRecordings, "recordings")) {
+    add(kMarkers, "measures of markers");
+    add(kSegments, "--segments");
+  }
+  if (!add(kMotions, "motions")) {
+    add(kMotion, "measures of a motion");
+    add(kTables, "tables of a motion");
+  }
+  return join(of, " and ");
 }
 
 }  // namespace
@@ -96,7 +112,8 @@ Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string
     const std::string name = positional ? option->get_name() : option->get_lnames().front();
     const auto kinds = heeded_by(name);
     if ((kinds & one(kind)) == 0)
-      return fail(Code::usage, sentence(positional ? name : "--" + name, kinds, kind, input));
+      return fail(Code::usage, fmt::format("{}{} is an option for {}; {} is {}", positional ? "" : "--", name,
+                                           describe(kinds), input, describe(kind)));
   }
   return {};
 }

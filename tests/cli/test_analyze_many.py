@@ -55,7 +55,7 @@ class Repeated(CommandTest):
     def test_tables_of_a_motion_heed_what_is_measured_or_refuse_it(self):
         self.good("simulate", "subject", "--out", "in", "--duration", "1", "--quiet")
         for option in (("--select", "knee*"), ("--region", "a=1-20"), ("--refits", "0")):
-            self.refused(2, f"{option[0]} says what is measured", "analyze", "in/truth.mot", "--model", "in/model.osim", "-o", "out", *option)
+            self.refused(2, f"{option[0]} is an option for", "analyze", "in/truth.mot", "--model", "in/model.osim", "-o", "out", *option)
 
 
 class Several(CommandTest):
@@ -90,7 +90,7 @@ class Several(CommandTest):
         for words, arguments in (
             ("several recordings need a table", ()),
             ("--figures f: is made of one recording", ("-o", "m.csv", "--figures", "f")),
-            ("--model m.osim belongs to one motion", ("-o", "m.csv", "--model", "m.osim")),
+            ("--model is an option for motions", ("-o", "m.csv", "--model", "m.osim")),
             ("measures are written as .csv, .json or .nwb", ("-o", "m.xlsx")),
             ("--cutoff is an option for motions", ("-o", "m.csv", "--cutoff", "6")),
         ):

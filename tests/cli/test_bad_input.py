@@ -103,6 +103,19 @@ class WrongContent(CommandTest):
         for text in ("RFIN", "=1", "RFIN=", "RFIN=x"):
             self.refused(2, [f"'{text}'", "NAME=WEIGHT"], *self.ik(weight=text))
 
+    def test_an_ending_that_a_result_cannot_have(self):
+        for name in ("q.nwb", "q.csv", "q.c3d"):
+            self.refused(2, [name, "joint angles are written as .mot or .sto"], *self.ik(output=name))
+        self.refused(2, "joint angles are written as", "track", "-m", self.model, "-t", self.c3d, "-o", "q.csv")
+        self.refused(2, "a page is written as .html", *self.ik(report="q.pdf"))
+        self.refused(2, "a page is written as .html", "report", self.c3d, "-o", "page.pdf")
+        self.refused(2, "a model is written as .osim", "scale", "-m", self.model, "-t", self.c3d, "-o", "m.xml")
+        self.refused(2, "written into a folder; '.c3d' is", "analyze", self.c3d, "--segments", "pig", "-o", "x.c3d")
+        self.refused(2, "written into a folder; '.trc' is", "analyze", self.truth, "-m", self.model, "--bodies", "pelvis", "-o", "x.trc")
+        (self.folder / "day.c3d").mkdir()
+        self.good("analyze", self.truth, "-m", self.model, "--bodies", "pelvis", "-o", "day.c3d")
+        self.good(*self.ik(output="q.sto"))
+
     def test_time_ranges_outside_the_data(self):
         self.refused(3, ["markers.c3d", "no frame in the time range", "0 to 0.99 s"], *self.ik(start=50))
         self.refused(3, "no frame in the time range", *self.ik(end=-5))
@@ -159,7 +172,7 @@ class FullDiskAndUnwritableFolder(CommandTest):
     def test_a_page_that_cannot_be_written_stops_the_rest(self):
         for page in ("no/r.html", "/proc/r.html"):
             self.refused(4, f"{page}: cannot be written", *self.ik(report=page))
-        self.refused(2, "written twice", *self.ik(report="q.mot"))
+        self.refused(2, "a page is written as .html", *self.ik(report="q.mot"))
 
     @unittest.skipIf(os.geteuid() == 0, "root may write every folder")
     def test_a_folder_without_permission(self):

@@ -61,7 +61,7 @@ class ExchangesTest(CommandTest):
         self.assertEqual([len(report["exchanged"]) for report in reports], [1, 0])
         self.assertEqual(reports[0]["exchanged"][0]["count"], len(self.frames))
         self.assertEqual(reports[0]["rejected_samples"], reports[1]["rejected_samples"], "no right sample is left out")
-        kept = self.good(*self.ik(markers="walk.trc", output="kept.mot", outliers="keep"), status=1)
+        kept = self.good(*self.ik(markers="walk.trc", output="kept.mot", doubtful="keep"), status=1)
         self.assertNotIn("exchanged back", kept.err)
 
     def test_an_edit_of_listed_frames_keeps_it_and_can_be_refused(self):

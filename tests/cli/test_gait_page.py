@@ -281,7 +281,7 @@ class GaitPage(CommandTest):
     def test_a_motion_needs_the_strikes_of_a_recording(self):
         for arguments, words in (
             ((self.truth, "-m", self.model, "--report", "p.html"), "need --forces FILE.c3d"),
-            ((self.truth, "-m", self.model, "--figures", "f", "-o", "tables"), "goes with measures of a motion"),
+            ((self.truth, "-m", self.model, "--figures", "f", "-o", "tables"), "--figures is an option for recordings and measures of a motion"),
         ):
             with self.subTest(words=words):
                 self.refused(2, words, "analyze", *arguments)

@@ -99,7 +99,7 @@ class Scale(CommandTest):
             (("-m", self.model, "-t", self.markers), "no output"),
             (("-m", self.model, "-t", self.markers, "-o", "M.osim", "--dempster"), "give --mass"),
             (("-m", self.model, "-t", self.markers, "-o", "M.osim", "--mass", -5), "mass of -5"),
-            (("-m", self.model, "-t", self.markers, "-o", "M.osim", "--frames", 1), "need 2 or more"),
+            (("-m", self.model, "-t", self.markers, "-o", "M.osim", "--max-frames", 1), "need 2 or more"),
         ):
             with self.subTest(words):
                 self.refused(2, words, "scale", *arguments)

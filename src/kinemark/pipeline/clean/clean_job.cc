@@ -15,6 +15,7 @@
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/file_set.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
@@ -129,6 +130,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   // Prepare: where results go, markers, and what the recorder did to them.
   if (auto s = job.gaps.check(); !s) return std::unexpected(s.error());
   if (auto s = io::check_marker_format(job.output); !s) return std::unexpected(s.error());
+  if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
   auto staging = Staging::create(files.all(), job.force, {job.input, job.edits});
   if (!staging) return std::unexpected(staging.error());

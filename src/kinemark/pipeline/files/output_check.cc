@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <system_error>
 
+#include "kinemark/core/text.h"
 #include "kinemark/io/place.h"
+#include "kinemark/pipeline/files/input_list.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
@@ -21,6 +24,23 @@ Status check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::p
         return fail(Code::usage, fmt::format("{}: is the file that is read as {}; name another output",
                                              output.string(), input.string()));
   return {};
+}
+
+Status check_ending(const fs::path& output, const std::vector<std::string>& endings, std::string_view what) {
+  const auto ending = ending_of(output);
+  if (ending.empty() || std::ranges::find(endings, ending) != endings.end()) return {};
+  return fail(Code::usage, fmt::format("{}: {} written as {}; '{}' is another ending", output.string(), what,
+                                       join(endings, " or "), ending));
+}
+
+Status check_folder(const fs::path& output, std::string_view what) {
+  std::error_code absent;
+  auto files = known_endings();
+  for (const char* other : {".csv", ".json", ".html", ".xml", ".toml", ".txt"}) files.emplace_back(other);
+  const auto ending = ending_of(output);
+  if (std::ranges::find(files, ending) == files.end() || fs::is_directory(output, absent)) return {};
+  return fail(Code::usage, fmt::format("{}: {} written into a folder; '{}' is the ending of a file",
+                                       output.string(), what, ending));
 }
 
 Status check_below(const fs::path& setup, const fs::path& output, std::string_view element) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,16 @@ namespace kinemark::pipeline {
 /// whatever name and through whatever link. Names that are empty or of nothing that is there do not count.
 [[nodiscard]] Status check_apart(const std::vector<std::filesystem::path>& outputs,
                                  const std::vector<std::filesystem::path>& inputs);
+
+/// The ending of an output is one that its job writes, or there is none: Code::usage, naming those,
+/// otherwise.
+/// @param what  is written: "joint angles"
+[[nodiscard]] Status check_ending(const std::filesystem::path& output,
+                                  const std::vector<std::string>& endings, std::string_view what);
+
+/// Results that go into a folder get one: Code::usage for a name that ends as a file does, unless a folder of
+/// that name is there. Empty: nothing is written.
+[[nodiscard]] Status check_folder(const std::filesystem::path& output, std::string_view what);
 
 /// A setup may come from anywhere, so what it names as output must lie in its own folder or below:
 /// Code::usage otherwise. Links are followed. @param element  of the setup that names `output`:

@@ -49,5 +49,27 @@ TEST(CheckBelow, ASetupWritesInItsOwnFolderAndBelow) {
   }
 }
 
+TEST(CheckEnding, NamesWhatIsWritten) {
+  EXPECT_TRUE(check_ending("a/q.MOT", {".mot", ".sto"}, "joint angles are"));
+  EXPECT_TRUE(check_ending("a/q", {".mot"}, "joint angles are"));
+  EXPECT_TRUE(check_ending("", {".mot"}, "joint angles are"));
+  const auto refused = check_ending("a/q.nwb", {".mot", ".sto"}, "joint angles are");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::usage);
+  EXPECT_EQ(refused.error().message,
+            "a/q.nwb: joint angles are written as .mot or .sto; '.nwb' is another ending");
+}
+
+TEST(CheckFolder, RefusesTheNameOfAFileUnlessAFolderHasIt) {
+  EXPECT_TRUE(check_folder("", "tables are"));
+  EXPECT_TRUE(check_folder("day 1.2", "tables are")) << "no ending of a file";
+  EXPECT_EQ(check_folder("a.c3d", "tables are").error().message,
+            "a.c3d: tables are written into a folder; '.c3d' is the ending of a file");
+  const testing_support::ScratchFolder scratch;
+  std::filesystem::create_directory(scratch / "b.csv");
+  EXPECT_TRUE(check_folder(scratch / "b.csv", "tables are"));
+  EXPECT_FALSE(check_folder(scratch / "c.csv", "tables are"));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

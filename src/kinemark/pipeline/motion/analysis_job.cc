@@ -20,6 +20,7 @@
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/analysis_tables.h"
 #include "kinemark/pipeline/motion/internal/analysis_plan.h"
@@ -288,6 +289,7 @@ Result<AnalysisOutcome> run_analysis(const AnalysisJob& job) {
   if (auto s = check_names(names); !s) return std::unexpected(s.error());
   std::vector<fs::path> read_files;
   for (const auto& input : out.inputs) read_files.emplace_back(input.path);
+  if (auto s = check_folder(plan->output, "tables are"); !s) return std::unexpected(s.error());
   auto staging = Staging::create_in(plan->output, names, job.force, read_files);
   if (!staging) return std::unexpected(staging.error());
   std::vector<ResultFile> files;

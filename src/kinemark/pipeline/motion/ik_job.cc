@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/io/edits/edit_line.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
@@ -169,6 +170,7 @@ Result<IkOutcome> run_ik(IkJob job) {
   // Prepare: options, model and markers, tasks, where results go.
   if (auto s = complete(job); !s) return std::unexpected(s.error());
   if (auto s = internal::check_output_named(job, kOrSetup); !s) return std::unexpected(s.error());
+  if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
   const auto& model = inputs->model;

@@ -57,8 +57,8 @@ Status check_named(const MotionJob& job, std::string_view or_else) {
 }
 
 Status check_output_named(const MotionJob& job, std::string_view or_else) {
-  if (!job.output.empty()) return {};
-  return fail(Code::usage, fmt::format("no output; give --output{}", or_else));
+  if (job.output.empty()) return fail(Code::usage, fmt::format("no output; give --output{}", or_else));
+  return check_ending(job.output, {".mot", ".sto"}, "joint angles are");
 }
 
 Result<MotionInputs> read_inputs(const MotionJob& job) {

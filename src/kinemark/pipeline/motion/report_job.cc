@@ -252,6 +252,7 @@ Result<std::string> page_of(const fs::path& path, const MarkersPageOptions& opti
 }
 
 Result<ReportOutcome> run_report(const ReportJob& job) {
+  if (auto s = check_ending(job.page, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   auto page = make_page(job.input, {.recording = job,
                                     .skeleton = job.skeleton,
                                     .command_line = job.command_line,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/text.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/stages/motion/control/camera_task.h"
@@ -143,6 +144,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
   internal::take_recording_options(job, job.options);
   if (auto s = internal::check_named(job); !s) return std::unexpected(s.error());
   if (auto s = internal::check_output_named(job); !s) return std::unexpected(s.error());
+  if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());

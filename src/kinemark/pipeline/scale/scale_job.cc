@@ -65,6 +65,8 @@ class ScaleRun {
   Status check() const {
     if (job_.model.empty()) return fail(Code::usage, "no model; give --model or a --setup that names one");
     if (job_.output.empty()) return fail(Code::usage, "no output; give --output or a --setup that names one");
+    if (auto s = check_ending(job_.output, {".osim"}, "a model is"); !s) return s;
+    if (auto s = check_ending(job_.report, {".html"}, "a page is"); !s) return s;
     if (job_.setup.empty() && job_.static_trial.empty() && job_.markers.empty())
       return fail(Code::usage, "nothing to scale by; give --static, --setup or --markers");
     if (!std::isfinite(job_.mass_kg) || job_.mass_kg < 0.0)

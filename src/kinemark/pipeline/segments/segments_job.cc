@@ -19,9 +19,8 @@
 
 #include "kinemark/data/name_index.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/marker_screening.h"
-#include "kinemark/pipeline/files/plates.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/foundations/foundation_gate.h"
@@ -336,6 +335,7 @@ Status draw_walking(const SegmentsJob& job, const Recording& recording, GaitDraw
 
 Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
+  if (auto s = check_folder(job.output, "angles are"); !s) return std::unexpected(s.error());
   const auto definition = find_definition(job.definition);
   if (!definition) return std::unexpected(definition.error());
   std::optional<GaitDrawing> drawing;
