@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""A real recording as C3D, MAT, NWB and CSV, with a journal of edits beside each, through every command that reads one:
+the same numbers and the same sentences. And every option of a recording in every command: the same words, refused alike."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
+DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
+WALK = DATA / "c3d-parser-clinics" / "MH0222_BP15.c3d"
+MODEL = DATA / "opensim-gait2354" / "subject01_simbody.osim"
+OPTIONS = ("--rate", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
+COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "analyze", "report")
+MEASURES = {"LegLength": 880, "KneeWidth": 100, "AnkleWidth": 70, "ThighRotation": 2, "ShankRotation": 3, "TibialTorsion": -10, "StaticPlantFlex": 4,
+            "StaticRotOff": -2, "AnkleAbAdd": 5, "AsisTrocanterDistance": 70, "SoleDelta": 0}  # all that the walk's own parameters would say: the other formats do not keep them
+SUBJECT = [word for side in "LR" for name, value in MEASURES.items() for word in ("--subject", f"{side}{name}={value}")]
+SUBJECT += ["--subject", "MarkerDiameter=14", "--subject", "InterAsisDistance=240"]
+LEGS = "LASI,RASI,LPSI,RPSI,LTHI,RTHI,LKNE,RKNE,LTIB,RTIB,LANK,RANK,LHEE,RHEE,LTOE,RTOE"
+
+
+def run(folder, *words):
+    return subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
+
+
+def row(good, what, asked, measured):
+    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}")
+
+
+def group_of(text):
+    """{option: its words} of the group "Recording" of a command's help."""
+    lines = text.split("\nRecording:\n")[1].split("\n\n")[0]
+    words = [" ".join(entry.split()) for entry in re.split(r"\n(?=  -)", "\n" + lines)[1:]]
+    return {re.search(r"--[a-z-]+", entry)[0]: re.sub("=(drop|keep) ", " ", entry) for entry in words}
+
+
+def check_words():
+    groups = {command: group_of(run(".", command, "--help").stdout) for command in COMMANDS}
+    blank = [f"{c} {o}" for c in COMMANDS for o in OPTIONS if o not in groups[c]]
+    other = [f"{c} {o}" for c in COMMANDS for o in groups[c] if groups[c][o] != groups["info"].get(o)]
+    row(not blank, "options of a recording in 9 commands x 11", "no blank", f"{len(blank)} blank {' '.join(blank[:3])}")
+    row(not other, "words of these options", "the same in all", f"{len(other)} other {' '.join(other[:3])}")
+
+
+def numbers_of(path):
+    """Lines of a result, without names of its input and of its set of files."""
+    text = re.sub(r"walk\.(c3d|mat|nwb|csv)", "walk", path.read_text())
+    return [line for line in text.splitlines() if line and not line.startswith(("#", "kinemark_set"))]
+
+
+def results(folder, name):
+    """{command: what it finds in the recording `name`}; the sentences on edits."""
+    found, said = {}, {}
+    kept = ("--select", LEGS)
+    jobs = {
+        "clean": (("clean", name, "o.csv", *kept, "--force"), "o.csv"),
+        "convert": (("convert", name, "o.csv", *kept, "--force"), "o.csv"),
+        "joints": (("joints", name, "-o", "o.csv", *kept, "--force"), None),
+        "analyze": (("analyze", name, "--measures", "path_length,mean_speed,peak_speed", *kept, "--refits", "0", "-o", "o.csv", "--force"), "o.csv"),
+        "segments": (("analyze", name, "--segments", "pig", *SUBJECT, "--up", "z", *kept, "-o", "angles", "--force"), "angles/angles.mot"),
+        "scale": (("scale", "-m", MODEL, "-t", name, "--up", "z", "--rename", "LASI=L.ASIS,RASI=R.ASIS,LANK=L.Ankle.Lat,RANK=R.Ankle.Lat,LHEE=L.Heel,RHEE=R.Heel,"
+                   "LTOE=L.Toe.Tip,RTOE=R.Toe.Tip,LKNE=L.Knee.Lat,RKNE=R.Knee.Lat", "--max-frames", "10", "-o", "o.osim", "--force"), "o.osim"),
+        "ik": (("ik", "-m", MODEL, "-t", name, "--up", "z", "--rename", "LASI=L.ASIS,RASI=R.ASIS,LANK=L.Ankle.Lat,RANK=R.Ankle.Lat,LHEE=L.Heel,RHEE=R.Heel,"
+                "LTOE=L.Toe.Tip,RTOE=R.Toe.Tip,LKNE=L.Knee.Lat,RKNE=R.Knee.Lat", "--no-error-bars", "-o", "o.mot", "--force"), "o.mot"),
+    }
+    for command, (words, output) in jobs.items():
+        done = run(folder, *words)
+        if done.returncode not in (0, 1):
+            found[command] = f"status {done.returncode}: {done.stderr.strip()[:120]}"
+            continue
+        if output is None:
+            found[command] = re.sub(r"[^\s]*walk\.\w+", "walk", done.stdout + "\n".join(done.stderr.splitlines()[:3]))
+        else:
+            found[command] = numbers_of(folder / output)
+        said[command] = "edits of" in done.stderr or "edit of" in done.stderr
+    return found, said
+
+
+def largest_difference(one, other):
+    """Of two lists of lines, over all of their numbers; infinite where they differ in words or length."""
+    if one == other:
+        return 0.0
+    if isinstance(one, str) or isinstance(other, str) or len(one) != len(other):
+        return float("inf")
+    worst = 0.0
+    for a, b in zip(one, other):
+        for x, y in zip(re.split(r"[,\s]+", a), re.split(r"[,\s]+", b), strict=True):
+            if x == y:
+                continue
+            try:
+                worst = max(worst, abs(float(x) - float(y)))
+            except ValueError:
+                return float("inf")
+    return worst
+
+
+def check_formats(folder):
+    shutil.copy(WALK, folder / "walk.c3d")
+    first = json.loads(run(folder, "info", "walk.c3d", "--json").stdout)["first_frame"]
+    base, _ = None, None
+    for ending in ("c3d", "mat", "nwb", "csv"):
+        place = folder / ending
+        place.mkdir()
+        name = f"walk.{ending}"
+        made = run(folder, "convert", "walk.c3d", place / name, "--edits", "none")
+        if made.returncode != 0:
+            row(False, f"walk as .{ending}", "is written", made.stderr.strip()[:100])
+            continue
+        run(place, "edit", name, "--crop", "--from", first + 20)
+        run(place, "edit", name, "--swap", "LASI", "RASI", "--from", first + 100)
+        found, said = results(place, name)
+        silent = [command for command, heard in said.items() if not heard]
+        row(not silent, f".{ending}: edits beside it are applied and said by 7 commands", "all", f"silent: {' '.join(silent) or 'none'}")
+        if base is None:
+            base = found
+            broken = [f"{c}: {text}" for c, text in found.items() if isinstance(text, str) and text.startswith("status")]
+            row(not broken, "all commands run on the C3D", "7 of 7", f"{len(found) - len(broken)} {' '.join(broken)[:150]}")
+            continue
+        for command, one in found.items():
+            worst = largest_difference(base[command], one)
+            row(worst <= 1e-9, f".{ending}: {command}", "numbers of the C3D within 1e-9", f"{worst:.2g}" if worst < 1e300 else str(one)[:100])
+
+
+def main():
+    check_words()
+    if not WALK.is_file():
+        print(f"SKIP | one recording in four formats | | NO REAL DATA: {WALK} is not there; set KINEMARK_TEST_DATA")
+        return 0
+    with tempfile.TemporaryDirectory() as folder:
+        check_formats(Path(folder))
+    return 0
+
+
+sys.exit(main())
