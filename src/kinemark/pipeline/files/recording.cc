@@ -15,6 +15,11 @@
 namespace kinemark::pipeline {
 namespace {
 
+/// No journal is named: that beside the recording, or none.
+bool names_no_journal(const std::filesystem::path& edits) {
+  return edits.empty() || edits == kEditsBeside || edits == kEditsNone;
+}
+
 Status apply_edits(const RecordingSource& source, const RecordingOptions& options, Recording& recording) {
   auto taken = take_edits({.edits = options.edits,
                            .recording = source.path,
@@ -60,7 +65,7 @@ Result<Doubtful> parse_doubtful(std::string_view name) {
 }
 
 bool RecordingOptions::empty() const {
-  return rate_hz == 0.0 && (edits.empty() || edits == kEditsBeside) && selection.empty() && axes.up.empty() &&
+  return rate_hz == 0.0 && names_no_journal(edits) && selection.empty() && axes.up.empty() &&
          axes.rotate.empty() && !doubtful;
 }
 
@@ -115,17 +120,16 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& recordi
   std::vector<std::filesystem::path> files{recording};
   if (options.edits == kEditsBeside)
     files.push_back(edits_of(recording));
-  else if (!options.edits.empty() && options.edits != kEditsNone)
+  else if (!names_no_journal(options.edits))
     files.push_back(options.edits);
   return files;
 }
 
 Status check_for_several(const RecordingOptions& options) {
-  const auto& edits = options.edits;
-  if (edits.empty() || edits == kEditsBeside || edits == kEditsNone) return {};
-  return fail(
-      Code::usage,
-      fmt::format("--edits: {} is of one recording; need 'beside' or 'none' with several", edits.string()));
+  if (names_no_journal(options.edits)) return {};
+  return fail(Code::usage,
+              fmt::format("--edits: {} is of one recording; need 'beside' or 'none' with several",
+                          options.edits.string()));
 }
 
 }  // namespace kinemark::pipeline

@@ -47,7 +47,7 @@ struct RecordingOptions {
   [[nodiscard]] bool drops_doubtful(bool by_itself) const {
     return doubtful ? *doubtful == Doubtful::drop : by_itself;
   }
-  /// Whether nothing is asked for: the recording is used as it is, but for a journal beside it.
+  /// Whether nothing is asked for: the recording is used as it is, with the journal beside it or without.
   [[nodiscard]] bool empty() const;
   /// What can be said without a recording: Code::usage.
   [[nodiscard]] Status check() const;

@@ -177,7 +177,8 @@ TEST(RecordingOptions, SayWhatBecomesOfDoubtfulSamples) {
   EXPECT_FALSE(RecordingOptions{}.drops_doubtful(false));
   EXPECT_FALSE(RecordingOptions{.doubtful = Doubtful::keep}.drops_doubtful(true));
   EXPECT_TRUE(RecordingOptions{}.empty());
-  EXPECT_FALSE(RecordingOptions{.edits = kEditsNone}.empty());
+  EXPECT_TRUE(RecordingOptions{.edits = kEditsNone}.empty());
+  EXPECT_FALSE(RecordingOptions{.edits = "b.jsonl"}.empty());
 }
 
 TEST(RecordingOptions, NameTheFilesThatAreRead) {
