@@ -34,7 +34,9 @@ constexpr std::array kValues = {
     Values{"size-prior", "PERCENT"},
     Values{"crosstalk dim dropout-random dropout-sight missing soft-tissue-common min-likelihood", "SHARE"},
     Values{"imperfection misalignment soft-tissue ripple", "FACTOR"},
-    Values{"threads seed jobs frames max-frames frames-per-pose leds order person pose port upsample warp-degree", "N"},
+    Values{"threads seed jobs frames max-frames frames-per-pose leds order person pose port upsample "
+           "warp-degree",
+           "N"},
     Values{"seeds", "N-N"},
     Values{"cutoff-rule detector estimator filter flicker gaps interpolation kind loss method "
            "upsampled scene SHELL",
