@@ -57,7 +57,7 @@ class MotionMeasuresTest(CommandTest):
         self.refused(2, "is measured of a motion", "analyze", "in/markers.c3d", "--measures", "joint_range")
         self.refused(2, "--drop is an option for recordings; truth.mot is a motion", *self.measure("--drop", "knee_angle_r"))
         self.refused(2, "--emg is an option for measures of markers", *self.measure("--emg", "Biceps"))
-        self.refused(2, "--couple is an option for motions; markers.c3d is a recording", "analyze", "in/markers.c3d",
+        self.refused(2, "--couple is an option for measures of a motion; markers.c3d is a recording", "analyze", "in/markers.c3d",
                      "--couple", "hip_flexion_r,knee_angle_r")
         self.refused(3, "'cycle' is not within", *self.measure("--region", "cycle=50-500"))
         self.refused(3, "there are no force plates", "analyze", "in/markers.c3d", "--measures", "plates")

@@ -341,7 +341,7 @@ class Started(ServeTest):
             state = server.json("angles")[1]
         self.assertEqual((state["state"], state["said"], state["solutions"]["now"]["edits"]), ("solved", None, 1))
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["walk.c3d", "walk_edits.jsonl"])
-        for which, edits in (("now", ("--edits", "beside")), ("recorded", ())):
+        for which, edits in (("now", ()), ("recorded", ("--edits", "none"))):
             self.assertIn("kinemark.ik_report", server.request(f"/trial/1/angles/{which}")[2])
             self.good("ik", "-m", self.model, "-t", "walk.c3d", "-o", f"{which}.mot", *edits)
             self.assertEqual(json.loads((self.folder / f"{which}_report.json").read_text())["kinemark_set"], state["solutions"][which]["set"])

@@ -33,6 +33,7 @@ struct BodySlot {
 /// Says measures of one motion.
 class BodyStatement {
  public:
+  /// Of each coordinate; none: it does not move, or is determined too seldom.
   using Smoothers = std::vector<std::optional<CoordinateSmoother>>;
 
   /// @param smoothers       of each coordinate that moves and is determined often enough; must outlive this

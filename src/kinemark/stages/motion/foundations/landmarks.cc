@@ -27,7 +27,7 @@ enum class Found : std::uint8_t {
 
 // A marker of the toes 60 mm before their joint, which bends by 14 degrees (1 SD). In walks of seven
 // laboratories the distance from heel to toe differs by 6 to 27 mm between 5 and 95 % of the frames.
-constexpr double kToesBend_m = 0.015;
+constexpr double kToesFlex_m = 0.015;
 
 PlaceSpread spread_of(Found found) {
   switch (found) {
@@ -40,7 +40,7 @@ PlaceSpread spread_of(Found found) {
     case Found::head:
       return {Vector3d(0.035, 0.035, 0.020), Vector3d(0.014, 0.012, 0.012)};
     case Found::toe:
-      return {Vector3d(0.030, 0.012, 0.015), Vector3d(0.009, 0.007, 0.008), kToesBend_m};
+      return {Vector3d(0.030, 0.012, 0.015), Vector3d(0.009, 0.007, 0.008), kToesFlex_m};
     case Found::fore:
       return {Vector3d(0.030, 0.012, 0.015), Vector3d(0.009, 0.007, 0.008)};
     case Found::wand:

@@ -58,7 +58,7 @@ TEST(Landmarks, AWandsHeightIsFreeOnEachSide) {
   EXPECT_LT(bone->spread.own.y(), 0.015);
 }
 
-TEST(Landmarks, ToesBendAndBonesOfTheFootDoNot) {
+TEST(Landmarks, ToesFlexAndBonesOfTheFootDoNot) {
   EXPECT_GT(landmark_of("LTOE")->spread.by_posture, 0.01);
   EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, 0.0);
   EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, 0.0);
