@@ -173,7 +173,7 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasure
   const RecordingSource source{.path = job.input,
                                .needs_samples = true,
                                .record = true,
-                               .plates = true,
+                               .plates = asked.walking || asked.forces,
                                .force = job.force,
                                .seed = job.seed,
                                .threads = job.threads};
