@@ -151,7 +151,7 @@ TEST_F(AngleServiceThread, SolvesWithTheEditsAndOnceWithout) {
   EXPECT_EQ(jobs_[0].model, scratch_ / "subject.osim");
   EXPECT_EQ(jobs_[0].markers, scratch_ / "walk.c3d");
   EXPECT_TRUE(jobs_[0].output.empty());
-  EXPECT_TRUE(jobs_[1].edits.empty());
+  EXPECT_EQ(jobs_[1].edits, pipeline::kEditsNone);
   EXPECT_EQ(html(AnglesOf::now), "<p>2");
   EXPECT_EQ(html(AnglesOf::recorded), "<p>0");
   (void)solve_with("3");
