@@ -18,7 +18,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// Recordings that the test solves: a gate holds solutions back until it is opened.
 class AngleServiceThread : public ::testing::Test {

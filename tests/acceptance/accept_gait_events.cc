@@ -25,7 +25,6 @@ namespace {
 
 using namespace kinemark;
 using namespace kinemark::acceptance;
-using analysis::Gait;
 using data::FootEvent;
 using data::GaitEvent;
 using data::Side;
