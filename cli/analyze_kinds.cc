@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/word_list.h"
 #include "kinemark/core/text.h"
 
 namespace kinemark::cli {
@@ -50,7 +51,7 @@ constexpr std::array kHeeded = {
 };
 
 /// "walk.c3d is {}"
-const char* describe(AnalyzeKind kind) {
+const char* what_is(AnalyzeKind kind) {
   switch (kind) {
     case AnalyzeKind::list:
       return "not needed for --list";
@@ -68,15 +69,6 @@ const char* describe(AnalyzeKind kind) {
   return "";
 }
 
-bool has_word(std::string_view words, std::string_view word) {
-  for (std::size_t begin = 0; begin < words.size();) {
-    const auto end = std::min(words.find(' ', begin), words.size());
-    if (words.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
 Kinds heeded_by(std::string_view name) {
   const auto line =
       std::ranges::find_if(kHeeded, [&](const Heeded& heeded) { return has_word(heeded.names, name); });
@@ -84,7 +76,7 @@ Kinds heeded_by(std::string_view name) {
 }
 
 /// "recordings and measures of a motion"
-std::string describe(Kinds kinds) {
+std::string names_of(Kinds kinds) {
   std::vector<std::string> of;
   const auto add = [&](Kinds all, const char* name) {
     if ((kinds & all) != all) return false;
@@ -113,7 +105,7 @@ Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string
     const auto kinds = heeded_by(name);
     if ((kinds & one(kind)) == 0)
       return fail(Code::usage, fmt::format("{}{} is an option for {}; {} is {}", positional ? "" : "--", name,
-                                           describe(kinds), input, describe(kind)));
+                                           names_of(kinds), input, what_is(kind)));
   }
   return {};
 }

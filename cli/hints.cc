@@ -67,11 +67,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 44> kHabits 
 }};
 
 /// Options that other words say by now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kFormerOptions = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFormerOptions = {{
     {"keep-defects", "--doubtful keep"},
     {"outliers", "--doubtful keep or --doubtful drop"},
     {"reject", "--doubtful drop"},
-    {"keep-outliers", "--doubtful keep"},
 }};
 
 bool is_option(std::string_view word) { return word.size() > 1 && word.front() == '-'; }

@@ -70,6 +70,7 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
     pipeline::IkJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.markers = input;
+    settle_rate(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_ik(one);

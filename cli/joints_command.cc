@@ -51,6 +51,7 @@ int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
     pipeline::JointsJob one = arguments.job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.input = input;
+    settle_rate(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_joints(one);

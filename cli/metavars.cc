@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/word_list.h"
+
 namespace kinemark::cli {
 namespace {
 
@@ -51,15 +53,6 @@ constexpr std::array kValues = {
     Values{"rotate", "\"AXIS DEG\""},
 };
 
-bool is_among(std::string_view words, std::string_view word) {
-  for (std::size_t begin = 0; begin < words.size();) {
-    const auto end = std::min(words.find(' ', begin), words.size());
-    if (words.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
 /// Types as CLI11 calls them when nobody names the value.
 bool is_type(const std::string& name) {
   constexpr std::array<std::string_view, 5> kTypes = {"TEXT", "FLOAT", "INT", "UINT", ""};
@@ -92,7 +85,7 @@ void name_value(CLI::Option& option) {
     option.type_name("NAME");
     return;
   }
-  const auto values = std::ranges::find_if(kValues, [&](const Values& v) { return is_among(v.names, name); });
+  const auto values = std::ranges::find_if(kValues, [&](const Values& v) { return has_word(v.names, name); });
   if (values != kValues.end()) option.type_name(values->metavar);
 }
 

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "kinemark/io/markers/marker_file.h"
+
 namespace kinemark::cli {
 
 void add_recording_options(CLI::App& command, pipeline::RecordingOptions& recording,
@@ -43,6 +45,10 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
       ->type_name("WHAT")
       ->default_str(std::string(pipeline::to_string(by_itself)))
       ->group("Recording");
+}
+
+void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input) {
+  if (!io::needs_rate(input)) recording.rate_hz = 0.0;
 }
 
 }  // namespace kinemark::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "kinemark/pipeline/files/recording.h"
 
@@ -13,5 +14,8 @@ namespace kinemark::cli {
 /// @param by_itself  what the command does with doubtful samples where nothing is said
 void add_recording_options(CLI::App& command, pipeline::RecordingOptions& recording,
                            pipeline::Doubtful by_itself);
+
+/// Of several recordings, those that store a rate have no use for the one that is given.
+void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input);
 
 }  // namespace kinemark::cli

@@ -25,14 +25,6 @@ NOT_SENSIBLE = {  # a value of each option, and what is said of it, whatever the
 }
 
 
-def group_of(text):
-    """{option: its words} of the group "Recording" in the help of a command."""
-    lines = text.split("\nRecording:\n")[1].split("\n\n")[0]
-    entries = re.split(r"\n(?=  -)", "\n" + lines)[1:]
-    words = [" ".join(entry.split()) for entry in entries]
-    return {re.search(r"--[a-z-]+", entry)[0]: entry for entry in words}
-
-
 class RecordingOptionsTest(CommandTest):
     def setUp(self):
         super().setUp()
@@ -73,15 +65,6 @@ class RecordingOptionsTest(CommandTest):
         else:
             found = json.loads(report_data((self.folder / "page.html").read_text()))["scene"]
         return found, ran.err + ran.out
-
-    def test_all_commands_have_the_same_words(self):
-        groups = {command: group_of(self.good(command, "--help").out) for command in COMMANDS}
-        for command, group in groups.items():
-            with self.subTest(command=command):
-                self.assertEqual(tuple(group), OPTIONS)
-                for option in OPTIONS:
-                    mine, first = (re.sub("=(drop|keep) ", " ", g[option]) for g in (group, groups["info"]))
-                    self.assertEqual(mine, first)
 
     def test_what_makes_no_sense_is_said_alike(self):
         for command in COMMANDS:
@@ -165,14 +148,21 @@ class RecordingOptionsTest(CommandTest):
         self.good(*self.ik())
         self.refused(2, "are for marker files", "report", "q.mot", "-o", "p.html", "--drop", "A")
 
-    def test_a_stated_vertical_goes_into_the_file(self):
+    def test_a_stated_vertical_goes_into_what_is_written(self):
         self.good("convert", "walk.c3d", "up.c3d", "--up", "y")
-        self.assertEqual(json.loads(self.good("info", "up.c3d", "--json").out)["up"], "y, by POINT:Y_SCREEN of the file")
+        self.good("clean", "walk.c3d", "clean.c3d", "--up", "y")
+        self.good("analyze", "walk.c3d", "--select", "LASI", "--events", "movement", "--write-events", "events.c3d", "--up", "y")
+        for name in ("up.c3d", "clean.c3d", "events.c3d"):
+            self.assertEqual(json.loads(self.good("info", name, "--json").out)["up"], "y, by POINT:Y_SCREEN of the file", name)
         self.assertEqual(json.loads(self.good("info", "walk.c3d", "--up", "x", "--json").out)["up"], "x, by --up")
 
-    def test_former_names_say_what_does_that_now(self):
-        for command, option in (("joints", "--keep-defects"), ("ik", "--outliers=keep"), ("clean", "--reject")):
-            self.refused(2, ["unknown option", "--doubtful"], *self.words(command), option)
+    def test_a_rate_is_for_those_of_several_that_store_none(self):
+        rows = [[word] * 3 for word in ("reach.c3d", "A", "TARGET", "PROCESSED")]
+        head = "".join("\t" + "\t".join(row) + "\n" for row in rows) + "ITEM\tX\tY\tZ\n"
+        self.write("reach.v3d", head + "".join(f"{i}\t{0.01 * i}\t0.1\t0.2\n" for i in range(1, 40)))
+        self.refused(2, "rate", "convert", "walk.c3d", "walk.csv", "--rate", 50)
+        self.good("convert", "reach.v3d", "walk.c3d", "out", "--to", "csv", "--rate", 50)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()), ["reach.csv", "walk.csv"])
 
 
 class EveryOptionOfAnalyze(CommandTest):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// The one place where jobs read markers: the file, its rate, what it must hold, its record; and the samples
-// of it that a result is about. What the recorder did to them is the matter of marker_screening.h.
+// Markers as their file has them: rate, what it must hold, its record; and the samples that a result is
+// about. recording.h makes of them what a job uses, marker_screening.h deals with what the recorder did.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@
 #include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/joints_layout.h"
 #include "kinemark/pipeline/joints/joints_page.h"
@@ -306,6 +307,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   centres.source = trial.source;
   centres.first_frame = trial.first_frame;
   centres.markers = centre_trajectories(outcome.skeleton);
+  if (const auto up = stated_vertical(job.axes)) set_screen_up(centres, up->up);
   auto written = write_results(*staging, list_files(job, outcome, centres, staging->targets()), {},
                                "the search for joints", name_set(job, outcome, centres));
   if (!written) return std::unexpected(written.error());

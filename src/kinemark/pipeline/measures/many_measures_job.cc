@@ -18,7 +18,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/measures/measures_asked.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
@@ -170,6 +170,7 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
     for (auto i = at(begin); i < at(end) && !stopped; ++i) {
       MeasuresJob one = job;
       one.input = out.trials[i].input;
+      if (!io::needs_rate(one.input)) one.rate_hz = 0.0;
       one.threads = std::max(1, thread_count(job.threads) / at_a_time);
       one.progress = {};
       each[i] = run_trial(one, *asked, out.trials[i]);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
 
 namespace kinemark::pipeline {
@@ -191,6 +192,7 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasure
   const std::string name = job.input.string();
   if (ending_of(job.gait.write_events) == ".c3d") out.recorded = trial;
   if (auto s = prepare_recording(source, job, out.recording); !s) return std::unexpected(s.error());
+  if (const auto up = stated_vertical(job.axes); up && out.recorded) set_screen_up(*out.recorded, up->up);
   auto regions = prepare(job, out.recording, outcome);
   if (!regions) return fail_at(name, regions.error());
   asked.path.regions = asked.gait.regions = std::move(*regions);
