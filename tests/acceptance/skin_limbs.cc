@@ -476,10 +476,13 @@ Comparison compare(const data::Skeleton& skeleton, const Subject& subject) {
   across.row(1) = truth.cross(truth.unitOrthogonal()).transpose();
   const Eigen::Matrix<double, 2, 3> to =
       across * (Matrix3d::Identity() - axis * truth.transpose() / truth.dot(axis));
-  out.error = to * error;
-  out.covariance = to * joint.covariance_in_parent * to.transpose();
   out.tilt = across * axis;
   out.tilt_covariance = across * joint.axis_covariance_in_parent * across.transpose();
+  // Where the axis passes the true centre: away from the place that is stated, the axis' direction adds its
+  // share.
+  const double away = truth.dot(error) / truth.dot(axis);
+  out.error = to * error;
+  out.covariance = to * joint.covariance_in_parent * to.transpose() + away * away * out.tilt_covariance;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,21 @@ inline bool robust_weights(const Chain& chain, const ChainPose& pose, const doub
     out[k] = weight;
   }
   return changed;
+}
+
+/// How much of the squared residuals these weights keep where noise is Gaussian of the SD that they assume, 0
+/// to 1: a cost must be divided by it to show that noise.
+/// @param freedom  variance of a residual over that of the noise: what the fit did not take up, 0 to 1
+inline double robust_share(double dof, double freedom) {
+  constexpr int kSteps = 400;
+  constexpr double kFarthest = 8.0;  // SD: beyond it lies 1e-13 of the integral
+  constexpr double kStep = kFarthest / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r2 = std::pow((i + 0.5) * kStep, 2);
+    sum += r2 * r2 * std::exp(-0.5 * r2) * std::min(1.0, (dof + 3.0) / (dof + freedom * r2));
+  }
+  return std::sqrt(2.0 / std::numbers::pi) * kStep * sum / 3.0;
 }
 
 }  // namespace kinemark::skeleton::articulated

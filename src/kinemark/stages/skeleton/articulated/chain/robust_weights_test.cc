@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "kinemark/core/random.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
 
 namespace kinemark::skeleton::articulated {
@@ -66,6 +70,25 @@ TEST(RobustWeights, HiddenMarkersKeepTheirs) {
   hide(w.limb.samples, 0, 3);
   EXPECT_FALSE(w.weigh());
   EXPECT_EQ(w.weights[3], 0.25);
+}
+
+TEST(RobustShare, IsWhatTheWeightsLeaveOfGaussianNoise) {
+  Random random(11);
+  constexpr double kLeft = 0.6, kShareDof = 30.0;
+  double all = 0.0, left = 0.0;
+  for (int i = 0; i < 200000; ++i) {
+    double r2 = 0.0;
+    for (int axis = 0; axis < 3; ++axis) r2 += kLeft * std::pow(random.gaussian(), 2);
+    all += r2;
+    left += r2 * std::min(1.0, (kShareDof + 3.0) / (kShareDof + r2));
+  }
+  EXPECT_NEAR(robust_share(kShareDof, kLeft), left / all, 5e-4);
+}
+
+TEST(RobustShare, IsAllOfItWhereNoWeightFalls) {
+  EXPECT_NEAR(robust_share(1e9, 1.0), 1.0, 1e-6);
+  EXPECT_NEAR(robust_share(30.0, 1e-6), 1.0, 1e-6) << "residuals that the fit took up";
+  EXPECT_LT(robust_share(5.0, 1.0), robust_share(30.0, 1.0));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 #include "kinemark/stages/skeleton/articulated/geometry/bootstrap.h"
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
@@ -142,6 +143,7 @@ class Rounds {
       };
     };
     const bool robust = options_.robust_dof > 0.0;
+    kept_ = 1.0;
     if (!measured_) measure_noise(geometry, geometry.run(kRoughSteps));
     double cost = geometry.run(30, {}, done(robust));
     measure_noise(geometry, cost);
@@ -150,9 +152,11 @@ class Rounds {
         geometry.reweigh(fit_.marker_weight, options_.robust_dof, fit_.noise_sd_m);
         cost = geometry.run(followed ? 10 : 30, {}, done(followed));
       }
+      kept_ = robust_share(options_.robust_dof, geometry.degrees_of_freedom() / geometry.coordinates());
       measure_noise(geometry, cost);
     }
     if (options_.marker_noise) {
+      kept_ = 1.0;  // robust weights are given up
       for (int round = 0; round < 3; ++round) {
         const std::vector<double> ratio = geometry.marker_variance(fit_.noise_sd_m);
         for (std::size_t k = 0; k < ratio.size(); ++k) {
@@ -196,7 +200,7 @@ class Rounds {
       }
       if (options_.noise_sd_m <= 0.0) fit_.noise_sd_m /= std::sqrt(expected);
     }
-    fit_.residual_dof = expected * geometry.degrees_of_freedom();
+    fit_.residual_dof = expected * kept_ * geometry.degrees_of_freedom();
     if (const double excess = cost / (fit_.noise_sd_m * fit_.noise_sd_m * fit_.residual_dof);
         last && options_.noise_sd_m > 0.0 &&
         excess > 1.0 + kTooRough * std::sqrt(2.0 / std::max(fit_.residual_dof, 1.0))) {
@@ -213,7 +217,8 @@ class Rounds {
  private:
   void measure_noise(GeometryFit& geometry, double cost) {
     if (options_.noise_sd_m > 0.0) return;
-    fit_.noise_sd_m = std::max(std::sqrt(cost / std::max(geometry.degrees_of_freedom(), 1.0)), kLeastNoise);
+    fit_.noise_sd_m =
+        std::max(std::sqrt(cost / (kept_ * std::max(geometry.degrees_of_freedom(), 1.0))), kLeastNoise);
     geometry.set_noise(fit_.noise_sd_m);
     measured_ = true;
   }
@@ -222,6 +227,7 @@ class Rounds {
   const ChainFitOptions& options_;
   FittedChain& fit_;
   bool measured_ = false;
+  double kept_ = 1.0;  // share of Gaussian noise's cost that robust weights leave
 };
 
 }  // namespace

@@ -357,6 +357,15 @@ double GeometryFit::degrees_of_freedom() {
          static_cast<double>(chain_.gauge().cols());
 }
 
+double GeometryFit::coordinates() {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    solver_.set(samples_.frame(frames_.frame[i]), frames_.weight[i]);
+    sum += 3.0 * solver_.sums().seen;
+  }
+  return sum;
+}
+
 std::vector<double> GeometryFit::marker_variance(double sigma_m) {
   const Chain& c = chain_;
   std::vector<double> squares(c.markers(), 0.0);

@@ -56,6 +56,8 @@ class GeometryFit {
   [[nodiscard]] Eigen::MatrixXd covariance(double sigma_m);
   /// Sum over frames of 3 n_seen - rank, less the number of geometry parameters, plus that of their gauges.
   [[nodiscard]] double degrees_of_freedom();
+  /// Coordinates of markers that the frames show, 3 n_seen in all.
+  [[nodiscard]] double coordinates();
   [[nodiscard]] double cost();
   /// Noise against which the prior weighs, m.
   void set_noise(double sigma_m);
