@@ -73,7 +73,7 @@ TEST(RobustWeights, HiddenMarkersKeepTheirs) {
 }
 
 TEST(RobustShare, IsWhatTheWeightsLeaveOfGaussianNoise) {
-  Random random(11);
+  Random random(11, 0);
   constexpr double kLeft = 0.6, kShareDof = 30.0;
   double all = 0.0, left = 0.0;
   for (int i = 0; i < 200000; ++i) {
