@@ -26,7 +26,10 @@ constexpr std::int64_t kLeastPartFrames = 11;  ///< of a movement
 constexpr std::size_t kLeastMovements = 4;
 constexpr double kSure = 0.01, kDoubtful = 0.1;  ///< p values
 constexpr std::int64_t kEnough = 8;              ///< movements from which finding nothing says something
-constexpr double kNoneLikely = 0.5;              ///< probability of no own slide
+/// p is uniform where nothing slides; of slides of 1 mm, the least that matter, two in five lie below 0.01
+/// (density k p^(k - 1)).
+constexpr double kPower = 0.2;
+constexpr double kNoneLikely = 0.5;  ///< probability of no own slide
 constexpr double kGapShare = 0.1, kLeastGap_m = 1e-3;
 constexpr double kRounding_m2 = 1e-14;
 
@@ -138,6 +141,13 @@ SkinEvidence find_skin(const Samples& samples, const SegmentPoses& parent, const
   out.gap = predict(X, gap, parts, &squares);
   out.gap_rms_m = std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(gap.rows(), 1)));
   return out;
+}
+
+double calc_skin_probability(const SkinEvidence& evidence) {
+  const double p = evidence.shape.p_value;
+  if (std::isnan(p) || p < kSure || evidence.movements < kEnough) return 1.0;
+  const double odds = kPower * std::pow(p, kPower - 1.0);
+  return odds / (1.0 + odds);
 }
 
 data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide& slide) {

@@ -37,6 +37,10 @@ struct SkinEvidence {
                                      const SegmentPoses& child, const RelativeMotion& motion,
                                      const JointFit& score);
 
+/// How likely the markers slide with the posture, by the movements that predict each other: even before they
+/// are seen. 1 where skin is named, and where no test says anything (fewer than eight movements).
+[[nodiscard]] double calc_skin_probability(const SkinEvidence& evidence);
+
 /// What may be said of a joint: verdict, numbers and sentences, from the evidence, the slides' size and the
 /// joint's covariance (for a hinge: across its axis).
 [[nodiscard]] data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide& slide);

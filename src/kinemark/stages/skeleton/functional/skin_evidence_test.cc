@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinemark/stages/skeleton/functional/score.h"
 #include "kinemark/stages/skeleton/functional/testing/joint_setup.h"
 #include "kinemark/stages/skeleton/functional/testing/swinging_joint.h"
@@ -52,6 +54,19 @@ TEST(SkinEvidence, SkinIsNotSaidOfNoiseWhiteOrColoured) {
         EXPECT_NE(seen.account.verdict, SkinVerdict::follows) << keeps << " " << seed;
         EXPECT_FALSE(says(seen.account, "follows the posture")) << seed;
       }
+}
+
+TEST(SkinEvidence, MovementsThatDoNotPredictEachOtherSpeakAgainstSkin) {
+  const auto of = [](std::int64_t movements, double p) {
+    return calc_skin_probability({.movements = movements, .shape = {.p_value = p}});
+  };
+  const double odds = 0.2 * std::pow(0.01, -0.8);
+  EXPECT_EQ(of(12, 0.005), 1.0) << "skin is named";
+  EXPECT_NEAR(of(12, 0.01), odds / (1.0 + odds), 1e-12);
+  EXPECT_LT(of(12, 0.5), 0.3);
+  EXPECT_LT(of(12, 0.5), of(12, 0.1));
+  EXPECT_EQ(of(7, 0.5), 1.0) << "too few movements say nothing";
+  EXPECT_EQ(of(12, std::nan("")), 1.0);
 }
 
 TEST(SkinEvidence, NothingIsSeenOnRigidMarkersOfManyMovementsOnly) {

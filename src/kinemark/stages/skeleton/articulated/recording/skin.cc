@@ -118,18 +118,23 @@ void account_for_joint(const Samples& samples, std::size_t j, const SegmentPoses
   if (!fit.in_parent) return;
   const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit);
   if (!slide.known) return;
-  joint.skin = account_of_skin(find_skin(samples, parent, child, motion, fit), slide);
+  const SkinEvidence evidence = find_skin(samples, parent, child, motion, fit);
+  joint.skin = account_of_skin(evidence, slide);
   // Half-way to the expected place where skin is seen: the prior's size is no more sure. Else the joint
   // stays, and the whole way counts as error.
   Correction by;
   if (joint.skin.verdict == data::SkinVerdict::follows) by.shift = 0.5 * slide.shift;
   const Vector6 rest = slide.shift - by.shift;
   // Where no marker slides the way is least squares' own error by noise, which the chain does not share.
-  by.slides = positive_part(slide.covariance - slide.noise) + (1.0 - slide.none) * rest * rest.transpose();
+  // Frames alone take slow noise for slides; movements that do not predict each other speak against these.
+  const double likely = calc_skin_probability(evidence);
+  by.slides =
+      likely * (positive_part(slide.covariance - slide.noise) + (1.0 - slide.none) * rest * rest.transpose());
   by.in_parent = of_fewer_frames(joint.covariance_in_parent, slide.frames_alike, joint.axis_in_parent);
   by.in_child = of_fewer_frames(joint.covariance_in_child, slide.frames_alike, joint.axis_in_child);
   // Another part of the trial may move the joint otherwise, or, where it shows no skin, not at all.
-  const Matrix6 repeats = positive_part(slide.repeatability - slide.noise) + by.shift * by.shift.transpose();
+  const Matrix6 repeats =
+      likely * positive_part(slide.repeatability - slide.noise) + by.shift * by.shift.transpose();
   joint.repeatability_in_parent += by.in_parent + repeats.topLeftCorner<3, 3>();
   joint.repeatability_in_child += by.in_child + repeats.bottomRightCorner<3, 3>();
   joint.centre_in_parent += by.shift.head<3>();
