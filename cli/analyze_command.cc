@@ -127,6 +127,7 @@ void share(AnalyzeArguments& arguments) {
   auto& job = arguments.job;
   if (!arguments.inputs.empty()) job.motion = arguments.measures.job.input = arguments.inputs.front();
   arguments.measures.job.output = job.output;
+  arguments.measures.job.forces = arguments.segments.forces = job.forces;
   const auto& times = arguments.measures.job.selection;
   if (std::isfinite(times.first_time_s)) job.first_time_s = times.first_time_s;
   if (std::isfinite(times.last_time_s)) job.last_time_s = times.last_time_s;
@@ -163,8 +164,11 @@ void add_options(CLI::App& command, AnalyzeArguments& a) {
       "or .sto of coordinates, with Q_sd.sto beside it if there is one");
   command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
   command
-      .add_option("--forces", job.forces,
-                  "External forces, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
+      .add_option(
+          "--forces", job.forces,
+          "Forces on the body, for torques, steps and moments, instead of a recording's own plates: .c3d "
+          "or .mat with force plates, .mot or .sto with columns such as ground_force_vx, or OpenSim "
+          "ExternalLoads .xml")
       ->group("Input");
   command
       .add_option("--setup", job.setup,

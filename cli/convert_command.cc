@@ -63,7 +63,8 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand("convert", "Files in another format of their kind");
   command->footer(
       "Markers: 'kinemark help --formats' lists what is read, what is written, and what each format keeps. "
-      "Tables: .mot, .sto; .mat is written. Models: .osim, in their own version from 2.0 on, older ones as "
+      "Tables: .mot, .sto; .mat is written; a recording becomes a .mot or .sto of the forces of its plates. "
+      "Models: .osim, in their own version from 2.0 on, older ones as "
       "4.0; .urdf, and "
       "for MuJoCo .xml or .mjcf, are written.\n"
       "Several recordings, or a folder of them: OUT is a folder, --to the format; what is there already is "

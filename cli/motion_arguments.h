@@ -36,8 +36,10 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Input");
   add_recording_options(command, job, pipeline::Doubtful::drop);
   command
-      .add_option("--forces", job.forces,
-                  "External forces, for torques: .c3d with force plates, or OpenSim ExternalLoads .xml")
+      .add_option(
+          "--forces", job.forces,
+          "External forces, for torques: .c3d or .mat with force plates, .mot or .sto with columns such "
+          "as ground_force_vx, or OpenSim ExternalLoads .xml")
       ->group("Input");
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command

@@ -15,6 +15,7 @@
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/files/model_input.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/live/live_source.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "server/bind_address.h"
@@ -104,6 +105,8 @@ struct LiveParts {
 Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, const ServeArguments& arguments) {
   auto source = pipeline::open_live_source(arguments.given.front().string(), arguments.model, common.seed);
   if (!source) return std::unexpected(source.error());
+  if (auto s = pipeline::check_apart({arguments.record}, {source->file, arguments.model}); !s)
+    return std::unexpected(s.error());
   auto nonce = server::new_secret();
   if (!nonce) return std::unexpected(nonce.error());
   auto parts = std::make_unique<LiveParts>();

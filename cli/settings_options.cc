@@ -14,6 +14,7 @@
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/settings_file.h"
 
 namespace kinemark::cli {
@@ -132,8 +133,28 @@ Result<std::vector<std::string>> with_settings(const CLI::App& app, std::vector<
   return words;
 }
 
+namespace {
+
+/// All values of options that may name a file, also behind NAME= and live sources' names.
+std::vector<std::filesystem::path> values_given(const CLI::App& command) {
+  std::vector<std::filesystem::path> out;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) {
+      out.emplace_back(value);
+      for (const char mark : {'=', ':'})
+        if (const auto at = value.find(mark); at != std::string::npos) out.emplace_back(value.substr(at + 1));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 Status save_settings(const CLI::App& app, const std::filesystem::path& path, bool force) {
   const CLI::App& command = reached(app);
+  if (auto s = pipeline::check_ending(path, {".toml"}, "options"); !s) return s;
+  if (auto s = pipeline::check_apart({path}, values_given(command)); !s) return s;
   pipeline::Settings settings;
   for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent())
     settings.command = at->get_name() + (settings.command.empty() ? "" : " ") + settings.command;

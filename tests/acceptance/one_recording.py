@@ -17,6 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 WALK = DATA / "c3d-parser-clinics" / "MH0222_BP15.c3d"
+STEPS = DATA / "btk-others" / "PiG_Motion3_FF.c3d"
 MODEL = DATA / "opensim-gait2354" / "subject01_simbody.osim"
 OPTIONS = ("--rate", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
 COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "analyze", "report")
@@ -129,6 +130,52 @@ def check_formats(folder):
             row(worst <= 1e-9, f".{ending}: {command}", "numbers of the C3D within 1e-9", f"{worst:.2g}" if worst < 1e300 else str(one)[:100])
 
 
+def steps_of(folder, *words):
+    """Measures of plates and instants of their steps: [(name, number)]; a sentence where that fails."""
+    done = run(folder, "analyze", *words, "--measures", "gait,plates", "--refits", "0", "--json")
+    if done.returncode not in (0, 1):
+        return done.stderr.strip()[:120]
+    found = json.loads(done.stdout)
+    numbers = [(f"{m['measure']} {m.get('context', '')} {m.get('subject', '')} {m.get('region', '')}", m["value"]) for m in found["measures"]]
+    return numbers + [(f"{e['label']} {e['context']}", e["time_s"]) for e in found["gait"]["events"] if e["source"] == "plate"]
+
+
+def farthest(one, other, of):
+    """The largest difference of numbers that `of` picks by name; infinite where names differ."""
+    if isinstance(one, str) or isinstance(other, str):
+        return float("inf")
+    one, other = ([n for n in numbers if of(n[0])] for numbers in (one, other))
+    if [n for n, _ in one] != [n for n, _ in other] or not one:
+        return float("inf")
+    return max(0.0 if a == b or a is None or b is None else abs(a - b) for (_, a), (_, b) in zip(one, other))
+
+
+def check_forces(folder):
+    """Plates of one recording as C3D, MAT, and TRC with a table of forces, a journal beside each."""
+    shutil.copy(STEPS, folder / "steps.c3d")
+    first = json.loads(run(folder, "info", "steps.c3d", "--json").stdout)["first_frame"]
+    base = None
+    for ending in ("c3d", "mat", "trc"):
+        place = folder / f"forces_{ending}"
+        place.mkdir()
+        run(folder, "convert", "steps.c3d", place / f"steps.{ending}", "--edits", "none")
+        run(place, "edit", f"steps.{ending}", "--crop", "--from", first + 20 if ending != "trc" else 21)
+        words = [f"steps.{ending}"]
+        if ending == "trc":
+            run(folder, "convert", "steps.c3d", place / "grf.mot", "--edits", "none")
+            words += ["--forces", "grf.mot"]
+        found = steps_of(place, *words)
+        if base is None:
+            base = found
+            row(not isinstance(found, str), "steps on plates of the C3D", "found", f"{len(found)} numbers" if not isinstance(found, str) else found)
+        elif ending == "mat":
+            worst = farthest(base, found, lambda _: True)
+            row(worst <= 1e-9, "steps on plates of the MAT", "numbers of the C3D within 1e-9", f"{worst:.2g}" if worst < 1e300 else str(found)[:100])
+        else:
+            worst = farthest(base, found, lambda name: name.startswith("Foot "))
+            row(worst <= 0.005, "steps of the TRC with a table of forces", "those of the C3D within 5 ms", f"{1e3 * worst:.2g} ms" if worst < 1e300 else str(found)[:100])
+
+
 def main():
     check_words()
     if not WALK.is_file():
@@ -136,6 +183,10 @@ def main():
         return 0
     with tempfile.TemporaryDirectory() as folder:
         check_formats(Path(folder))
+        if STEPS.is_file():
+            check_forces(Path(folder))
+        else:
+            print(f"SKIP | steps on plates in three formats | | NO REAL DATA: {STEPS} is not there; set KINEMARK_TEST_DATA")
     return 0
 
 

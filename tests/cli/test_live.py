@@ -108,6 +108,16 @@ class Recorded(LiveTest):
         self.assertIn("live.mcap", done.err)
         self.assertEqual((self.folder / "live.mcap").read_text(), "mine")
 
+    def test_a_replay_is_not_recorded_over_itself(self):
+        recording = self.folder / "walk.c3d"
+        recording.write_bytes(self.c3d.read_bytes())
+        (self.folder / "link.c3d").symlink_to(recording)
+        for name in ("walk.c3d", "./walk.c3d", "link.c3d"):
+            done = run("serve", "replay:walk.c3d?rate=1000", "--record", name, "--force", "--no-open", cwd=self.folder)
+            self.assertEqual(done.status, 2, done.err)
+            self.assertIn(name, done.err)
+            self.assertEqual(recording.read_bytes(), self.c3d.read_bytes())
+
 
 class Refused(LiveTest):
     def test_who_is_no_page_of_this_server(self):

@@ -181,12 +181,12 @@ class EveryOptionOfAnalyze(CommandTest):
     }
     # An option that a kind of analysis heeds is not tried with it here: other tests show what it does.
     HEEDED = {
-        "segments": "noise refits level figures figure-formats report norm angle-angle write-events write-cycles gait-marker events segments static vsk "
+        "segments": "forces noise refits level figures figure-formats report norm angle-angle write-events write-cycles gait-marker events segments static vsk "
         "subject trial rate edits select drop rename frames start end up rotate doubtful output",
         "tables": "model forces setup no-error-bars bodies point torques cutoff start end output",
         "motion": "model forces setup no-error-bars torques cutoff couple normalize measures region between refits level figures figure-formats report norm "
         "angle-angle write-events write-cycles gait-marker events select start end output",
-        "markers": "measures region between noise refits level figures figure-formats report norm angle-angle write-events write-cycles gait-marker events "
+        "markers": "forces measures region between noise refits level figures figure-formats report norm angle-angle write-events write-cycles gait-marker events "
         "angles emg emg-high-pass emg-low-pass emg-envelope emg-rms emg-max write-emg write-emg-cycles participants jobs rate edits select drop rename "
         "frames start end up rotate doubtful output list",
     }

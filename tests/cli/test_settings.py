@@ -58,6 +58,16 @@ class SettingsTest(CommandTest):
         self.refused(4, "s.toml", *self.ik(), "--save-config", "s.toml")
         self.good(*self.ik(), "--save-config", "s.toml", "--force")
 
+    def test_no_input_is_replaced_by_options(self):
+        recording = self.folder / "walk.c3d"
+        recording.write_bytes(self.c3d.read_bytes())
+        self.refused(2, "walk.c3d", "info", "walk.c3d", "--save-config", "walk.c3d", "--force")
+        self.write("pig.toml", "title = 'mine'\n")
+        for words in (("info", "walk.c3d", "--save-config", "copy.c3d"), ("analyze", "walk.c3d", "--segments", "pig.toml", "--save-config", "pig.toml", "--force"),
+                      ("analyze", "walk.c3d", "--segments", "pig", "--trial", "a=pig.toml", "--save-config", "./pig.toml", "--force")):
+            self.refused(2, words[-2] if words[-1] == "--force" else words[-1], *words)
+        self.assertEqual(recording.read_bytes(), self.c3d.read_bytes())
+
 
 class HelpTest(CommandTest):
     def test_every_value_is_named_by_what_it_is(self):

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 namespace kinemark::data {
 
 Status Trial::validate() const {
@@ -30,7 +32,19 @@ Status Trial::validate() const {
       if (channel < 0 || channel >= static_cast<int>(analog.names.size()))
         return fail(Code::bad_input, fmt::format("a force plate uses analog channel {}; the file has {}",
                                                  channel + 1, analog.names.size()));
+  if (!std::isfinite(unloaded_s[0]) || !std::isfinite(unloaded_s[1]))
+    return fail(Code::bad_input,
+                fmt::format("trial has its plates unloaded from {} to {} s", unloaded_s[0], unloaded_s[1]));
   return {};
+}
+
+std::optional<std::array<std::int64_t, 2>> unloaded_frames(const Trial& trial) {
+  const auto [first_s, last_s] = trial.unloaded_s;
+  const auto& time = trial.markers.time;
+  if (!(first_s <= last_s) || !(first_s > time.t0_s - 0.5 / time.rate_hz) ||
+      !(last_s < time.time_s(time.frames - 1) + 0.5 / time.rate_hz))
+    return std::nullopt;
+  return std::array{time.nearest_frame(first_s), time.nearest_frame(last_s)};
 }
 
 }  // namespace kinemark::data

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,16 @@ struct Event {
   double time_s = 0.0;  ///< on the trial's clock
 };
 
-/// Geometry of one force plate; its channels are indices into AnalogChannels.
+/// One force plate; its channels are indices into AnalogChannels.
 struct ForcePlate {
+  int number = 1;                                             ///< as the file counts, from 1
   int type = 0;                                               ///< C3D type 1 to 7
   std::array<Eigen::Vector3d, 4> corners_in_world{};          ///< m
   Eigen::Vector3d origin_in_plate = Eigen::Vector3d::Zero();  ///< m, as the file gives it
   std::vector<int> channel_idx;                               ///< zero-based
   std::vector<double> calibration;  ///< CAL_MATRIX as the file gives it, column by column; may be empty
+  int calibration_rows = 0;         ///< of `calibration`, 0 without
+  double metres_per_unit = 1e-3;    ///< of the lengths in channels, and moments, that state no unit
 };
 
 /// What one marker file holds, in SI units.
@@ -57,13 +61,20 @@ struct Trial {
   AnalogChannels analog;      ///< no channels: the file has none
   std::vector<Event> events;  ///< in the order of the file
   std::vector<ForcePlate> force_plates;  ///< in the order of the file
-  std::vector<ForeignGroup> foreign;     ///< what only a C3D file can keep, and nothing here reads
-  std::vector<std::string> warnings;     ///< irregularities of the file, one sentence each
+  /// First and last time, on the trial's clock, of frames in which the file says that nobody loads its plates
+  /// (FORCE_PLATFORM:ZERO); the first after the last: it says none.
+  std::array<double, 2> unloaded_s = {0.0, -1.0};
+  std::vector<ForeignGroup> foreign;  ///< what only a C3D file can keep, and nothing here reads
+  std::vector<std::string> warnings;  ///< irregularities of the file, one sentence each
 
   /// number of the last frame in the file's own counting
   [[nodiscard]] std::int64_t last_frame() const { return first_frame + markers.frames() - 1; }
   /// Markers are valid and all other arrays have their documented shapes.
   [[nodiscard]] Status validate() const;
 };
+
+/// The first and the last frame, from 0, in which nobody loads the plates; none: the file says none, or not
+/// all of them are in the trial.
+[[nodiscard]] std::optional<std::array<std::int64_t, 2>> unloaded_frames(const Trial& trial);
 
 }  // namespace kinemark::data

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace kinemark::data {
 namespace {
 
@@ -45,6 +47,9 @@ TEST(Trial, ValidateNamesTheArrayThatDoesNotFit) {
   t = small();
   t.force_plates[0].channel_idx = {1};
   EXPECT_THAT(t.validate().error().message, HasSubstr("analog channel 2"));
+  t = small();
+  t.unloaded_s[1] = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(t.validate().error().message, HasSubstr("plates unloaded from 0 to inf s"));
   t = small();
   t.markers.names[1] = "A";
   EXPECT_THAT(t.validate().error().message, HasSubstr("occurs twice"));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Wrench {
   Array<double> force;   ///< F x 3, N, on the body; NaN where it was not measured
   Array<double> moment;  ///< F x 3, N m, on the body about `point`
   Array<double> point;   ///< F x 3, m, where the force acts; NaN allowed where force and moment are 0
+  std::vector<Eigen::Vector3d> corners_in_world = {};  ///< m, of a plate, in turn: four; empty: not known
 };
 
 /// What plates, handles and cables do to the body, on one clock.

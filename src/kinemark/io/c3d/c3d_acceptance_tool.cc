@@ -15,9 +15,9 @@
 #include <fstream>
 
 #include "kinemark/io/c3d/internal/simulated_trial.h"
-#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/plates/plate_forces.h"
 
 namespace {
 
@@ -101,7 +101,9 @@ int read(const fs::path& path, int repeats, int threads) {
 
 /// The complete plate data, for comparison: nothing subtracted, nothing left out.
 int forces(const fs::path& path) {
-  const auto read = io::read_plate_forces(path, {.contact_force_n = 0.0, .baseline = false});
+  const auto trial = io::read_c3d(path);
+  if (!trial) return report(std::unexpected(trial.error()));
+  const auto read = io::plate_forces(*trial, {.contact_force_n = 0.0, .baseline = false});
   if (!read) return report(std::unexpected(read.error()));
   fmt::print("{{");
   for (const data::Wrench& wrench : read->wrenches.items)

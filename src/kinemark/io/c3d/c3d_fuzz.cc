@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/io/c3d/reader.h"
+#include "kinemark/io/plates/plate_forces.h"
 
 /// Any bytes are an error or a valid trial (and valid forces) whose arrays the file's size explains.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t si
   const auto trial = read_trial(*reader);
   if (!trial || !trial->validate()) std::abort();
   if (trial->markers.x_in_world.size() + trial->analog.values.size() > size) std::abort();
-  const auto forces = read_plate_forces(*reader);
+  const auto forces = plate_forces(*trial);
   if (forces && !forces->wrenches.validate()) std::abort();
   return 0;
 }

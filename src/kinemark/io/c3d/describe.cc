@@ -103,8 +103,8 @@ void describe_trial(const C3dHeader& header, const C3dParameters& parameters, co
             ? "has no points, only a ROTATION group (orientations of segments), which is not read"
             : "has no points");
   read_events(header, parameters, trial);
-  for (C3dForcePlate& plate : find_force_plates(parameters, layout, warnings))
-    trial.force_plates.push_back(std::move(plate.plate));
+  trial.force_plates = find_force_plates(parameters, layout, warnings);
+  trial.unloaded_s = unloaded_times(parameters, trial.markers.time);
 }
 
 }  // namespace kinemark::io

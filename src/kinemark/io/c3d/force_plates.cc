@@ -53,20 +53,20 @@ std::vector<int> find_channels(const C3dParameter* channels, std::size_t i, int 
   return found;
 }
 
-void read_calibration(const C3dParameter* calibrations, std::size_t i, C3dForcePlate& plate) {
+void read_calibration(const C3dParameter* calibrations, std::size_t i, data::ForcePlate& plate) {
   if (calibrations == nullptr || calibrations->dims.size() < 2) return;
   const std::size_t size =
       static_cast<std::size_t>(calibrations->dims[0]) * static_cast<std::size_t>(calibrations->dims[1]);
   if (size == 0 || (i + 1) * size > calibrations->numbers.size()) return;
   const auto begin = calibrations->numbers.begin() + static_cast<std::ptrdiff_t>(i * size);
-  plate.plate.calibration.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
+  plate.calibration.assign(begin, begin + static_cast<std::ptrdiff_t>(size));
   plate.calibration_rows = calibrations->dims[0];
 }
 
 }  // namespace
 
-std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, const C3dLayout& layout,
-                                             std::vector<std::string>& warnings) {
+std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters, const C3dLayout& layout,
+                                                std::vector<std::string>& warnings) {
   const C3dParameters& p = parameters;
   const std::size_t used = internal::bounded_count(p.number("FORCE_PLATFORM", "USED").value_or(0.0), 255);
   const C3dParameter* channels = p.find("FORCE_PLATFORM", "CHANNEL");
@@ -74,10 +74,9 @@ std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, co
   const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
   const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
-  std::vector<C3dForcePlate> plates;
+  std::vector<data::ForcePlate> plates;
   for (std::size_t i = 0; i < used; ++i) {
-    C3dForcePlate found{.number = static_cast<int>(i) + 1};
-    data::ForcePlate& plate = found.plate;
+    data::ForcePlate plate{.number = static_cast<int>(i) + 1, .metres_per_unit = layout.metres_per_unit};
     plate.type = i < types.size() ? static_cast<int>(internal::bounded_count(types[i], 1000)) : 0;
     if (plate.type > 0) plate.channel_idx = find_channels(channels, i, plate.type, layout.analog_channels);
     if (plate.channel_idx.empty()) {
@@ -85,19 +84,24 @@ std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters, co
           fmt::format("force plate {} is left out: its type or its analog channels are not valid", i + 1));
       continue;
     }
-    for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t c = 0; c < 4; ++c)
       plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
-      found.sound = found.sound && near(plate.corners_in_world[c]);
-    }
     plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
-    found.sound = found.sound && near(plate.origin_in_plate);
-    read_calibration(calibrations, i, found);
-    if (!found.sound)
+    read_calibration(calibrations, i, plate);
+    if (!std::ranges::all_of(plate.corners_in_world, near) || !near(plate.origin_in_plate))
       warnings.push_back(
           fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));
-    plates.push_back(std::move(found));
+    plates.push_back(std::move(plate));
   }
   return plates;
+}
+
+std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time) {
+  const auto zero = parameters.numbers("FORCE_PLATFORM", "ZERO");
+  const auto frames = static_cast<double>(time.frames);
+  if (zero.size() < 2 || !(zero[0] >= 1.0 && zero[0] <= zero[1] && zero[1] <= frames)) return {0.0, -1.0};
+  const auto time_of = [&](double number) { return time.time_s(static_cast<std::int64_t>(number) - 1); };
+  return {time_of(zero[0]), time_of(zero[1])};
 }
 
 }  // namespace kinemark::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,18 +12,14 @@
 
 namespace kinemark::io {
 
-/// One plate of the group FORCE_PLATFORM.
-struct C3dForcePlate {
-  int number = 1;            ///< as the file counts, from 1
-  bool sound = true;         ///< corners and origin have plausible values
-  int calibration_rows = 0;  ///< of CAL_MATRIX, 0 without
-  data::ForcePlate plate;    ///< corners and origin in metres
-};
+/// The plates in use, of the group FORCE_PLATFORM, whose type and analog channels are valid; the others, and
+/// implausible geometry, are reported in `warnings`.
+[[nodiscard]] std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
+                                                              const C3dLayout& layout,
+                                                              std::vector<std::string>& warnings);
 
-/// The plates in use whose type and analog channels are valid; the others, and implausible geometry, are
-/// reported in `warnings`.
-[[nodiscard]] std::vector<C3dForcePlate> find_force_plates(const C3dParameters& parameters,
-                                                           const C3dLayout& layout,
-                                                           std::vector<std::string>& warnings);
+/// First and last time on the clock of the markers of the frames that FORCE_PLATFORM:ZERO names; the first
+/// after the last where it names none of the file.
+[[nodiscard]] std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time);
 
 }  // namespace kinemark::io

@@ -10,9 +10,9 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/c3d/internal/simulated_trial.h"
-#include "kinemark/io/c3d/plate_forces.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
+#include "kinemark/io/plates/plate_forces.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 
@@ -60,7 +60,7 @@ bool survives(std::span<const std::byte> bytes) {
   EXPECT_TRUE(trial->validate()) << trial->validate().error().message;
   EXPECT_LE(trial->markers.x_in_world.size() + trial->analog.values.size(), bytes.size());
   for (const std::string& warning : trial->warnings) EXPECT_THAT(warning, Not(HasSubstr("\n")));
-  const auto forces = read_plate_forces(*reader);
+  const auto forces = plate_forces(*trial);
   if (!forces) {
     EXPECT_THAT(forces.error().message, Not(HasSubstr("\n")));
     return true;

@@ -180,19 +180,39 @@ void add_analog_group(C3dPlan& plan, const data::Trial& trial) {
   add_number(analog, "BITS", C3dType::int16, 16.0);
 }
 
+/// Calibrations of all plates as one array, each padded with zeros to the most rows and columns.
+void add_calibrations(C3dGroup& group, const std::vector<data::ForcePlate>& plates) {
+  std::size_t rows = 0, columns = 0;
+  for (const auto& plate : plates) {
+    if (plate.calibration_rows < 1) continue;
+    rows = std::max(rows, static_cast<std::size_t>(plate.calibration_rows));
+    columns = std::max(columns, plate.calibration.size() / static_cast<std::size_t>(plate.calibration_rows));
+  }
+  if (rows * columns == 0 || rows > kMaxCount || columns > kMaxCount) return;
+  std::vector<double> all(rows * columns * plates.size(), 0.0);
+  for (std::size_t p = 0; p < plates.size(); ++p)
+    for (std::size_t i = 0; plates[p].calibration_rows > 0 && i < plates[p].calibration.size(); ++i) {
+      const auto of_plate = static_cast<std::size_t>(plates[p].calibration_rows);
+      all[(p * columns + i / of_plate) * rows + i % of_plate] = plates[p].calibration[i];
+    }
+  add_numbers(group, "CAL_MATRIX", C3dType::float32, {static_cast<int>(rows), static_cast<int>(columns)},
+              all);
+}
+
+/// Frames in which nobody loads the plates, counted from 1.
+void add_zero(C3dGroup& group, const data::Trial& trial) {
+  constexpr std::int64_t kMaxInteger = 32'767;
+  std::vector<double> numbers{0.0, 0.0};
+  if (const auto frames = data::unloaded_frames(trial); frames && (*frames)[1] < kMaxInteger)
+    numbers = {static_cast<double>((*frames)[0] + 1), static_cast<double>((*frames)[1] + 1)};
+  group.parameters.push_back({.name = "ZERO", .type = C3dType::int16, .dims = {2}, .numbers = numbers});
+}
+
 void add_force_plates(C3dPlan& plan, const data::Trial& trial) {
   C3dGroup& group = plan.parameters.group("FORCE_PLATFORM");
-  std::vector<double> types;
-  std::vector<double> corners;
-  std::vector<double> origins;
-  std::vector<double> channels;
-  std::vector<double> calibrations;
+  std::vector<double> types, corners, origins, channels;
   std::size_t rows = 6;
-  std::size_t calibration = 0;
-  for (const data::ForcePlate& plate : trial.force_plates) {
-    rows = std::max(rows, plate.channel_idx.size());
-    calibration = std::max(calibration, plate.calibration.size());
-  }
+  for (const data::ForcePlate& plate : trial.force_plates) rows = std::max(rows, plate.channel_idx.size());
   for (const data::ForcePlate& plate : trial.force_plates) {
     types.push_back(plate.type);
     for (const Eigen::Vector3d& corner : plate.corners_in_world)
@@ -200,18 +220,14 @@ void add_force_plates(C3dPlan& plan, const data::Trial& trial) {
     for (const double v : plate.origin_in_plate) origins.push_back(plan.units_per_metre * v);
     for (std::size_t r = 0; r < rows; ++r)
       channels.push_back(r < plate.channel_idx.size() ? plate.channel_idx[r] + 1 : 0);
-    std::vector<double> matrix = plate.calibration;
-    matrix.resize(calibration, 0.0);
-    calibrations.insert(calibrations.end(), matrix.begin(), matrix.end());
   }
   add_number(group, "USED", C3dType::int16, static_cast<double>(types.size()));
   add_numbers(group, "TYPE", C3dType::int16, {}, types);
-  group.parameters.push_back({.name = "ZERO", .type = C3dType::int16, .dims = {2}, .numbers = {0.0, 0.0}});
+  add_zero(group, trial);
   add_numbers(group, "CORNERS", C3dType::float32, {3, 4}, corners);
   add_numbers(group, "ORIGIN", C3dType::float32, {3}, origins);
   add_numbers(group, "CHANNEL", C3dType::int16, {static_cast<int>(rows)}, channels);
-  if (calibration > 0 && calibration % 6 == 0 && calibration <= 6 * kMaxCount)
-    add_numbers(group, "CAL_MATRIX", C3dType::float32, {6, static_cast<int>(calibration / 6)}, calibrations);
+  add_calibrations(group, trial.force_plates);
 }
 
 void add_events(C3dPlan& plan, const data::Trial& trial) {

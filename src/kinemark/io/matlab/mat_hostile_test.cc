@@ -114,9 +114,9 @@ TEST(HostileMat, FieldsOfOtherKindsAreRefusedOrPassedOver) {
                                           mat_texts(std::vector<std::string>{"a", "b"}),
                                           mat_struct({}),
                                           mat_numbers(std::vector<double>{}, {0, 0})};
-  const std::vector<std::string> fields = {"kinemark", "rate",   "start",  "first_frame", "frames",
-                                           "time",     "labels", "data",   "status",      "covariance",
-                                           "channels", "analog", "events", "force_plates"};
+  const std::vector<std::string> fields = {"kinemark", "rate",   "start",  "first_frame",  "frames",
+                                           "time",     "labels", "data",   "status",       "covariance",
+                                           "channels", "analog", "events", "force_plates", "unloaded"};
   for (const std::string& field : fields)
     for (const std::string& value : kinds) {
       MatFields all = {{"kinemark", mat_number(1)},

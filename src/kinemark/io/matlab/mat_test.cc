@@ -66,8 +66,12 @@ void expect_same(const Trial& a, const Trial& b) {
     EXPECT_EQ(a.events[i].context, b.events[i].context);
     EXPECT_EQ(a.events[i].time_s, b.events[i].time_s);
   }
+  EXPECT_EQ(a.unloaded_s, b.unloaded_s);
   ASSERT_EQ(a.force_plates.size(), b.force_plates.size());
   for (std::size_t i = 0; i < a.force_plates.size(); ++i) {
+    EXPECT_EQ(a.force_plates[i].number, b.force_plates[i].number);
+    EXPECT_EQ(a.force_plates[i].calibration_rows, b.force_plates[i].calibration_rows);
+    EXPECT_EQ(a.force_plates[i].metres_per_unit, b.force_plates[i].metres_per_unit);
     EXPECT_EQ(a.force_plates[i].type, b.force_plates[i].type);
     EXPECT_EQ(a.force_plates[i].corners_in_world, b.force_plates[i].corners_in_world);
     EXPECT_EQ(a.force_plates[i].origin_in_plate, b.force_plates[i].origin_in_plate);

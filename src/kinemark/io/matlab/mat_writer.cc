@@ -125,14 +125,16 @@ std::string force_plates(const std::vector<data::ForcePlate>& all) {
     std::vector<double> from_one;
     for (const int channel : plate.channel_idx) from_one.push_back(channel + 1.0);
     const auto size = static_cast<std::int64_t>(plate.calibration.size());
-    const auto side = std::llround(std::sqrt(static_cast<double>(size)));
+    const auto rows = std::clamp<std::int64_t>(plate.calibration_rows, 1, std::max<std::int64_t>(1, size));
     out.push_back(
-        {mat_number(plate.type), plate_corners(plate),
+        {mat_number(plate.number), mat_number(plate.type), plate_corners(plate),
          mat_numbers(std::span(plate.origin_in_plate.data(), 3), {1, 3}),
          mat_numbers(from_one, {1, static_cast<std::int64_t>(from_one.size())}),
-         mat_numbers(plate.calibration, side * side == size ? MatDims{side, side} : MatDims{size, 1})});
+         mat_numbers(plate.calibration, size % rows == 0 ? MatDims{rows, size / rows} : MatDims{size, 1}),
+         mat_number(plate.metres_per_unit)});
   }
-  return mat_structs({"type", "corners", "origin", "channels", "calibration"}, out);
+  return mat_structs({"number", "type", "corners", "origin", "channels", "calibration", "metres_per_unit"},
+                     out);
 }
 
 std::string variable(const data::Trial& trial) {
@@ -151,6 +153,7 @@ std::string variable(const data::Trial& trial) {
   out.emplace_back("analog", analog(trial.analog));
   out.emplace_back("events", events(trial.events));
   out.emplace_back("force_plates", force_plates(trial.force_plates));
+  out.emplace_back("unloaded", mat_numbers(trial.unloaded_s, {1, 2}));
   return mat_struct(out, "trial");
 }
 

@@ -100,6 +100,18 @@ Result<Columns> find_columns(const ExternalLoads& loads, const ExternalForce& fo
           loads.source, force.name, identifier, loads.data_file.string(), found.size()));
 }
 
+/// Whether a table has a column for each axis behind these words.
+bool has_three(const data::Table& table, const std::string& words) {
+  return std::ranges::all_of(std::string_view("xyz"),
+                             [&](char axis) { return table.find(words + axis) >= 0; });
+}
+
+/// The columns' name with another word for "force"; the same with "torque" behind it where it has none.
+std::string with(std::string base, std::string_view word) {
+  const auto at = base.rfind("force");
+  return at == std::string::npos ? base + std::string(word) + "_" : base.replace(at, 5, word);
+}
+
 /// The values of one row.
 struct Row {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero(), point = Vector3d::Zero();
@@ -177,6 +189,49 @@ Result<ExternalLoads> parse_external_loads(std::string_view xml, std::string nam
   auto file = XmlFile::parse(xml, std::move(name));
   if (!file) return std::unexpected(file.error());
   return read_loads(*file, folder);
+}
+
+Result<ExternalLoads> loads_of_columns(const data::Table& table, const std::filesystem::path& path) {
+  ExternalLoads loads{.source = path.string(), .data_file = path, .forces = {}};
+  for (const auto& column : table.columns) {
+    if (!column.ends_with("vx")) continue;
+    const std::string base = column.substr(0, column.size() - 2);
+    if (!has_three(table, base + "v") || !has_three(table, base + "p")) continue;
+    ExternalForce force{.name = base, .body = "", .force = base + "v", .point = base + "p", .torque = {}};
+    while (force.name.ends_with('_')) force.name.pop_back();
+    if (force.name.empty()) force.name = fmt::format("force {}", loads.forces.size() + 1);
+    for (const auto& moment : {with(base, "torque"), with(base, "moment"), base + "m"})
+      if (force.torque.empty() && has_three(table, moment)) force.torque = moment;
+    loads.forces.push_back(std::move(force));
+  }
+  if (loads.forces.empty())
+    return fail(Code::bad_input,
+                fmt::format("{}: has no columns of forces; need NAMEvx, NAMEvy, NAMEvz and NAMEpx, NAMEpy, "
+                            "NAMEpz, such as ground_force_vx and ground_force_px",
+                            path.string()));
+  return loads;
+}
+
+data::Table table_of_forces(const data::Wrenches& wrenches) {
+  data::Table table{.name = "ground reactions"};
+  for (std::int64_t f = 0; f < wrenches.frames(); ++f) table.time_s.push_back(wrenches.time.time_s(f));
+  for (std::size_t i = 0; i < wrenches.items.size(); ++i)
+    for (const char* words : {"ground_force_v", "ground_force_p", "ground_torque_"})
+      for (const char axis : {'x', 'y', 'z'})
+        table.columns.push_back(fmt::format("{}_{}{}", i + 1, words, axis));
+  for (std::size_t row = 0; row < table.time_s.size(); ++row)
+    for (const auto& wrench : wrenches.items) {
+      const auto append = [&](const Array<double>& values, bool known) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          table.values.push_back(known ? values[3 * row + axis] : 0.0);
+      };
+      const bool acts = !(wrench.force[3 * row] == 0.0 && wrench.force[3 * row + 1] == 0.0 &&
+                          wrench.force[3 * row + 2] == 0.0);
+      append(wrench.force, true);
+      append(wrench.point, acts);
+      append(wrench.moment, acts);
+    }
+  return table;
 }
 
 Result<data::Wrenches> sample_external_loads(const ExternalLoads& loads, const data::Table& table,

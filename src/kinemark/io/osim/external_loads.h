@@ -38,6 +38,19 @@ struct ExternalLoads {
 [[nodiscard]] Result<ExternalLoads> parse_external_loads(std::string_view xml, std::string name,
                                                          const std::filesystem::path& folder = {});
 
+/// The forces that a table holds by the names of its columns, as OpenSim's ground reactions have them:
+/// NAMEvx, NAMEvy, NAMEvz (force, N) beside NAMEpx, NAMEpy, NAMEpz (where it acts, m), and its free moment,
+/// N m, in x, y, z behind NAME with "torque" or "moment" for "force", or in NAMEmx, NAMEmy, NAMEmz; all in
+/// the laboratory, on the body. Each gets the name of its columns without the mark at its end, and no body.
+/// Without any: Code::bad_input, with the columns that are needed.
+[[nodiscard]] Result<ExternalLoads> loads_of_columns(const data::Table& table,
+                                                     const std::filesystem::path& path);
+
+/// Forces as such a table: 1_ground_force_vx, 1_ground_force_px, 1_ground_torque_x and so on, of each in
+/// turn, one row a frame. A point where nothing acts is 0, as OpenSim has it; what was not measured stays
+/// NaN.
+[[nodiscard]] data::Table table_of_forces(const data::Wrenches& wrenches);
+
 /// The loads at the frames of `time`, interpolated linearly between the rows of the table (N, m, N m). NaN
 /// before its first and after its last row, beside cells that are blank, and where a force has no point.
 /// Columns that are not there: Code::bad_input.

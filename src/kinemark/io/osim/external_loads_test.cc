@@ -114,6 +114,64 @@ TEST(ExternalLoads, APointOfNothingDoesNotMoveTheNextOne) {
   EXPECT_NEAR(wrench.point[3], 5.0, 1e-9);  // where the second row has it
 }
 
+TEST(ExternalLoads, ForcesAreFoundByTheNamesOfColumns) {
+  const auto table_with = [](const std::vector<std::string>& names) {
+    data::Table t;
+    for (const auto& name : names)
+      for (const char axis : {'x', 'y', 'z'}) t.columns.push_back(name + axis);
+    t.time_s = {0.0, 0.1};
+    for (std::size_t i = 0; i < 2 * t.columns.size(); ++i) t.values.push_back(static_cast<double>(i));
+    return t;
+  };
+  for (const std::string torque : {"ground_torque_", "ground_moment_", "ground_force_m"}) {
+    const auto t = table_with({"ground_force_v", "ground_force_p", torque, "1_ground_force_v",
+                               "1_ground_force_p", "1_ground_torque_"});
+    const auto loads = loads_of_columns(t, "grf.mot").value();
+    ASSERT_EQ(loads.forces.size(), 2u);
+    EXPECT_EQ(loads.forces[0].name, "ground_force");
+    EXPECT_EQ(loads.forces[0].body, "");
+    EXPECT_EQ(loads.forces[0].torque, torque);
+    const auto wrenches = sample_external_loads(loads, t, {.rate_hz = 10.0, .frames = 2}).value();
+    EXPECT_EQ(wrenches.items[0].force[1], 1.0);
+    EXPECT_EQ(wrenches.items[0].point[1], 4.0);
+    EXPECT_EQ(wrenches.items[0].moment[1], 7.0);
+    EXPECT_EQ(wrenches.items[1].name, "1_ground_force");
+    EXPECT_EQ(wrenches.items[1].force[0], 9.0);
+  }
+  // Without moments there are none; without points there are no forces.
+  EXPECT_EQ(loads_of_columns(table_with({"a_v", "a_p"}), "grf.mot").value().forces[0].torque, "");
+  const auto none = loads_of_columns(table_with({"ground_force_v", "knee_"}), "grf.mot");
+  EXPECT_EQ(none.error().code, Code::bad_input);
+  EXPECT_THAT(none.error().message, testing::HasSubstr("grf.mot: has no columns of forces; need NAMEvx"));
+}
+
+TEST(ExternalLoads, ATableOfForcesIsReadAsTheSame) {
+  data::Wrenches wrenches{.time = {.rate_hz = 100.0, .t0_s = 1.0, .frames = 3}, .items = {}};
+  for (const double scale : {1.0, 2.0}) {
+    data::Wrench one{.name = "plate", .body = {}, .force = {}, .moment = {}, .point = {}};
+    for (int i = 0; i < 9; ++i) {
+      one.force.push_back(scale * (i + 1.0));
+      one.moment.push_back(scale * (i - 4.0));
+      one.point.push_back(0.1 * i);
+    }
+    std::fill_n(one.force.begin() + 3, 3, 0.0);  // the second frame: nothing acts
+    std::fill_n(one.moment.begin() + 3, 3, 0.0);
+    std::fill_n(one.point.begin() + 3, 3, kNaN);
+    wrenches.items.push_back(one);
+  }
+  const auto t = table_of_forces(wrenches);
+  ASSERT_TRUE(t.validate());
+  EXPECT_EQ(t(1, t.find("1_ground_force_px")), 0.0);
+  const auto again = sample_external_loads(loads_of_columns(t, "grf.mot").value(), t, wrenches.time).value();
+  ASSERT_TRUE(again.validate());
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again.items[i].force, wrenches.items[i].force);
+    EXPECT_EQ(again.items[i].moment, wrenches.items[i].moment);
+    EXPECT_EQ(again.items[i].point[6], wrenches.items[i].point[6]);
+    EXPECT_TRUE(std::isnan(again.items[i].point[3]));
+  }
+}
+
 TEST(ExternalLoads, ColumnsByNumberAndByOrder) {
   const std::string by =
       "<applied_to_body>/bodyset/hand</applied_to_body><force_identifier>{}</force_identifier>"

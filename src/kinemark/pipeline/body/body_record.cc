@@ -13,8 +13,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/gait_event.h"
+#include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/files/vertical.h"
-#include "kinemark/pipeline/motion/external_forces.h"
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/whole_body.h"
 

@@ -53,17 +53,22 @@ void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling) {
   upsampling.handled = made != RecorderMade::keep;
 }
 
-std::vector<data::Defect> settle_defects(const CleanJob& job, std::vector<data::Finding> found) {
+std::vector<data::Defect> settle_defects(std::vector<data::Finding> found,
+                                         std::span<const data::Finding> exchanged,
+                                         std::span<const data::Finding> rejected) {
+  const auto is_among = [](const data::Finding& one, std::span<const data::Finding> others) {
+    return std::ranges::any_of(others, [&](const auto& other) {
+      return one.kind == other.kind && one.subject == other.subject && one.partner == other.partner &&
+             one.first_frame == other.first_frame;
+    });
+  };
   std::vector<data::Defect> out;
   for (data::Finding& finding : found) {
-    if (job.exchange_back && finding.kind == data::FindingKind::label_swap &&
-        finding.confidence >= kRejectConfidence) {
-      out.push_back({std::move(finding), "exchanged back", true});
-      continue;
-    }
-    const bool handled = job.drops_doubtful(false) && finding.confidence >= kRejectConfidence &&
-                         finding.kind != data::FindingKind::clock_jump;
-    out.push_back({std::move(finding), handled ? "rejected" : "left as it is", handled});
+    const char* done = is_among(finding, exchanged)  ? "exchanged back"
+                       : is_among(finding, rejected) ? "rejected"
+                                                     : "left as it is";
+    const bool handled = std::string_view(done) != "left as it is";
+    out.push_back({std::move(finding), done, handled});
   }
   return out;
 }

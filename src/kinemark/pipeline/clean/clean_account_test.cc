@@ -60,23 +60,20 @@ TEST(CleanAccount, SamplesThatTheRecorderMadeAreHandledAsAsked) {
   EXPECT_EQ(done(RecorderMade::mark, 1), "") << "none were made";
 }
 
-TEST(CleanAccount, ExchangedLabelsAndSpikesAreHandledWhereThatWasAsked) {
-  const auto done = [](const CleanJob& job, data::FindingKind kind, double confidence) {
-    const auto settled = settle_defects(job, {{.kind = kind, .confidence = confidence}});
-    EXPECT_EQ(settled.front().handled, settled.front().done != "left as it is");
-    return settled.front().done;
-  };
-  CleanJob job;
-  job.exchange_back = false;
-  EXPECT_EQ(done(job, data::FindingKind::spike, 0.99), "left as it is");
-  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.99), "left as it is");
-  job.doubtful = Doubtful::drop;
-  EXPECT_THAT(done(job, data::FindingKind::spike, 0.99), Not(HasSubstr("left as it is")));
-  EXPECT_EQ(done(job, data::FindingKind::spike, 0.5 * kRejectConfidence), "left as it is");
-  EXPECT_EQ(done(job, data::FindingKind::clock_jump, 0.99), "left as it is") << "no sample of it is wrong";
-  job.exchange_back = true;
-  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.99), "exchanged back");
-  EXPECT_EQ(done(job, data::FindingKind::label_swap, 0.5 * kRejectConfidence), "left as it is");
+TEST(CleanAccount, WhatWasDoneAboutADefectIsWhatScreeningDid) {
+  const std::vector<data::Finding> found = {
+      {.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B", .first_frame = 5},
+      {.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B", .first_frame = 9},
+      {.kind = data::FindingKind::spike, .subject = "A", .first_frame = 5},
+      {.kind = data::FindingKind::spike, .subject = "C", .first_frame = 5}};
+  const auto settled = settle_defects(found, {&found[0], 1}, {&found[2], 1});
+  ASSERT_EQ(settled.size(), 4U);
+  const std::vector<std::string> done = {settled[0].done, settled[1].done, settled[2].done, settled[3].done};
+  EXPECT_EQ(done, (std::vector<std::string>{"exchanged back", "left as it is", "rejected", "left as it is"}));
+  for (const auto& one : settled) EXPECT_EQ(one.handled, one.done != "left as it is");
+  EXPECT_THAT(done[1], Not(HasSubstr("exchanged back")));
+  EXPECT_THAT(done[0], Not(HasSubstr("left as it is")));
+  EXPECT_THAT(done[3], Not(HasSubstr("rejected")));
 }
 
 }  // namespace

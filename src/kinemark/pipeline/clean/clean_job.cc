@@ -59,15 +59,18 @@ std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
 }
 
 /// Look for what the recorder did, and do about it what the job says.
-Status screen_trial(const CleanJob& job, CleanOutcome& outcome) {
+Status screen_trial(const CleanJob& job, const EditsTaken& edits, CleanOutcome& outcome) {
   auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
                                                   .exchange_back = job.exchange_back,
+                                                  .swapped = edits.swapped,
                                                   .reject_defects = job.drops_doubtful(false),
                                                   .sure = internal::kRejectConfidence});
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
   account.names = outcome.trial.markers.names;
-  account.defects = internal::settle_defects(job, std::move(screening->defects));
+  account.defects =
+      internal::settle_defects(std::move(screening->defects), screening->exchanged,
+                               screening->rejected ? screening->sure : std::vector<data::Finding>{});
   account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(job.recorder_made, account.upsampling);
   outcome.warnings = std::move(screening->warnings);
@@ -154,7 +157,8 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   std::ranges::move(edit_options(recording->edits), std::back_inserter(report.run.options));
   std::ranges::copy(recording->notes, std::back_inserter(report.run.warnings));
   const auto start = std::chrono::steady_clock::now();
-  if (auto s = screen_trial(job, outcome); !s) return fail_at(job.input.string(), s.error());
+  if (auto s = screen_trial(job, recording->edits, outcome); !s)
+    return fail_at(job.input.string(), s.error());
   // Fill and smooth: each marker goes into the output as soon as it is done.
   const data::Trajectories before = trial.markers;
   if (auto s = fill_trial(job, trial, report); !s) return fail_at(job.input.string(), s.error());

@@ -17,6 +17,7 @@
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/matlab/mat.h"
+#include "kinemark/io/osim/external_loads.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
@@ -147,7 +148,8 @@ Result<Recording> read_prepared(const ConvertJob& job, const std::vector<std::fi
   if (auto s = prepare_recording({.path = job.in}, rest, *recording); !s) return std::unexpected(s.error());
   auto& trial = recording->trial;
   if (job.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, notes); !s) return fail_at(job.in.string(), s.error());
+    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
+      return fail_at(job.in.string(), s.error());
   if (job.resample_hz)
     if (auto s = resample(trial, *job.resample_hz); !s) return fail_at(job.in.string(), s.error());
   if (job.axes.rotate.empty() && ending_of(job.out) == ".glb") turn_y_up(stated_vertical(job.axes), trial);
@@ -180,6 +182,34 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
   return notes;
 }
 
+constexpr double kContact_n = 20.0;  ///< of OpenSim's users; a plate that bears less is empty
+
+/// Forces of the plates of a recording, as OpenSim reads them.
+Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
+  if (!job.merged.empty() || job.resample_hz)
+    return fail(Code::usage, fmt::format("{}: forces are those of one recording, at the rate of its markers",
+                                         job.out.string()));
+  auto recording = open_recording({.path = job.in,
+                                   .skeleton = job.skeleton,
+                                   .plates = true,
+                                   .contact_force_n = kContact_n,
+                                   .force = job.force,
+                                   .seed = job.seed,
+                                   .threads = job.threads},
+                                  job);
+  if (!recording) return std::unexpected(recording.error());
+  if (!recording->plates_fault.empty()) return fail(Code::bad_input, recording->plates_fault);
+  if (!recording->plates)
+    return fail(Code::bad_input, fmt::format("{}: has no force plates, whose forces a {} could hold; joint "
+                                             "angles are made by kinemark ik",
+                                             job.in.string(), ending_of(job.out)));
+  if (auto s = io::write_table(job.out, io::table_of_forces(*recording->plates), {.force = job.force}); !s)
+    return std::unexpected(s.error());
+  auto notes = std::move(recording->trial.warnings);
+  std::ranges::move(recording->notes, std::back_inserter(notes));
+  return notes;
+}
+
 }  // namespace
 
 namespace {
@@ -204,6 +234,7 @@ Status check_kinds(const ConvertJob& job) {
                 fmt::format("--skeleton: {} has none beside it; it is for .amc files", job.in.string()));
   if (kind_of(from) == Kind::model && is_robot(to)) return {};
   if (kind_of(from) == Kind::table && to == ".mat") return {};
+  if (kind_of(from) == Kind::markers && kind_of(to) == Kind::table) return {};
   if (makes_skeleton || (kind_of(from) == kind_of(to) && !is_robot(to))) return {};
   return fail(Code::usage,
               fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
@@ -256,7 +287,8 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = job.model.empty() ? convert_table(job) : convert_motion(job);
       break;
     case Kind::markers:
-      warnings = convert_markers(job, written);
+      warnings =
+          kind_of(ending_of(job.out)) == Kind::table ? convert_forces(job) : convert_markers(job, written);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());

@@ -30,8 +30,9 @@ struct ConvertJob : JobSettings, RecordingOptions {
 struct ConvertOutcome : JobOutcome {};
 
 /// Read one file and write it in the format that `out` ends in; both must be of one kind (markers, tables or
-/// models), else Code::usage; but a table becomes a .mat, and a
-/// .bvh or .glb with the model that it is the motion of.
+/// models), else Code::usage; but a table becomes a .mat, and a .bvh or .glb with the model that it is the
+/// motion of, and a recording a .mot or .sto of the forces of its plates (io::table_of_forces(); below 20 N a
+/// plate is empty).
 /// Fails as reader and writer of the formats.
 [[nodiscard]] Result<ConvertOutcome> run_convert(const ConvertJob& job);
 

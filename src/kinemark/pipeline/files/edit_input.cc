@@ -101,6 +101,8 @@ Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {
   taken.in_force = in_force->size();
   taken.digest = io::digest_of(*in_force);
   taken.regions = std::move(edited->regions);
+  for (const auto& edit : *in_force)
+    if (edit.kind == data::EditKind::swap) taken.swapped.emplace_back(edit.marker, edit.other);
   for (const auto& note : edited->notes) taken.notes.push_back(fmt::format("{}: {}", path.string(), note));
   taken.notes.push_back(fmt::format("{} of {} {} applied",
                                     counted(static_cast<std::int64_t>(taken.in_force), "edit"), path.string(),

@@ -57,7 +57,8 @@ struct EditsTaken {
   std::size_t in_force = 0;             ///< operations
   std::string digest;                   ///< of what they do, io::digest_of()
   std::vector<data::Region> regions;    ///< that they name
-  std::vector<std::string> notes;       ///< what was odd, one sentence each
+  std::vector<std::pair<std::string, std::string>> swapped;  ///< markers that they swap, as they name them
+  std::vector<std::string> notes;                            ///< what was odd, one sentence each
 };
 
 /// Apply a journal to `trial`. Code::bad_input, naming journal and line, as io::read_edits(),

@@ -55,7 +55,7 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   out.warnings = trial.warnings;
   std::ranges::move(recording->notes, std::back_inserter(out.warnings));
   if (job.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, out.warnings); !s)
+    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, out.warnings); !s)
       return fail_at(job.file.string(), s.error());
   const auto& markers = trial.markers;
   MarkerFileFacts facts{.format = trial.format,

@@ -20,6 +20,17 @@ namespace {
 
 constexpr EnumNames<RecorderMade::decimate> kRecorderMade{"keep", "mark", "missing", "decimate"};
 
+/// Whether one of the pairs is that of a label swap; the prefix of a subject may be left out.
+bool by_hand(const data::Finding& swap, const std::vector<std::pair<std::string, std::string>>& pairs) {
+  const auto same = [](const std::string& full, const std::string& name) {
+    return full == name || full.ends_with(":" + name);
+  };
+  return std::ranges::any_of(pairs, [&](const auto& pair) {
+    return (same(swap.subject, pair.first) && same(swap.partner, pair.second)) ||
+           (same(swap.subject, pair.second) && same(swap.partner, pair.first));
+  });
+}
+
 Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
   if (!rules.find_defects) return {};
   const auto& markers = trial.markers;
@@ -28,12 +39,15 @@ Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& 
   out.defects = std::move(*defects);
   if (rules.exchange_back) {
     out.exchanged = sure_swaps(out.defects, rules.sure);
+    std::erase_if(out.exchanged, [&](const auto& swap) { return by_hand(swap, rules.swapped); });
     if (auto s = exchange_back(trial, out.exchanged); !s) return s;
   }
   double samples = 0.0;
   for (const data::Finding& defect : out.defects) {
     if (defect.confidence < rules.sure || defect.kind == data::FindingKind::clock_jump) continue;
-    if (rules.exchange_back && defect.kind == data::FindingKind::label_swap) continue;
+    if (defect.kind == data::FindingKind::label_swap &&
+        (rules.exchange_back || by_hand(defect, rules.swapped)))
+      continue;
     out.sure.push_back(defect);
     samples += static_cast<double>(defect.frame_count());
   }
@@ -92,6 +106,23 @@ Status treat_made(data::Trial& trial, const ScreeningRules& rules, Screening& ou
   return {};
 }
 
+/// Who made how many samples; empty: nobody.
+std::string upsampling_sentence(const data::UpsamplingAccount& found, const data::Trajectories& markers) {
+  const auto factor = found.factor();
+  if (factor == 1) return {};
+  std::int64_t made = 0, all = 0;
+  for (std::int64_t m = 0; m < markers.markers(); ++m)
+    for (std::int64_t f = 0; f < markers.frames(); ++f) {
+      const bool there = markers.present(f, m);
+      all += there;
+      made += there && !found.markers[static_cast<std::size_t>(m)].real(f);
+    }
+  return fmt::format(
+      "{} of {} samples were made by the recorder, which measured at {:g} Hz: they are no "
+      "measurements of their own ('kinemark clean --upsampled decimate' leaves the others)",
+      made, all, markers.time.rate_hz / factor);
+}
+
 }  // namespace
 
 std::string_view to_string(RecorderMade made) { return kRecorderMade[made]; }
@@ -110,13 +141,24 @@ Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules
   return out;
 }
 
-Status leave_out_defects(data::Trial& trial, bool keep_defects, std::vector<std::string>& warnings) {
+Result<std::string> note_on_upsampling(const data::Trajectories& markers) {
+  const auto found = trajectory::detect_upsampling(markers);
+  if (!found) return std::unexpected(found.error());
+  return upsampling_sentence(*found, markers);
+}
+
+Status leave_out_defects(data::Trial& trial, bool keep_defects,
+                         const std::vector<std::pair<std::string, std::string>>& swapped,
+                         std::vector<std::string>& warnings) {
   constexpr std::size_t kListed = 5;
   const auto screening = screen_markers(trial, {.recorder_made = RecorderMade::mark,
                                                 .find_defects = !keep_defects,
                                                 .exchange_back = true,
+                                                .swapped = swapped,
                                                 .reject_defects = true});
   if (!screening) return std::unexpected(screening.error());
+  if (auto note = upsampling_sentence(*screening->upsampling, trial.markers); !note.empty())
+    warnings.push_back(std::move(note));
   for (const auto& swap : screening->exchanged)
     warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
   const auto& sure = screening->sure;

@@ -35,7 +35,9 @@ struct ScreeningRules {
   bool find_upsampling = true;                      ///< look for samples that the recorder made
   RecorderMade recorder_made = RecorderMade::keep;  ///< what becomes of them
   bool find_defects = true;                         ///< look for defects
-  bool exchange_back = false;   ///< markers that surely carry each other's label get their own
+  bool exchange_back = false;  ///< markers that surely carry each other's label get their own
+  std::vector<std::pair<std::string, std::string>> swapped =
+      {};                       ///< those that edits swap: a person has decided, and they stay as they are
   bool reject_defects = false;  ///< those that are sure become `rejected`
   double sure = 0.8;            ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
   /// Share of all samples. Where sure defects take more, nothing is rejected: a recording that breaks its
@@ -62,10 +64,16 @@ struct Screening {
 /// trajectory::screen(), detect_upsampling() and keep_real_samples().
 [[nodiscard]] Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules);
 
+/// That the recorder made samples of these markers between those that it measured, how many, and at what rate
+/// it measured; empty where none are seen (trajectory::detect_upsampling()). Fails as that.
+[[nodiscard]] Result<std::string> note_on_upsampling(const data::Trajectories& markers);
+
 /// For what counts measured samples alone: marks what the recorder made, exchanges back and rejects what
 /// screening is sure of unless `keep_defects`, and adds what was exchanged and
 /// left out to the warnings: five sentences, then how many more.
+/// @param swapped  markers that edits swap (ScreeningRules)
 [[nodiscard]] Status leave_out_defects(data::Trial& trial, bool keep_defects,
+                                       const std::vector<std::pair<std::string, std::string>>& swapped,
                                        std::vector<std::string>& warnings);
 
 }  // namespace kinemark::pipeline

@@ -147,25 +147,70 @@ TEST(ScreenMarkers, MadeFirstFindsDefectsInWhatIsLeft) {
   EXPECT_THAT(made_first.sure, IsEmpty());
 }
 
+TEST(ScreenMarkers, MarkersThatAPersonSwappedStayAsTheyAre) {
+  auto swapped = recording();
+  const auto names = swapped.markers.names;
+  for (std::int64_t f = 100; f < 140; ++f) {
+    const Eigen::Vector3d x = swapped.markers.x(f, 0);
+    swapped.markers.x(f, 0) = Eigen::Vector3d(swapped.markers.x(f, 1));
+    swapped.markers.x(f, 1) = x;
+  }
+  const auto as_it_is = swapped.markers.x_in_world;
+  auto repaired = swapped;
+  const auto found = screen_markers(repaired, {.exchange_back = true}).value();
+  ASSERT_EQ(found.exchanged.size(), 1U);
+  for (const bool exchange_back : {true, false}) {
+    auto kept = swapped;
+    const auto left =
+        screen_markers(
+            kept, {.exchange_back = exchange_back, .swapped = {{names[1], names[0]}}, .reject_defects = true})
+            .value();
+    EXPECT_THAT(left.exchanged, IsEmpty());
+    EXPECT_THAT(left.sure, IsEmpty());
+    EXPECT_EQ(left.defects.size(), found.defects.size()) << "it is said all the same";
+    EXPECT_EQ(kept.markers.x_in_world, as_it_is);
+  }
+  // Another pair is no reason.
+  auto other = swapped;
+  EXPECT_EQ(screen_markers(other, {.exchange_back = true, .swapped = {{names[0], names[2]}}})
+                .value()
+                .exchanged.size(),
+            1U);
+}
+
+TEST(NoteOnUpsampling, IsSaidOfSamplesThatTheRecorderMade) {
+  const auto said = note_on_upsampling(doubled().markers).value();
+  EXPECT_THAT(said, HasSubstr(" samples were made by the recorder, which measured at 50 Hz: they are no"));
+  EXPECT_THAT(said, ::testing::ContainsRegex("^(59[0-9]|60[0-9]) of 1200 "));
+  EXPECT_EQ(note_on_upsampling(recording().markers).value(), "");
+  std::vector<std::string> warnings;
+  auto made = doubled(), measured = recording();
+  ASSERT_TRUE(leave_out_defects(made, false, {}, warnings));
+  EXPECT_THAT(warnings, Contains(said));
+  warnings.clear();
+  ASSERT_TRUE(leave_out_defects(measured, false, {}, warnings));
+  EXPECT_THAT(warnings, Not(Contains(HasSubstr(" samples were made by the recorder, which measured at "))));
+}
+
 TEST(LeaveOutDefects, FiveAreSaidAndHowManyMore) {
   std::vector<std::string> warnings;
   auto clean = recording();
-  ASSERT_TRUE(leave_out_defects(clean, false, warnings));
+  ASSERT_TRUE(leave_out_defects(clean, false, {}, warnings));
   EXPECT_THAT(warnings, IsEmpty());
   auto spoilt = recording();
   for (std::int64_t k = 0; k < 8; ++k) spoilt.markers.x(40 + 40 * k, k % 3)[0] += 0.3;
   auto kept = spoilt;
-  ASSERT_TRUE(leave_out_defects(kept, true, warnings));
+  ASSERT_TRUE(leave_out_defects(kept, true, {}, warnings));
   EXPECT_THAT(warnings, IsEmpty());
   EXPECT_EQ(count(kept, SampleState::rejected), 0);
-  ASSERT_TRUE(leave_out_defects(spoilt, false, warnings));
+  ASSERT_TRUE(leave_out_defects(spoilt, false, {}, warnings));
   ASSERT_EQ(warnings.size(), 6u);
   EXPECT_THAT(warnings[0], ::testing::StartsWith("Left out: "));
   EXPECT_EQ(warnings[5], "Left out: 3 more defects like these.");
   auto five = recording();
   for (std::int64_t k = 0; k < 5; ++k) five.markers.x(40 + 40 * k, k % 3)[0] += 0.3;
   warnings.clear();
-  ASSERT_TRUE(leave_out_defects(five, false, warnings));
+  ASSERT_TRUE(leave_out_defects(five, false, {}, warnings));
   EXPECT_EQ(warnings.size(), 5u);
   EXPECT_THAT(warnings, Not(Contains(HasSubstr("more defects like these."))));
   EXPECT_EQ(count(spoilt, SampleState::rejected), 8);

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "kinemark/pipeline/files/plates.h"
+#include "kinemark/io/plates/plate_forces.h"
+#include "kinemark/pipeline/files/external_forces.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/pipeline/files/turn.h"
 
@@ -33,6 +35,35 @@ Status apply_edits(const RecordingSource& source, const RecordingOptions& option
   if (!taken) return std::unexpected(taken.error());
   recording.notes = taken->notes;
   recording.edits = std::move(*taken);
+  return {};
+}
+
+/// Forces of a file of their own, on the recording's frames.
+Status take_forces(const RecordingSource& source, Recording& recording) {
+  auto forces = read_external_forces(source.forces, recording.trial.markers.time, source.contact_force_n);
+  if (!forces) return std::unexpected(forces.error());
+  for (const auto& file : forces->files) {
+    auto input = record_input("forces", file);
+    if (!input) return std::unexpected(input.error());
+    recording.forces.push_back(std::move(*input));
+  }
+  for (const auto& warning : forces->warnings)
+    recording.notes.push_back(fmt::format("{}: {}", source.forces.string(), warning));
+  recording.notes.push_back(fmt::format("forces are those of {}", source.forces.string()));
+  recording.plates = std::move(forces->wrenches);
+  return {};
+}
+
+/// Forces of all that was recorded, whatever of it is selected.
+Status find_plates(const RecordingSource& source, Recording& recording) {
+  if (!source.plates) return {};
+  if (!source.forces.empty()) return take_forces(source, recording);
+  if (recording.trial.force_plates.empty()) return {};
+  auto forces = io::plate_forces(recording.trial, {.contact_force_n = source.contact_force_n});
+  if (forces)
+    recording.plates = std::move(forces->wrenches);
+  else
+    recording.plates_fault = forces.error().message;
   return {};
 }
 
@@ -87,7 +118,9 @@ Result<Recording> read_recording(const RecordingSource& source, const RecordingO
   if (!input) return std::unexpected(input.error());
   return Recording{.trial = std::move(input->trial),
                    .plates = {},
+                   .plates_fault = {},
                    .file = std::move(input->file),
+                   .forces = {},
                    .edits = {},
                    .rate_known = input->rate_known,
                    .notes = {}};
@@ -96,9 +129,11 @@ Result<Recording> read_recording(const RecordingSource& source, const RecordingO
 Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
                          Recording& recording) {
   if (auto s = apply_edits(source, options, recording); !s) return s;
+  if (auto s = find_plates(source, recording); !s) return s;
   if (auto s = take_selection(options.selection, recording.trial); !s)
     return fail_at(source.path.string(), s.error());
-  if (source.plates) recording.plates = plates_of(source.path, recording.trial);
+  if (recording.plates && recording.plates->time != recording.trial.markers.time)
+    recording.plates = resample(*recording.plates, recording.trial.markers.time);
   if (source.turns) turn_axes(options, recording);
   return {};
 }

@@ -61,6 +61,8 @@ struct RecordingSource {
   bool needs_samples = false;           ///< refuse a file without markers or without frames
   bool record = false;                  ///< size and checksum, which reads the file once more
   bool plates = false;                  ///< forces of its plates are wanted
+  double contact_force_n = 0.0;         ///< below which a plate is empty (io::PlateOptions); 0: never
+  std::filesystem::path forces = {};    ///< file that holds them instead; empty: its own plates
   bool turns = true;                    ///< false: the job itself turns it, into the axes of a model
   bool force = false;                   ///< apply edits of another recording too
   std::uint64_t seed = 1;               ///< of fills among the edits
@@ -71,11 +73,13 @@ struct RecordingSource {
 struct Recording {
   data::Trial trial;  ///< its warnings stay those of the reader
   std::optional<data::Wrenches>
-      plates;                      ///< forces of its plates on its frames; none: not wanted, or not there
-  data::InputFile file;            ///< role "markers"; bytes and hash only when asked for
-  EditsTaken edits;                ///< that were applied
-  bool rate_known = true;          ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
-  std::vector<std::string> notes;  ///< what was done to it, one sentence each
+      plates;                ///< forces of its plates on its frames; none: not wanted, or not there
+  std::string plates_fault;  ///< why those that are there have no forces; empty: they do
+  data::InputFile file;      ///< role "markers"; bytes and hash only when asked for
+  std::vector<data::InputFile> forces;  ///< files of RecordingSource::forces, role "forces"
+  EditsTaken edits;                     ///< that were applied
+  bool rate_known = true;               ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
+  std::vector<std::string> notes;       ///< what was done to it, one sentence each
 };
 
 /// The recording as its file has it: the first half of open_recording(), for jobs that do something in

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
@@ -52,6 +54,32 @@ TEST_F(RecordingTest, IsAsItsFileHasItWhereNothingIsAskedFor) {
   EXPECT_THAT(recording->notes, IsEmpty());
   EXPECT_TRUE(recording->rate_known);
   EXPECT_FALSE(recording->plates);
+}
+
+TEST_F(RecordingTest, ForcesOfATableStandForThoseOfPlates) {
+  const auto& time = trial_.markers.time;
+  std::string text = "ground reactions\nendheader\ntime";
+  for (const char* name : {"v", "p"})
+    for (const char axis : {'x', 'y', 'z'}) text += std::string("\tground_force_") + name + axis;
+  for (std::int64_t f = 0; f < time.frames; ++f)
+    text += "\n" + std::to_string(time.time_s(f)) + "\t0\t0\t" + std::to_string(100 + f) + "\t0.1\t0.2\t0";
+  ASSERT_TRUE(io::write_text(scratch_ / "grf.mot", text + "\n", false));
+  RecordingOptions part;
+  part.selection.first_time_s = time.time_s(3) - 1e-4;
+  const auto recording =
+      open_recording({.path = path_, .plates = true, .forces = scratch_ / "grf.mot"}, part);
+  ASSERT_TRUE(recording) << recording.error().message;
+  ASSERT_TRUE(recording->plates);
+  EXPECT_EQ(recording->plates->time, recording->trial.markers.time);
+  EXPECT_NEAR(recording->plates->items.at(0).force[2], 103.0, 1e-3);
+  EXPECT_THAT(recording->notes, Contains(HasSubstr("forces are those of ")));
+  ASSERT_EQ(recording->forces.size(), 1U);
+  EXPECT_EQ(recording->forces[0].role, "forces");
+  const auto own = open_recording({.path = path_, .plates = true}, {});
+  EXPECT_FALSE(own->plates);
+  EXPECT_THAT(own->notes, Not(Contains(HasSubstr("forces are those of "))));
+  EXPECT_EQ(open_recording({.path = path_, .plates = true, .forces = scratch_ / "none.mot"}, {}).error().code,
+            Code::io);
 }
 
 TEST_F(RecordingTest, TheJournalBesideItIsAppliedUnlessThatIsRefused) {

@@ -20,28 +20,28 @@
 namespace kinemark::pipeline {
 namespace {
 
-using Json = nlohmann::json;
+using JsonValue = nlohmann::json;
 
 constexpr std::size_t kMostBytes = 64UL << 20;
 
 /// A member of an object, or null.
-const Json& member(const Json& object, const char* name) {
-  static const Json kNull;
+const JsonValue& member(const JsonValue& object, const char* name) {
+  static const JsonValue kNull;
   const auto found = object.find(name);
   return found == object.end() ? kNull : *found;
 }
 
-std::string text_of(const Json& object, const char* name) {
-  const Json& value = member(object, name);
+std::string text_of(const JsonValue& object, const char* name) {
+  const JsonValue& value = member(object, name);
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-double number_of(const Json& object, const char* name) {
-  const Json& value = member(object, name);
+double number_of(const JsonValue& object, const char* name) {
+  const JsonValue& value = member(object, name);
   return value.is_number() ? value.get<double>() : kNaN;
 }
 
-bool fill(const Json& list, std::span<double, 3> out) {
+bool fill(const JsonValue& list, std::span<double, 3> out) {
   if (!list.is_array() || list.size() != out.size()) return false;
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!list[k].is_number() && !list[k].is_null()) return false;
@@ -55,16 +55,16 @@ class Reader {
  public:
   explicit Reader(const std::string& name) : name_(name) {}
 
-  Result<SkeletonFile> read(const Json& json) {
+  Result<SkeletonFile> read(const JsonValue& json) {
     if (!json.is_object() || text_of(json, "schema") != "kinemark.skeleton")
       return fail(Code::bad_input,
                   fmt::format("{}: not a skeleton.json; need one that 'kinemark joints' wrote", name_));
     auto& skeleton = out_.skeleton;
     skeleton.time = {.rate_hz = 1.0, .t0_s = 0.0, .frames = 0};
     skeleton.noise_sd_m = number_of(json, "noise_sd_m");
-    if (const Json& input = member(json, "input"); input.is_object())
+    if (const JsonValue& input = member(json, "input"); input.is_object())
       out_.recording = {.role = "markers", .path = text_of(input, "path"), .hash = text_of(input, "xxh3_64")};
-    const Json &segments = member(json, "segments"), &joints = member(json, "joints");
+    const JsonValue &segments = member(json, "segments"), &joints = member(json, "joints");
     if (!segments.is_array()) return wrong("segments", "a list of segments");
     if (!joints.is_array()) return wrong("joints", "a list of joints");
     for (std::size_t s = 0; s < segments.size(); ++s)
@@ -83,7 +83,7 @@ class Reader {
     return fail(Code::bad_input, fmt::format("{}: {}: need {}", name_, place, need));
   }
 
-  Status read_segment(const Json& json, const std::string& place) {
+  Status read_segment(const JsonValue& json, const std::string& place) {
     if (!json.is_object()) return wrong(place, "an object");
     data::SkeletonSegment segment{.name = text_of(json, "name")};
     if (segment.name.empty()) return wrong(place + ".name", "a name");
@@ -94,7 +94,7 @@ class Reader {
         known = true;
       }
     if (!known) return wrong(place + ".kind", "\"line\", \"plane\" or \"solid\"");
-    const Json& markers = member(json, "markers");
+    const JsonValue& markers = member(json, "markers");
     if (!markers.is_array()) return wrong(place + ".markers", "a list of markers");
     segment.x_in_segment.resize(3, std::ssize(markers));
     for (std::size_t m = 0; m < markers.size(); ++m) {
@@ -117,7 +117,7 @@ class Reader {
     return {};
   }
 
-  Status read_joint(const Json& json, const std::string& place) {
+  Status read_joint(const JsonValue& json, const std::string& place) {
     if (!json.is_object()) return wrong(place, "an object");
     data::SkeletonJoint joint{.name = text_of(json, "name"),
                               .method = text_of(json, "method"),
@@ -138,7 +138,7 @@ class Reader {
                                      {"centre_in_child_m", &joint.centre_in_child},
                                      {"axis_in_parent", &joint.axis_in_parent},
                                      {"axis_in_child", &joint.axis_in_child}})
-      if (const Json& list = member(json, key); !list.is_null()) {
+      if (const JsonValue& list = member(json, key); !list.is_null()) {
         std::array<double, 3> x{};
         if (!fill(list, x)) return wrong(fmt::format("{}.{}", place, key), "three numbers");
         *value = Eigen::Vector3d(x[0], x[1], x[2]);
@@ -159,7 +159,7 @@ class Reader {
     return {};
   }
 
-  Status read_matrix(const Json& rows, const std::string& place, Eigen::Matrix3d& out) const {
+  Status read_matrix(const JsonValue& rows, const std::string& place, Eigen::Matrix3d& out) const {
     out.setConstant(kNaN);
     if (rows.is_null()) return {};
     if (!rows.is_array() || rows.size() != 3) return wrong(place, "three rows");
@@ -179,7 +179,7 @@ class Reader {
 }  // namespace
 
 Result<SkeletonFile> parse_skeleton(std::string_view text, const std::string& name) {
-  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const JsonValue json = JsonValue::parse(text, nullptr, /*allow_exceptions=*/false);
   if (json.is_discarded())
     return fail(Code::bad_input, fmt::format("{}: not JSON; need a skeleton.json", name));
   return Reader(name).read(json);

@@ -173,8 +173,10 @@ void turn(data::Trial& trial, const Matrix3d& to_from) {
 
 void turn(data::Wrenches& wrenches, const Matrix3d& to_from) {
   if (to_from.isIdentity(0.0)) return;
-  for (auto& wrench : wrenches.items)
+  for (auto& wrench : wrenches.items) {
     for (auto* values : {&wrench.force, &wrench.moment, &wrench.point}) turn_triples(*values, to_from);
+    for (auto& corner : wrench.corners_in_world) corner = turned(to_from, corner);
+  }
 }
 
 }  // namespace kinemark::pipeline

@@ -60,11 +60,13 @@ Status check_options(const JointsJob& job) {
 
 /// Only what was really seen, without what screening is sure of, unless the job says otherwise; and a
 /// sentence on each.
-Status screen_trial(const JointsJob& job, data::Trial& trial, JointsOutcome& outcome) {
+Status screen_trial(const JointsJob& job, const EditsTaken& edits, data::Trial& trial,
+                    JointsOutcome& outcome) {
   const auto screening = screen_markers(trial, {.find_upsampling = !job.keep_upsampled,
                                                 .recorder_made = RecorderMade::missing,
                                                 .find_defects = job.drops_doubtful(true),
                                                 .exchange_back = true,
+                                                .swapped = edits.swapped,
                                                 .reject_defects = true,
                                                 .most_rejected = kMostDefects,
                                                 .made_first = true});
@@ -290,7 +292,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   if (auto note = data::note_on_noise(trial.markers); !note.empty() && job.noise_sd_m == 0.0)
     outcome.warnings.push_back(std::move(note));
   const std::string name = job.input.string();
-  if (auto s = screen_trial(job, trial, outcome); !s) return fail_at(name, s.error());
+  if (auto s = screen_trial(job, recording->edits, trial, outcome); !s) return fail_at(name, s.error());
   if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());

@@ -126,7 +126,8 @@ Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_
   auto input = read_marker_input(
       {.path = path, .rate_hz = rate_hz, .rate = RateRule::where_needed, .needs_samples = true});
   if (!input) return std::unexpected(input.error());
-  LiveSource out{.name = std::string(argument), .title = printable(path.filename().string(), 200)};
+  LiveSource out{
+      .name = std::string(argument), .title = printable(path.filename().string(), 200), .file = path};
   if (!model_file.empty()) {
     auto model = read_model(model_file);
     if (!model) return std::unexpected(model.error());

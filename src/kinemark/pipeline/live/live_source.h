@@ -19,6 +19,7 @@ namespace kinemark::pipeline {
 struct LiveSource {
   std::string name;                               ///< as given: "sim:walk?seconds=30"
   std::string title;                              ///< for a heading: "Simulated walk", "trial.c3d"
+  std::filesystem::path file = {};                ///< that is replayed; empty: none
   data::Trajectories markers;                     ///< time.rate_hz frames come in a second
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< away from the floor, length 1
   std::string up_from;                            ///< who says so; empty: nobody

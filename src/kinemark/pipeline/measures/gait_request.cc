@@ -79,10 +79,8 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool draw
 Result<analysis::Gait> measure_gait(const Recording& recording, const analysis::GaitOptions& options) {
   const auto& trial = recording.trial;
   const auto& plates = recording.plates;
-  analysis::GaitEvidence evidence{
-      .plates = plates ? &*plates : nullptr, .corners = {}, .events = trial.events};
-  for (const auto& plate : trial.force_plates) evidence.corners.push_back(plate.corners_in_world);
-  return analysis::analyze_gait(trial.markers, evidence, options);
+  return analysis::analyze_gait(trial.markers,
+                                {.plates = plates ? &*plates : nullptr, .events = trial.events}, options);
 }
 
 nlohmann::ordered_json gait_json(const analysis::Gait& gait) {

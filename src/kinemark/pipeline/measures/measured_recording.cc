@@ -35,7 +35,9 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, Recording& rec
                                           MeasuresOutcome& outcome) {
   std::ranges::move(recording.notes, std::back_inserter(outcome.warnings));
   std::ranges::move(std::exchange(recording.trial.warnings, {}), std::back_inserter(outcome.warnings));
-  if (auto s = leave_out_defects(recording.trial, !job.drops_doubtful(true), outcome.warnings); !s)
+  if (auto s = leave_out_defects(recording.trial, !job.drops_doubtful(true), recording.edits.swapped,
+                                 outcome.warnings);
+      !s)
     return std::unexpected(s.error());
   return regions_of(job, recording.trial, std::move(recording.edits.regions));
 }
@@ -171,10 +173,14 @@ void note_aimless(const MeasuresOutcome& outcome, std::vector<std::string>& note
 }  // namespace
 
 Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasures asked) {
+  if (!job.forces.empty() && !asked.walking && !asked.forces)
+    return fail(Code::usage, fmt::format("--forces: nothing that is asked for of {} is measured from forces",
+                                         job.input.string()));
   const RecordingSource source{.path = job.input,
                                .needs_samples = true,
                                .record = true,
                                .plates = asked.walking || asked.forces,
+                               .forces = job.forces,
                                .force = job.force,
                                .seed = job.seed,
                                .threads = job.threads};

@@ -201,11 +201,11 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   if (!norms) return std::unexpected(norms.error());
   const auto recording = files_of(job.input, job);
   read.insert(read.end(), recording.begin(), recording.end());
-  for (const auto& path : {job.gait.angles, job.participants_file}) read.push_back(path);
+  for (const auto& path : {job.gait.angles, job.participants_file, job.forces}) read.push_back(path);
   auto staging = Staging::create(targets, job.force, read);
   if (!staging) return std::unexpected(staging.error());
   auto others = recording;
-  others.push_back(job.output);
+  others.insert(others.end(), {job.output, job.forces});
   auto page = PageFile::begin(job.report, others, job.force);
   if (!page) return std::unexpected(page.error());
   auto measured = measure_recording(job, std::move(*asked));

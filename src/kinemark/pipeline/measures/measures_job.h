@@ -29,10 +29,11 @@ namespace kinemark::pipeline {
 /// are of paths, too. Paths that are empty are not used. Doubtful samples are dropped unless they are to be
 /// kept.
 struct MeasuresJob : JobSettings, RecordingOptions, MeasureChoice, GaitOutputs {
-  std::filesystem::path input;                       ///< marker file
-  std::filesystem::path output;                      ///< .csv, .json or .nwb
-  double noise_sd_m = 0.0;                           ///< per axis; 0: found from the samples
-  EmgRequest emg;                                    ///< electromyograms
+  std::filesystem::path input;   ///< marker file
+  std::filesystem::path output;  ///< .csv, .json or .nwb
+  std::filesystem::path forces;  ///< read_external_forces() instead of the recording's plates; empty: these
+  double noise_sd_m = 0.0;       ///< per axis; 0: found from the samples
+  EmgRequest emg;                ///< electromyograms
   std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
   std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "kinemark/core/version.h"
+#include "kinemark/io/plates/plate_forces.h"
+#include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/stages/report/markers_report.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+#include "kinemark/pipeline/motion/internal/page_forces.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -33,20 +36,32 @@ Json changes_json(const std::vector<trajectory::MarkerChange>& changes) {
   return out;
 }
 
+/// Forces of the plates as they were recorded, on the clock of what edits left; what is wrong is a remark.
+data::Wrenches forces_of(const EditSession& session, std::vector<std::string>& remarks) {
+  const auto& recorded = session.recorded().trial;
+  if (recorded.force_plates.empty()) return {};
+  const auto forces = io::plate_forces(recorded, {.contact_force_n = internal::kContact_n});
+  if (forces) return resample(forces->wrenches, session.now().markers.time);
+  remarks.push_back(internal::no_forces(forces.error().message));
+  return {};
+}
+
 /// What a report of the session holds, and what it refers to.
 struct EditedReport {
-  explicit EditedReport(const EditSession& session)
-      : parts(markers_page_parts(session.recorded().file.path, session.recorded().trial, session.now())) {
+  explicit EditedReport(const EditSession& session) {
+    std::vector<std::string> remarks;
+    forces = forces_of(session, remarks);
+    const auto vertical = vertical_without_model(session.recorded().trial);
     report = {.trial = std::filesystem::path(session.recorded().file.path).filename().string(),
               .version = std::string(kVersion),
               .recording = &session.now(),
-              .up = parts.vertical.up,
-              .up_from = parts.vertical.from,
+              .up = vertical.up,
+              .up_from = vertical.from,
               .inputs = {session.recorded().file},
-              .warnings = parts.remarks,
+              .warnings = std::move(remarks),
               .cycles = internal::cycle_spans(session.now().events, session.now().markers.time),
               .editing = editing_json(session)};
-    if (!parts.forces.items.empty()) report.forces = &parts.forces;
+    if (!forces.items.empty()) report.forces = &forces;
     if (session.outcome().in_force.empty()) return;
     before = trajectory::aligned_to(session.recorded().trial, session.now());
     report.before = &before;
@@ -54,7 +69,7 @@ struct EditedReport {
   EditedReport(const EditedReport&) = delete;
   EditedReport& operator=(const EditedReport&) = delete;
 
-  MarkersPageParts parts;
+  data::Wrenches forces;
   data::Trajectories before;
   report::MarkersReport report;
 };

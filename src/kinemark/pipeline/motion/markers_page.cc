@@ -14,20 +14,20 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/files/marker_screening.h"
-#include "kinemark/pipeline/files/turn.h"
-#include "kinemark/pipeline/motion/external_forces.h"
 #include "kinemark/stages/report/markers_report.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
+#include "kinemark/pipeline/motion/internal/page_forces.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using Eigen::Vector3d;
+using internal::kContact_n;
+using internal::no_forces;
 
 constexpr double kStandingHeight_m = 0.8, kFarther = 1.2;
 constexpr std::int64_t kLeastStanding = 5, kFramesLookedAt = 50;
-constexpr double kContact_n = 20.0;
 
 /// How far the markers of a frame reach along each axis; none with too few of them.
 std::optional<Vector3d> extent_in(const data::Trajectories& markers, std::int64_t f) {
@@ -65,16 +65,6 @@ std::optional<Vertical> vertical_of_extent(const data::Trajectories& markers) {
   return std::nullopt;
 }
 
-/// Forces of the plates on the markers' clock; what is wrong with them is a remark.
-data::Wrenches plate_forces(const std::filesystem::path& path, const data::Trial& trial,
-                            std::vector<std::string>& remarks) {
-  if (trial.force_plates.empty() || trial.format != "C3D") return {};
-  auto forces = read_external_forces(path, trial.markers.time, kContact_n);
-  if (forces) return std::move(forces->wrenches);
-  remarks.push_back(fmt::format("no forces are shown: {}", forces.error().message));
-  return {};
-}
-
 }  // namespace
 
 Vertical vertical_without_model(const data::Trial& trial) {
@@ -84,23 +74,20 @@ Vertical vertical_without_model(const data::Trial& trial) {
   return {Vector3d::UnitZ(), ""};
 }
 
-MarkersPageParts markers_page_parts(const std::filesystem::path& path, const data::Trial& recorded,
-                                    const data::Trial& trial) {
-  MarkersPageParts parts;
-  parts.forces = plate_forces(path, trial, parts.remarks);
-  parts.vertical = vertical_without_model(recorded);
-  return parts;
-}
-
 Result<std::string> markers_page(const std::filesystem::path& path, const MarkersPageOptions& options) {
-  auto recording = open_recording(
-      {.path = path, .skeleton = options.skeleton, .rate = RateRule::or_unknown, .record = true},
-      options.recording);
+  auto recording = open_recording({.path = path,
+                                   .skeleton = options.skeleton,
+                                   .rate = RateRule::or_unknown,
+                                   .record = true,
+                                   .plates = true,
+                                   .contact_force_n = kContact_n},
+                                  options.recording);
   if (!recording) return std::unexpected(recording.error());
   auto& trial = recording->trial;
   std::vector<std::string> notes = recording->notes;
   if (options.recording.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, notes); !s) return fail_at(path.string(), s.error());
+    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
+      return fail_at(path.string(), s.error());
   report::MarkersReport report{.trial = path.filename().string(),
                                .version = std::string(kVersion),
                                .command_line = options.command_line,
@@ -110,14 +97,12 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
                                .cycles = internal::cycle_spans(trial.events, trial.markers.time),
                                .editing = options.editing};
   if (recording->edits.file) report.inputs.push_back(*recording->edits.file);
-  auto parts = markers_page_parts(path, trial, trial);
-  if (!options.recording.axes.rotate.empty())
-    turn(parts.forces, parse_rotation(options.recording.axes.rotate).value());
   report.warnings = std::move(notes);
-  std::ranges::move(parts.remarks, std::back_inserter(report.warnings));
-  if (!parts.forces.items.empty()) report.forces = &parts.forces;
-  report.up = parts.vertical.up;
-  report.up_from = parts.vertical.from;
+  if (!recording->plates_fault.empty()) report.warnings.push_back(no_forces(recording->plates_fault));
+  if (recording->plates && !recording->plates->items.empty()) report.forces = &*recording->plates;
+  const auto vertical = vertical_without_model(trial);
+  report.up = vertical.up;
+  report.up_from = vertical.from;
   if (const auto stated = stated_vertical(options.recording.axes)) {
     report.up = stated->up;
     report.up_from = stated->from;

@@ -9,7 +9,6 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
-#include "kinemark/data/wrenches.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/vertical.h"
 
@@ -28,18 +27,6 @@ struct MarkersPageOptions {
 /// along which the markers reach farthest in most frames, when they reach over 0.8 m there and 1.2 times as
 /// far as along the others; else z, and `from` is empty.
 [[nodiscard]] Vertical vertical_without_model(const data::Trial& trial);
-
-/// What a page of a recording shows around its samples.
-struct MarkersPageParts {
-  data::Wrenches forces;             ///< of the plates, on the markers' clock
-  Vertical vertical;                 ///< up
-  std::vector<std::string> remarks;  ///< why no forces are shown
-};
-
-/// Forces of plates on the clock of `trial`, which was read from `path` and maybe edited since, and which way
-/// is up in `recorded`, what was read. Forces that cannot be read are a remark.
-[[nodiscard]] MarkersPageParts markers_page_parts(const std::filesystem::path& path,
-                                                  const data::Trial& recorded, const data::Trial& trial);
 
 /// HTML of a marker file as it is: any that read_marker_input() reads, decided by its content. Forces of
 /// plates that cannot be read are a remark on the page. Fails as the reader.

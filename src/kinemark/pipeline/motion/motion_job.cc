@@ -16,6 +16,7 @@
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
+#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
@@ -75,6 +76,9 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
                                  .threads = job.threads},
                                 options);
   if (!markers) return std::unexpected(markers.error());
+  auto made = note_on_upsampling(markers->trial.markers);
+  if (!made) return fail_at(job.markers.string(), made.error());
+  if (!made->empty()) markers->trial.warnings.push_back(std::move(*made));
   auto axes = bring_into_axes(job.axes, job.markers, markers->trial, model->model);
   if (!axes) return std::unexpected(axes.error());
   if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))

@@ -13,9 +13,9 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
+#include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/files/turn.h"
 #include "kinemark/pipeline/files/vertical.h"
-#include "kinemark/pipeline/motion/external_forces.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -71,8 +71,7 @@ std::map<std::string, double> moments_under(const std::string& s, double side, c
                                                {s + "StaticPlantFlex", 0.0, "test"},
                                                {s + "StaticRotOff", 0.0, "test"},
                                                {"Bodymass", kBody_kg, "test"}}};
-  const auto loads =
-      analysis::find_joint_loads(definition, input, {.plates = &plates, .corners = {}}, {.refits = 0});
+  const auto loads = analysis::find_joint_loads(definition, input, plates, {.refits = 0});
   EXPECT_TRUE(loads) << loads.error().message;
   std::map<std::string, double> out;
   for (const auto& series : loads->series)

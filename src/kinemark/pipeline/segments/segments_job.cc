@@ -67,6 +67,7 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
                               .needs_samples = true,
                               .record = true,
                               .plates = path == job.input,
+                              .forces = path == job.input ? job.forces : fs::path{},
                               .force = job.force,
                               .seed = job.seed,
                               .threads = job.threads},
@@ -74,9 +75,12 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
   if (!read) return std::unexpected(read.error());
   outcome.inputs.push_back(std::move(read->file));
   if (read->edits.file) outcome.inputs.push_back(*read->edits.file);
+  std::ranges::move(read->forces, std::back_inserter(outcome.inputs));
   std::ranges::move(std::exchange(read->trial.warnings, {}), std::back_inserter(outcome.warnings));
   std::ranges::move(read->notes, std::back_inserter(outcome.warnings));
-  if (auto s = leave_out_defects(read->trial, !job.drops_doubtful(true), outcome.warnings); !s)
+  if (auto s =
+          leave_out_defects(read->trial, !job.drops_doubtful(true), read->edits.swapped, outcome.warnings);
+      !s)
     return fail_at(path.string(), s.error());
   return read;
 }
@@ -239,9 +243,7 @@ Status find_loads(const SegmentsJob& job, const analysis::SegmentDefinition& def
                   const analysis::SegmentOptions& options, SegmentsOutcome& outcome) {
   const auto& plates = recording.plates;
   if (!plates || input.static_trial == input.markers) return {};
-  analysis::PlateEvidence evidence{.plates = &*plates, .corners = {}};
-  for (const auto& plate : recording.trial.force_plates) evidence.corners.push_back(plate.corners_in_world);
-  auto loads = analysis::find_joint_loads(definition, input, evidence,
+  auto loads = analysis::find_joint_loads(definition, input, *plates,
                                           {.segments = options, .refits = job.refits, .seed = job.seed});
   if (!loads) return fail_at(job.input.string(), loads.error());
   outcome.loads = std::move(*loads);
@@ -254,7 +256,8 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
                                  "centres.csv", "segments.c3d",  "segments.json"};
   if (!outcome.loads.series.empty())
     for (const auto* name : {"loads.sto", "loads_sd.sto", "loads.csv"}) names.emplace_back(name);
-  auto staging = Staging::create_in(job.output, names, job.force, {job.input, job.static_trial, job.vsk});
+  auto staging =
+      Staging::create_in(job.output, names, job.force, {job.input, job.static_trial, job.vsk, job.forces});
   if (!staging) return std::unexpected(staging.error());
   const auto& motion = outcome.motion;
   const SeriesList angles = series_of(motion), loads = series_of(outcome.loads);

@@ -204,6 +204,35 @@ Status read_events(const MatPlace& in, std::vector<data::Event>& out) {
   return {};
 }
 
+/// What files have that were written since forces are computed from them.
+Status read_plate_context(const MatPlace& in, std::int64_t i, data::ForcePlate& out) {
+  out.number = static_cast<int>(std::min<std::int64_t>(i + 1, 255));
+  if (const auto number = in("number", i)) {
+    const auto value = number.whole(1, 255);
+    if (!value) return std::unexpected(value.error());
+    out.number = static_cast<int>(*value);
+  }
+  if (const auto metres = in("metres_per_unit", i)) {
+    const auto value = metres.number();
+    if (!value) return std::unexpected(value.error());
+    if (!(*value > 0.0 && *value < 1e3))
+      return metres.bad(fmt::format("is {}; need a length in metres", *value));
+    out.metres_per_unit = *value;
+  }
+  return {};
+}
+
+/// First and last time in which nobody loads the plates.
+Status read_unloaded(const MatPlace& in, std::array<double, 2>& out) {
+  if (!in) return {};
+  const auto times = in.numbers({1, 2});
+  if (!times) return std::unexpected(times.error());
+  if (!std::isfinite((*times)[0]) || !std::isfinite((*times)[1]))
+    return in.bad(fmt::format("is from {} to {} s; need two times", (*times)[0], (*times)[1]));
+  out = {(*times)[0], (*times)[1]};
+  return {};
+}
+
 Status read_plate(const MatPlace& in, std::int64_t i, std::int64_t channels, data::ForcePlate& out) {
   const auto type = in("type", i).whole(0, 255);
   if (!type) return std::unexpected(type.error());
@@ -223,7 +252,9 @@ Status read_plate(const MatPlace& in, std::int64_t i, std::int64_t channels, dat
   }
   const auto numbers = calibration ? calibration.array->numbers() : Array<double>();
   out.calibration.assign(numbers.begin(), numbers.end());
-  return {};
+  if (!numbers.empty() && !calibration.array->dims.empty())
+    out.calibration_rows = static_cast<int>(std::min<std::int64_t>(calibration.array->dims[0], 255));
+  return read_plate_context(in, i, out);
 }
 
 }  // namespace
@@ -261,6 +292,7 @@ Result<data::Trial> read_own_struct(const MatArray& array) {
        ++i)
     if (auto s = read_plate(plates, i, std::ssize(trial.analog.names), trial.force_plates.emplace_back()); !s)
       return std::unexpected(s.error());
+  if (auto s = read_unloaded(in("unloaded"), trial.unloaded_s); !s) return std::unexpected(s.error());
   return trial;
 }
 

@@ -62,10 +62,16 @@ inline data::Trial full_trial() {
   for (int i = 0; i < 12; ++i) t.analog.values.push_back(i - 0.1);
   t.events = {{.label = "Foot Strike", .context = "Left", .time_s = 0.11},
               {.label = "Foot Off", .context = "", .time_s = 0.12}};
-  data::ForcePlate plate{.type = 4, .origin_in_plate = {0.1, 0.2, -0.03}, .channel_idx = {0, 1}};
+  data::ForcePlate plate{.number = 2,
+                         .type = 4,
+                         .origin_in_plate = {0.1, 0.2, -0.03},
+                         .channel_idx = {0, 1},
+                         .calibration_rows = 6,
+                         .metres_per_unit = 1.0};
   for (int c = 0; c < 4; ++c) plate.corners_in_world[c] = Eigen::Vector3d(c, 0.5 * c, -0.25 * c);
   for (int i = 0; i < 36; ++i) plate.calibration.push_back(i);
-  t.force_plates = {plate, {.type = 2}};
+  t.force_plates = {plate, {.number = 3, .type = 2}};
+  t.unloaded_s = {0.25, 0.5};
   return t;
 }
 

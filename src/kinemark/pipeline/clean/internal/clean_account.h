@@ -19,6 +19,8 @@ inline constexpr double kRejectConfidence = 0.8;
 void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling);
 /// What becomes of what screening found: sure label swaps are exchanged back, other sure defects taken out,
 /// as the job says, except clock jumps, which have no wrong samples.
-[[nodiscard]] std::vector<data::Defect> settle_defects(const CleanJob& job, std::vector<data::Finding> found);
+[[nodiscard]] std::vector<data::Defect> settle_defects(std::vector<data::Finding> found,
+                                                       std::span<const data::Finding> exchanged,
+                                                       std::span<const data::Finding> rejected);
 
 }  // namespace kinemark::pipeline::internal

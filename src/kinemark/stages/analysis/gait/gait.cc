@@ -313,7 +313,7 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
   if (evidence.plates != nullptr)
-    of_plates = find_plate_events(*evidence.plates, evidence.corners, smoother->paths(), smoother->upright());
+    of_plates = find_plate_events(*evidence.plates, smoother->paths(), smoother->upright());
   std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
   auto of_file = events_of_file(evidence.events, markers.time);
   std::ranges::move(of_file.notes, std::back_inserter(out.notes));

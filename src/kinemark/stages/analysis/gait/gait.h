@@ -38,9 +38,8 @@ struct GaitOptions {
 /// What a recording tells of walking besides its markers.
 struct GaitEvidence {
   const data::Wrenches* plates =
-      nullptr;                        ///< on the recording's clock, not cut off at a threshold; may be absent
-  std::vector<PlateCorners> corners;  ///< of all plates
-  std::vector<data::Event> events;    ///< the file's own
+      nullptr;                      ///< on the recording's clock, not cut off at a threshold; may be absent
+  std::vector<data::Event> events;  ///< the file's own
 };
 
 /// Walking.

@@ -101,7 +101,8 @@ double share_beside(const Plate& plate, const Contact& contact, const FootPaths&
 }
 
 // How far a point lies beyond the edges of a quadrilateral; negative within.
-double outside(const PlateCorners& corners, const Eigen::Matrix3d& upright, const Vector2d& point) {
+double outside(const std::vector<Eigen::Vector3d>& corners, const Eigen::Matrix3d& upright,
+               const Vector2d& point) {
   std::array<Vector2d, 4> c;
   Vector2d middle = Vector2d::Zero();
   for (std::size_t i = 0; i < 4; ++i) c[i] = (upright * corners[i]).head<2>(), middle += 0.25 * c[i];
@@ -116,17 +117,14 @@ double outside(const PlateCorners& corners, const Eigen::Matrix3d& upright, cons
 }
 
 // Whether heel and toe lie within the plate in the middle of the contact.
-bool wholly_on(const std::vector<PlateCorners>& corners, const Plate& plate, const Contact& contact,
-               const FootPaths& foot, const Eigen::Matrix3d& upright) {
+bool wholly_on(const Plate& plate, const Contact& contact, const FootPaths& foot,
+               const Eigen::Matrix3d& upright) {
+  const auto& corners = plate.wrench->corners_in_world;
   if (corners.empty()) return true;
   const auto f = (2 * contact.first + contact.last) / 3;
-  const Vector2d centre = plate.centre(f, upright).head<2>(), heel = foot.heel.row(f).leftCols<2>(),
-                 toe = foot.toe.row(f).leftCols<2>();
-  const auto* best = &corners.front();
-  for (const auto& one : corners)
-    if (outside(one, upright, centre) < outside(*best, upright, centre)) best = &one;
+  const Vector2d heel = foot.heel.row(f).leftCols<2>(), toe = foot.toe.row(f).leftCols<2>();
   const double most = foot.points ? kOutside_m : -kRestOfFoot_m;
-  return outside(*best, upright, heel) < most && outside(*best, upright, toe) < most;
+  return outside(corners, upright, heel) < most && outside(corners, upright, toe) < most;
 }
 
 // Seconds, and their SD, at which the load rises above and falls below what is a contact.
@@ -150,8 +148,8 @@ std::array<data::GaitEvent, 2> events_of(const Plate& plate, const Contact& cont
 
 }  // namespace
 
-PlateEvents find_plate_events(const data::Wrenches& plates, const std::vector<PlateCorners>& corners,
-                              const GaitPaths& paths, const Eigen::Matrix3d& upright) {
+PlateEvents find_plate_events(const data::Wrenches& plates, const GaitPaths& paths,
+                              const Eigen::Matrix3d& upright) {
   PlateEvents out;
   const auto frames = std::min(plates.frames(), paths.frames());
   for (const auto& wrench : plates.items) {
@@ -170,7 +168,7 @@ PlateEvents find_plate_events(const data::Wrenches& plates, const std::vector<Pl
           stands = stands ? std::nullopt : std::optional(side);
       if (!stands)
         note("the force does not stay under one foot");
-      else if (!wholly_on(corners, plate, contact, paths.foot(*stands), upright))
+      else if (!wholly_on(plate, contact, paths.foot(*stands), upright))
         note("the foot was not wholly on the plate");
       else
         for (auto& event : events_of(plate, contact, *stands, paths)) out.events.push_back(std::move(event));

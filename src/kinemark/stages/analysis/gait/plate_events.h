@@ -14,9 +14,6 @@
 
 namespace kinemark::analysis {
 
-/// Corners of a plate, m, in the recording's axes.
-using PlateCorners = std::array<Eigen::Vector3d, 4>;
-
 /// What plates saw.
 struct PlateEvents {
   std::vector<data::GaitEvent> events;  ///< by plate and time
@@ -30,11 +27,9 @@ struct PlateEvents {
 /// Their SD is a fifth of a frame, 2 ms and the noise over the slope, together.
 ///
 /// @param plates   vertical forces that were not cut off at a threshold (contact_force_n 0), recording's
-///                 clock and axes
-/// @param corners  of all plates; empty: whether a foot stands wholly on one is not asked
+///                 clock and axes; whether a foot stands wholly on one without corners is not asked
 /// @param upright  rotation to z up, GaitSmoother::upright()
-[[nodiscard]] PlateEvents find_plate_events(const data::Wrenches& plates,
-                                            const std::vector<PlateCorners>& corners, const GaitPaths& paths,
+[[nodiscard]] PlateEvents find_plate_events(const data::Wrenches& plates, const GaitPaths& paths,
                                             const Eigen::Matrix3d& upright);
 
 }  // namespace kinemark::analysis

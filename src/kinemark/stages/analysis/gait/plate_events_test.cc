@@ -24,11 +24,14 @@ class PlateEventsTest : public ::testing::Test {
         smoother_(GaitSmoother::create(markers_, find_gait_markers(markers_).value(), 0.0).value()) {
     plates_.time = markers_.time;
   }
-  PlateEvents find(const std::vector<PlateCorners>& corners = {}) const {
-    return find_plate_events(plates_, corners, smoother_.paths(), smoother_.upright());
+  PlateEvents find() const { return find_plate_events(plates_, smoother_.paths(), smoother_.upright()); }
+  // With these corners of the first plate.
+  PlateEvents find(const std::vector<Eigen::Vector3d>& corners) {
+    plates_.items[0].corners_in_world = corners;
+    return find();
   }
   // A square around a place.
-  static PlateCorners square(const Eigen::Vector3d& at, double half) {
+  static std::vector<Eigen::Vector3d> square(const Eigen::Vector3d& at, double half) {
     return {Eigen::Vector3d(at + Eigen::Vector3d(half, half, 0)),
             Eigen::Vector3d(at + Eigen::Vector3d(-half, half, 0)),
             Eigen::Vector3d(at + Eigen::Vector3d(-half, -half, 0)),
@@ -86,11 +89,14 @@ TEST_F(PlateEventsTest, AFootAcrossTheEdgeTellsNothing) {
   plates_.items = {walk_.plate("plate 1", Side::left, 2)};
   const auto foot = walk_.foot_at(Side::left, walk_.strike_s(Side::left, 2) + 0.25);
   const Eigen::Vector3d middle = 0.5 * (foot[0] + foot[1]);
-  EXPECT_EQ(find({square(middle, 0.3)}).events.size(), 2u);
-  const auto across = find({square(foot[0], 0.1)});
+  EXPECT_EQ(find(square(middle, 0.3)).events.size(), 2u);
+  const auto across = find(square(foot[0], 0.1));
   EXPECT_TRUE(across.events.empty());
   ASSERT_EQ(across.notes.size(), 1u);
   EXPECT_NE(across.notes[0].find("not wholly on the plate"), std::string::npos);
+  // A plate beside it, of which another would be the first, changes nothing.
+  plates_.items.insert(plates_.items.begin(), walk_.plate("plate 0", Side::right, 1));
+  EXPECT_EQ(find_plate_events(plates_, smoother_.paths(), smoother_.upright()).notes, across.notes);
 }
 
 TEST_F(PlateEventsTest, ADriftingPlateStillTells) {

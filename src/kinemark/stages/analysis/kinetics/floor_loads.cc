@@ -68,7 +68,7 @@ class Foot {
 };
 
 // How far a point lies outside of a plate, seen from above; negative inside.
-double outside(const std::array<Vector3d, 4>& corners, const Vector3d& p, const Vector3d& up) {
+double outside(const std::vector<Vector3d>& corners, const Vector3d& p, const Vector3d& up) {
   const Vector3d middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 4; ++k) {
@@ -88,9 +88,8 @@ bool any_still(const Foot& foot, const Contact& contact) {
 
 class FloorFinder {
  public:
-  FloorFinder(const data::Wrenches& plates, std::span<const std::array<Vector3d, 4>> corners,
-              std::span<const FootTrack> feet, const Vector3d& up)
-      : plates_(plates), corners_(corners), up_(up) {
+  FloorFinder(const data::Wrenches& plates, std::span<const FootTrack> feet, const Vector3d& up)
+      : plates_(plates), up_(up) {
     for (const auto& foot : feet) feet_.emplace_back(foot, up, plates.time.rate_hz);
     for (std::size_t i = 0; i < feet.size(); ++i)
       out_.feet.push_back({.wrench = WrenchTrack::zero(plates.frames()),
@@ -113,6 +112,9 @@ class FloorFinder {
 
  private:
   [[nodiscard]] double time_of(std::int64_t f) const { return plates_.time.time_s(f); }
+  [[nodiscard]] const std::vector<Vector3d>& corners_of(std::size_t plate) const {
+    return plates_.items[plate].corners_in_world;
+  }
 
   void give_contacts(std::size_t p) {
     const auto& plate = plates_.items[p];
@@ -163,7 +165,6 @@ class FloorFinder {
 
   // A part of the foot beside the plates that it loads: the floor bears it there.
   void step_beside(std::size_t i) {
-    if (corners_.empty()) return;
     auto& load = out_.feet[i];
     for (const auto& contact : load.contacts) {
       std::int64_t beside = 0;
@@ -182,8 +183,8 @@ class FloorFinder {
     return std::ranges::any_of(feet_[i].track().points, [&](const Eigen::MatrixX3d& x) {
       double least = std::numeric_limits<double>::infinity();
       for (const auto& contact : out_.feet[i].contacts)
-        if (f >= contact.first && f < contact.first + contact.count && contact.plate < corners_.size())
-          least = std::min(least, outside(corners_[contact.plate], x.row(f), up_));
+        if (f >= contact.first && f < contact.first + contact.count && !corners_of(contact.plate).empty())
+          least = std::min(least, outside(corners_of(contact.plate), x.row(f), up_));
       return std::isfinite(least) && least > kBeside_m;
     });
   }
@@ -213,7 +214,7 @@ class FloorFinder {
   void share() {
     for (std::size_t i = 0; i < feet_.size(); ++i)
       for (const auto& contact : out_.feet[i].contacts) {
-        if (contact.plate >= corners_.size()) continue;
+        if (corners_of(contact.plate).empty()) continue;
         std::int64_t shared = 0;
         for (std::size_t j = 0; j < feet_.size(); ++j) {
           if (j == i || !any_still(feet_[j], contact)) continue;
@@ -233,12 +234,11 @@ class FloorFinder {
 
   [[nodiscard]] bool is_on(std::size_t foot, std::size_t plate, std::int64_t f) const {
     return std::ranges::any_of(feet_[foot].track().points, [&](const Eigen::MatrixX3d& x) {
-      return x.row(f).allFinite() && outside(corners_[plate], x.row(f), up_) < 0.0;
+      return x.row(f).allFinite() && outside(corners_of(plate), x.row(f), up_) < 0.0;
     });
   }
 
   const data::Wrenches& plates_;
-  std::span<const std::array<Vector3d, 4>> corners_;
   Vector3d up_;
   std::vector<Foot> feet_;
   FloorLoads out_;
@@ -246,9 +246,9 @@ class FloorFinder {
 
 }  // namespace
 
-FloorLoads find_floor_loads(const data::Wrenches& plates, std::span<const std::array<Vector3d, 4>> corners,
-                            std::span<const FootTrack> feet, const Vector3d& up) {
-  return FloorFinder(plates, corners, feet, up).find();
+FloorLoads find_floor_loads(const data::Wrenches& plates, std::span<const FootTrack> feet,
+                            const Vector3d& up) {
+  return FloorFinder(plates, feet, up).find();
 }
 
 }  // namespace kinemark::analysis

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -48,11 +47,10 @@ struct FloorLoads {
 /// by more than 30 mm; and where a plate that bears it was not measured. A contact with no foot within 0.15 m
 /// is nobody's.
 ///
-/// @param plates   forces that were not cut off at a threshold, F frames
-/// @param corners  of each plate, m; empty: not known, and nothing is told from them
-/// @param up       unit vector against gravity
-[[nodiscard]] FloorLoads find_floor_loads(const data::Wrenches& plates,
-                                          std::span<const std::array<Eigen::Vector3d, 4>> corners,
-                                          std::span<const FootTrack> feet, const Eigen::Vector3d& up);
+/// @param plates  forces that were not cut off at a threshold, F frames; nothing is concluded from corners
+///                that are not known
+/// @param up      unit vector against gravity
+[[nodiscard]] FloorLoads find_floor_loads(const data::Wrenches& plates, std::span<const FootTrack> feet,
+                                          const Eigen::Vector3d& up);
 
 }  // namespace kinemark::analysis

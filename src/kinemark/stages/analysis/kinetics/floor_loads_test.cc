@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 
 constexpr std::int64_t kStepFrames = 200;
 constexpr double kStepRate_hz = 100.0;
-using Corners = std::array<Vector3d, 4>;
+using Corners = std::vector<Vector3d>;
 
 Corners square(double x, double y) {
   return {Vector3d(x, y, 0), Vector3d(x + 0.6, y, 0), Vector3d(x + 0.6, y + 0.4, 0), Vector3d(x, y + 0.4, 0)};
@@ -66,8 +66,9 @@ TEST(FloorLoads, EachFootBearsThePlateUnderIt) {
   load(plates.items[0], 50, 110, Vector3d(0.3, 0.1, 0.0));
   load(plates.items[1], 100, 160, Vector3d(1.0, 0.3, 0.0));
   const std::vector<FootTrack> feet{foot_at("left", 0.9, 0.3, 100, 160), foot_at("right", 0.2, 0.1, 50, 110)};
-  const std::vector<Corners> corners{square(0.0, 0.0), square(0.7, 0.1)};
-  const auto found = find_floor_loads(plates, corners, feet, Vector3d::UnitZ());
+  plates.items[0].corners_in_world = square(0.0, 0.0);
+  plates.items[1].corners_in_world = square(0.7, 0.1);
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_THAT(found.notes, IsEmpty());
   ASSERT_EQ(found.feet.size(), 2U);
   ASSERT_EQ(found.feet[0].contacts.size(), 1U);
@@ -86,7 +87,7 @@ TEST(FloorLoads, FootOnTheFloorWithoutPlateIsNotKnown) {
   auto plates = plates_of(1);
   load(plates.items[0], 50, 110, Vector3d(0.3, 0.1, 0.0));
   const std::vector<FootTrack> feet{foot_at("left", 0.9, 0.3, 100, 160), foot_at("right", 0.2, 0.1, 50, 110)};
-  const auto found = find_floor_loads(plates, {}, feet, Vector3d::UnitZ());
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_EQ(known(found.feet[1]), kStepFrames);
   EXPECT_LT(known(found.feet[0]), kStepFrames - 50);
   EXPECT_FALSE(found.feet[0].known[130]);
@@ -99,8 +100,8 @@ TEST(FloorLoads, TwoFeetOnOnePlateAreNotKnownWhileBothStand) {
   auto plates = plates_of(1);
   load(plates.items[0], 50, 160, Vector3d(0.3, 0.1, 0.0));
   const std::vector<FootTrack> feet{foot_at("left", 0.1, 0.3, 90, 180), foot_at("right", 0.2, 0.1, 50, 160)};
-  const std::vector<Corners> corners{square(0.0, 0.0)};
-  const auto found = find_floor_loads(plates, corners, feet, Vector3d::UnitZ());
+  plates.items[0].corners_in_world = square(0.0, 0.0);
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_TRUE(found.feet[1].known[70]);
   EXPECT_FALSE(found.feet[1].known[120]);
   EXPECT_FALSE(found.feet[0].known[120]);
@@ -112,14 +113,15 @@ TEST(FloorLoads, StepPartlyBesideThePlateIsNotKnown) {
   load(plates.items[0], 50, 110, Vector3d(0.55, 0.1, 0.0));
   // Its toe is 0.1 m in front of the plate.
   const std::vector<FootTrack> feet{foot_at("right", 0.5, 0.1, 50, 110)};
-  const std::vector<Corners> corners{square(0.0, 0.0)};
-  const auto found = find_floor_loads(plates, corners, feet, Vector3d::UnitZ());
+  plates.items[0].corners_in_world = square(0.0, 0.0);
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_FALSE(found.feet[0].known[80]);
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_EQ(found.notes[0],
             "right: its step on plate 1 from 0.50 to 1.09 s is partly beside the plate: no moments there.");
   // On a plate of which nobody knows where it ends, nothing is said.
-  EXPECT_THAT(find_floor_loads(plates, {}, feet, Vector3d::UnitZ()).notes, IsEmpty());
+  plates.items[0].corners_in_world.clear();
+  EXPECT_THAT(find_floor_loads(plates, feet, Vector3d::UnitZ()).notes, IsEmpty());
 }
 
 TEST(FloorLoads, OneFootOnTwoPlatesBearsTheirSum) {
@@ -127,8 +129,9 @@ TEST(FloorLoads, OneFootOnTwoPlatesBearsTheirSum) {
   load(plates.items[0], 50, 110, Vector3d(0.55, 0.1, 0.0));
   load(plates.items[1], 50, 110, Vector3d(0.65, 0.1, 0.0));
   const std::vector<FootTrack> feet{foot_at("right", 0.5, 0.1, 50, 110)};
-  const std::vector<Corners> corners{square(0.0, 0.0), square(0.6, 0.0)};
-  const auto found = find_floor_loads(plates, corners, feet, Vector3d::UnitZ());
+  plates.items[0].corners_in_world = square(0.0, 0.0);
+  plates.items[1].corners_in_world = square(0.6, 0.0);
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_THAT(found.notes, IsEmpty());
   EXPECT_EQ(found.feet[0].wrench.force(80, 2), 1400.0);
   EXPECT_EQ(known(found.feet[0]), kStepFrames);
@@ -138,7 +141,7 @@ TEST(FloorLoads, LoadFarFromAllFeetIsNobodys) {
   auto plates = plates_of(1);
   load(plates.items[0], 50, 110, Vector3d(3.0, 0.1, 0.0));
   const std::vector<FootTrack> feet{foot_at("right", 0.5, 0.1, 50, 110)};
-  const auto found = find_floor_loads(plates, {}, feet, Vector3d::UnitZ());
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_THAT(found.feet[0].contacts, IsEmpty());
   EXPECT_EQ(found.notes[0],
             "plate 1: its load from 0.50 to 1.09 s is no foot's: none is within 150 mm of it.");
@@ -149,7 +152,7 @@ TEST(FloorLoads, ContactBeginsAndEndsWithItsFirstNewtons) {
   load(plates.items[0], 50, 110, Vector3d(0.6, 0.1, 0.0));
   for (const std::int64_t f : {48L, 49L, 110L}) plates.items[0].force[at(3 * f + 2)] = f == 48 ? 2.0 : 15.0;
   const std::vector<FootTrack> feet{foot_at("right", 0.5, 0.1, 50, 110)};
-  const auto found = find_floor_loads(plates, {}, feet, Vector3d::UnitZ());
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   ASSERT_EQ(found.feet[0].contacts.size(), 1U);
   EXPECT_EQ(found.feet[0].contacts[0].first, 49);
   EXPECT_EQ(found.feet[0].contacts[0].count, 62);
@@ -160,7 +163,7 @@ TEST(FloorLoads, FrameThatThePlateDidNotMeasureIsNotKnown) {
   load(plates.items[0], 50, 110, Vector3d(0.6, 0.1, 0.0));
   Eigen::Map<Vector3d>(plates.items[0].moment.data() + 3L * 80).setConstant(kNaN);
   const std::vector<FootTrack> feet{foot_at("right", 0.5, 0.1, 50, 110)};
-  const auto found = find_floor_loads(plates, {}, feet, Vector3d::UnitZ());
+  const auto found = find_floor_loads(plates, feet, Vector3d::UnitZ());
   EXPECT_FALSE(found.feet[0].known[80]);
   EXPECT_TRUE(found.feet[0].known[81]);
 }

@@ -144,12 +144,12 @@ Result<MovedTracks> moved_tracks(const SegmentDefinition& d, const SegmentInput&
 /// The work of find_joint_loads().
 class LoadFinder {
  public:
-  LoadFinder(const SegmentDefinition& d, const SegmentInput& input, const PlateEvidence& evidence,
+  LoadFinder(const SegmentDefinition& d, const SegmentInput& input, const data::Wrenches& plates,
              const JointLoadOptions& options, const LoadOutputs& outputs, const FormulaTracks& tracks,
              const MovedTracks& moved)
       : d_(d),
         markers_(*input.markers),
-        evidence_(evidence),
+        plates_(plates),
         options_(options),
         outputs_(outputs),
         tracks_(tracks),
@@ -170,7 +170,7 @@ class LoadFinder {
       noise.emplace_back(floor.feet[i]);
       for (const auto& contact : floor.feet[i].contacts)
         out.steps.push_back({.body = d_.bodies[feet_[i]].name,
-                             .plate = evidence_.plates->items[contact.plate].name,
+                             .plate = plates_.items[contact.plate].name,
                              .begin_s = markers_.time.time_s(contact.first),
                              .end_s = markers_.time.time_s(contact.first + contact.count - 1)});
     }
@@ -228,7 +228,7 @@ class LoadFinder {
       feet_.push_back(b);
       feet.push_back(mechanics_.foot_of(b, values));
     }
-    return find_floor_loads(*evidence_.plates, evidence_.corners, feet, options_.segments.up);
+    return find_floor_loads(plates_, feet, options_.segments.up);
   }
 
   // What constant errors of the subject's measures add to the variance of each load.
@@ -354,7 +354,7 @@ class LoadFinder {
 
   const SegmentDefinition& d_;
   const data::Trajectories& markers_;
-  const PlateEvidence& evidence_;
+  const data::Wrenches& plates_;
   const JointLoadOptions& options_;
   const LoadOutputs& outputs_;
   const FormulaTracks& tracks_;
@@ -376,11 +376,10 @@ Status JointLoadOptions::check() const {
 }
 
 Result<JointLoads> find_joint_loads(const SegmentDefinition& definition, const SegmentInput& input,
-                                    const PlateEvidence& evidence, const JointLoadOptions& options) {
+                                    const data::Wrenches& plates, const JointLoadOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = definition.check(); !s) return std::unexpected(s.error());
-  if (definition.joints.empty() || evidence.plates == nullptr || evidence.plates->items.empty())
-    return JointLoads{};
+  if (definition.joints.empty() || plates.items.empty()) return JointLoads{};
   const LoadOutputs outputs(definition);
   const auto tracks = FormulaTracks::create(definition, input, options.segments, outputs.list);
   if (!tracks) return std::unexpected(tracks.error());
@@ -390,7 +389,7 @@ Result<JointLoads> find_joint_loads(const SegmentDefinition& definition, const S
     if (!made) return std::unexpected(made.error());
     moved = std::move(*made);
   }
-  return LoadFinder(definition, input, evidence, options, outputs, *tracks, moved).find();
+  return LoadFinder(definition, input, plates, options, outputs, *tracks, moved).find();
 }
 
 }  // namespace kinemark::analysis

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,12 +14,6 @@
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
 namespace kinemark::analysis {
-
-/// What the floor does, as far as it was measured.
-struct PlateEvidence {
-  const data::Wrenches* plates = nullptr;  ///< on the frames of the markers, not cut off at a threshold
-  std::vector<std::array<Eigen::Vector3d, 4>> corners;  ///< of each plate, m; empty: not known
-};
 
 /// How loads are found.
 struct JointLoadOptions {
@@ -58,10 +51,12 @@ struct JointLoads {
 /// markers (stated: white; SegmentInput::noise: as it is) and white noise of the plates, through the same
 /// smoothing. They know nothing of masses, of where a joint centre really is, or of skin.
 ///
+/// @param plates  on the frames of the markers, not cut off at a threshold
+///
 /// Code::usage as JointLoadOptions::check(); Code::bad_input for a definition that makes no sense.
 /// Nothing, without a word, where the definition has no joints or there are no plates.
 [[nodiscard]] Result<JointLoads> find_joint_loads(const SegmentDefinition& definition,
-                                                  const SegmentInput& input, const PlateEvidence& evidence,
+                                                  const SegmentInput& input, const data::Wrenches& plates,
                                                   const JointLoadOptions& options = {});
 
 }  // namespace kinemark::analysis

@@ -102,7 +102,7 @@ const SegmentSeries& series(const JointLoads& loads, const std::string& name) {
 JointLoads loads_of(const data::Trajectories& markers, const data::Wrenches& plates,
                     const JointLoadOptions& options) {
   const SegmentInput input{.markers = &markers};
-  const auto found = find_joint_loads(swinging_shank(), input, {.plates = &plates, .corners = {}}, options);
+  const auto found = find_joint_loads(swinging_shank(), input, plates, options);
   EXPECT_TRUE(found) << found.error().message;
   return *found;
 }
@@ -251,9 +251,7 @@ TEST(JointLoads, ScaleWithTheMassByWhichTheyAreDivided) {
   const auto plates = idle_plate();
   const auto of_mass = [&](const std::string& per) {
     definition.joints[0].per = of(per);
-    return find_joint_loads(definition, {.markers = &markers}, {.plates = &plates, .corners = {}},
-                            {.refits = 0})
-        .value();
+    return find_joint_loads(definition, {.markers = &markers}, plates, {.refits = 0}).value();
   };
   const auto one = of_mass("1"), ten = of_mass("10");
   for (std::int64_t f = 4; f < kSwingFrames - 4; f += 7) {
@@ -270,8 +268,7 @@ TEST(JointLoads, WhatIsNotThereIsNamedOnce) {
   definition.parameters.push_back({.name = "Bodymass", .quantity = SubjectQuantity::mass});
   const auto markers = swing(0.0, 1);
   const auto plates = idle_plate();
-  const auto found =
-      find_joint_loads(definition, {.markers = &markers}, {.plates = &plates, .corners = {}}, {.refits = 0});
+  const auto found = find_joint_loads(definition, {.markers = &markers}, plates, {.refits = 0});
   ASSERT_TRUE(found);
   EXPECT_THAT(found->series, IsEmpty());
   EXPECT_THAT(found->warnings, ElementsAre("Not computed: KneeMoment; there is no value of 'Bodymass'."));

@@ -136,13 +136,14 @@ std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajec
   out.first_s_ = markers.time.time_s(first);
   out.first_number_ = markers.time.number(first);
   const auto outliers = single_frame_outliers(recording.x, recording.seen);
-  auto regular = recording.seen;
+  const auto whole = recording.seen;
+  auto regular = whole;
   for (std::size_t i = 0; i < outliers.size(); ++i)
     if (outliers[i]) regular[i] = false;
   if (!options.keep_outliers) recording.seen = regular;
 
   const bool says_filter = !raw && !markers.filters.empty();
-  auto noise = find_path_noise(recording.x, regular, recording.rate_hz,
+  auto noise = find_path_noise(recording.x, without_spikes(recording.x, whole), recording.rate_hz,
                                {.stated_sd_m = options.noise_sd_m,
                                 .filter = says_filter ? &markers.filters[at(marker)] : nullptr,
                                 .draws = std::max<std::int64_t>(kLeastDraws, options.refits),

@@ -17,7 +17,10 @@ namespace {
 using math::SeriesMatrix;
 
 constexpr double kOutlier = 5.5;        // robust deviations of the residual over the axes
+constexpr double kFarOutlier = 8.0;     // the same, of spikes that the search for the noise leaves out
 constexpr double kMostOutliers = 0.06;  // of the samples
+constexpr std::int64_t kBeside = 2;     // samples of a spike, judged once more without it
+constexpr std::int64_t kWithin = 6;     // samples of one that is judged, where its neighbours must be
 constexpr double kOtherSide = 0.25;  // of an outlier's residual, that its neighbours have on the other side
 constexpr double kSlowLow_hz = 0.2, kSlowHigh_hz = 2.0;
 constexpr double kSlowUnknown = 2.5;    // 90 % over 10 % of the power
@@ -127,7 +130,76 @@ double PathNoise::variance_about_mean(double seconds, bool before) const {
   return sum;
 }
 
+namespace {
+
+// Deviations, robust, of the single axes' samples from the cubic through four neighbours.
+Eigen::RowVectorXd robust_scale(std::vector<std::vector<double>>& sizes) {
+  Eigen::RowVectorXd out(std::ssize(sizes));
+  for (Eigen::Index k = 0; k < out.size(); ++k) out[k] = 1.4826 * math::median(sizes[at(k)]) + 1e-15;
+  return out;
+}
+
+// The two nearest seen samples on both sides; fewer where there are none close by.
+std::vector<std::int64_t> neighbours_of(std::int64_t i, const std::vector<bool>& seen) {
+  std::vector<std::int64_t> out;
+  for (const std::int64_t step : {-1, 1})
+    for (std::int64_t k = i + step, taken = 0; taken < 2 && std::abs(k - i) <= kWithin; k += step) {
+      if (k < 0 || k >= std::ssize(seen)) break;
+      if (seen[at(k)]) out.push_back(k), ++taken;
+    }
+  return out;
+}
+
+// How far a sample lies from the cubic through its four neighbours, in deviations of that distance under
+// white noise of these deviations; NaN without four.
+double distance_from(const std::vector<std::int64_t>& neighbours, const SeriesMatrix& x, std::int64_t i,
+                     const Eigen::RowVectorXd& scale) {
+  if (neighbours.size() < 4) return NAN;
+  Eigen::RowVectorXd off = x.row(i);
+  double squares = 1.0;
+  for (const auto a : neighbours) {
+    double weight = 1.0;
+    for (const auto b : neighbours)
+      if (a != b) weight *= static_cast<double>(i - b) / static_cast<double>(a - b);
+    off -= weight * x.row(a);
+    squares += weight * weight;
+  }
+  return off.cwiseQuotient(scale).norm() / std::sqrt(squares);
+}
+
+std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>& seen, double limit);
+
+}  // namespace
+
 std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  return outliers_beyond(x, seen, kOutlier);
+}
+
+std::vector<bool> without_spikes(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  constexpr double kCubicSquares = 70.0 / 36.0;  // of the weights of a sample and its four neighbours
+  const auto spikes = outliers_beyond(x, seen, kFarOutlier);
+  std::vector<bool> out = seen;
+  std::vector<std::vector<double>> sizes(at(x.cols()));
+  for (std::int64_t i = 0; i < x.rows(); ++i) out[at(i)] = seen[at(i)] && !spikes[at(i)];
+  for (std::int64_t i = 2; i + 2 < x.rows(); ++i) {
+    if (!(out[at(i - 2)] && out[at(i - 1)] && out[at(i)] && out[at(i + 1)] && out[at(i + 2)])) continue;
+    for (Eigen::Index k = 0; k < x.cols(); ++k)
+      sizes[at(k)].push_back(
+          std::abs(x(i, k) - (4.0 * (x(i - 1, k) + x(i + 1, k)) - x(i - 2, k) - x(i + 2, k)) / 6.0));
+  }
+  if (sizes.front().size() < 8) return out;
+  const Eigen::RowVectorXd scale = robust_scale(sizes) / std::sqrt(kCubicSquares);
+  for (std::int64_t i = 0; i < x.rows(); ++i) {
+    if (!spikes[at(i)]) continue;
+    for (auto k = std::max<std::int64_t>(0, i - kBeside); k <= std::min(x.rows() - 1, i + kBeside); ++k)
+      if (out[at(k)] && distance_from(neighbours_of(k, out), x, k, scale) > kOutlier) out[at(k)] = false;
+  }
+  return out;
+}
+
+namespace {
+
+std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>& seen, double limit) {
   const std::int64_t n = x.rows();
   std::vector<bool> out(at(n), false);
   if (n < 8) return out;
@@ -141,12 +213,11 @@ std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector
     for (Eigen::Index k = 0; k < x.cols(); ++k) sizes[at(k)].push_back(std::abs(residual(i, k)));
   }
   if (sizes.front().size() < 8) return out;
-  Eigen::RowVectorXd scale(x.cols());
-  for (Eigen::Index k = 0; k < x.cols(); ++k) scale[k] = 1.4826 * math::median(sizes[at(k)]) + 1e-15;
+  const Eigen::RowVectorXd scale = robust_scale(sizes);
   const auto distance = [&](std::int64_t i) { return residual.row(i).cwiseQuotient(scale).norm(); };
   std::int64_t count = 0;
   for (std::int64_t i = 3; i + 3 < n; ++i) {
-    if (!known[at(i)] || !known[at(i - 1)] || !known[at(i + 1)] || distance(i) <= kOutlier) continue;
+    if (!known[at(i)] || !known[at(i - 1)] || !known[at(i + 1)] || distance(i) <= limit) continue;
     bool largest = true;
     for (std::int64_t k = i - 2; k <= i + 2; ++k) largest = largest && distance(k) <= distance(i);
     const double own = residual.row(i).squaredNorm();
@@ -159,6 +230,8 @@ std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector
   if (static_cast<double>(count) > kMostOutliers * static_cast<double>(n)) out.assign(at(n), false);
   return out;
 }
+
+}  // namespace
 
 double rounding_step(const SeriesMatrix& x, const std::vector<bool>& seen) {
   double step = 0.0;

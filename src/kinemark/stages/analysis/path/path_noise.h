@@ -80,6 +80,14 @@ struct NoiseKnown {
 [[nodiscard]] std::vector<bool> single_frame_outliers(const math::SeriesMatrix& x,
                                                       const std::vector<bool>& seen);
 
+/// Samples to search for the noise: the seen ones without spikes, which lie 8 deviations off
+/// (single_frame_outliers takes 5.5), and without samples beside a spike that lie 5.5 off once it is left
+/// out.
+///
+/// Noise with heavy tails has samples between 5.5 and 8. They are left out where they stand against their
+/// neighbours, and kept where they go with them: what is left of white noise is then correlated.
+[[nodiscard]] std::vector<bool> without_spikes(const math::SeriesMatrix& x, const std::vector<bool>& seen);
+
 /// The step of which all differences of values are multiples, as files round them; 0: there is none.
 [[nodiscard]] double rounding_step(const math::SeriesMatrix& x, const std::vector<bool>& seen);
 

@@ -132,6 +132,34 @@ TEST(SingleFrameOutliers, AreSpikesAndNotMovement) {
   EXPECT_EQ(std::ranges::count(single_frame_outliers(smooth, all_seen()), true), 0);
 }
 
+TEST(WithoutSpikes, LeavesOutPairsOfSpikesAndKeepsTheRest) {
+  auto x = cycles_with(white(5e-4), 6);
+  EXPECT_EQ(std::ranges::count(without_spikes(x, all_seen()), false), 0);
+  x.row(100).array() += 0.03, x.row(101).array() += 0.012, x.row(300).array() -= 0.02;
+  const auto left = without_spikes(x, all_seen());
+  EXPECT_EQ(std::ranges::count(left, false), 3);
+  EXPECT_FALSE(left[100] || left[101] || left[300]);
+}
+
+// Student's t of three degrees of freedom: one recording of twenty was called correlated while all beyond 5.5
+// deviations was left out.
+TEST(WithoutSpikes, LeavesNoiseWithHeavyTailsWhite) {
+  int correlated = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed, 5);
+    auto x = cycles_with(white(1e-5), seed);
+    for (auto& value : x.reshaped()) {
+      double squares = 0.0;
+      for (int i = 0; i < 3; ++i) squares += std::pow(random.gaussian(), 2);
+      value += 5e-4 * random.gaussian() / std::sqrt(squares);
+    }
+    const auto noise = find_path_noise(x, without_spikes(x, all_seen()), 100.0, {.draws = 1});
+    ASSERT_TRUE(noise);
+    correlated += noise->model.kind != NoiseKind::white;
+  }
+  EXPECT_LE(correlated, 2);
+}
+
 TEST(RoundingStep, IsFoundWhereThereIsOne) {
   SeriesMatrix x = testing::sampled(kSamples, 100.0, testing::ellipse);
   Random random(3, 3);

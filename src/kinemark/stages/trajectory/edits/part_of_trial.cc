@@ -104,7 +104,13 @@ void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std:
     crop_events(trial, part);
     trial.first_frame += frames.first;
   }
+  const bool had_baseline = data::unloaded_frames(trial).has_value();
   trial.markers = std::move(part);
+  if (had_baseline && !trial.force_plates.empty() && !data::unloaded_frames(trial))
+    trial.warnings.emplace_back(
+        "the frames in which nobody loads the force plates are not among the chosen ones: a file of these "
+        "has "
+        "no baseline to subtract");
   trial.markers.time.first_number = trial.first_frame;
 }
 

@@ -13,9 +13,11 @@
 namespace kinemark::trajectory {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::numbered_trial;
 
 TEST(PartOfTrial, TakesWhatIsKnownOfEverySample) {
@@ -67,6 +69,21 @@ TEST(PartOfTrial, AnalogSamplesOfTheLastFrameAreWhole) {
   ASSERT_EQ(part.analog.values.size(), 40U);
   EXPECT_EQ(part.analog.values.front(), 30.0);
   EXPECT_EQ(part.analog.values.back(), 69.0);
+}
+
+TEST(PartOfTrial, FramesOfTheBaselineThatAreCutOffAreSaid) {
+  const std::array<std::int64_t, 1> markers{0};
+  const auto warnings_of = [&](std::int64_t last, bool plates) {
+    auto part = numbered_trial();
+    if (plates) part.force_plates = {{.type = 2, .channel_idx = {0}}};
+    part.unloaded_s = {part.markers.time.time_s(1), part.markers.time.time_s(last)};
+    keep_part(part, {.first = 0, .count = 4}, markers, {});
+    return part.warnings;
+  };
+  EXPECT_THAT(warnings_of(5, true), Contains(HasSubstr("a file of these has no baseline to subtract")));
+  EXPECT_THAT(warnings_of(2, true), Not(Contains(HasSubstr("a file of these has no baseline to subtract"))));
+  // Without plates there is nothing to subtract from.
+  EXPECT_THAT(warnings_of(5, false), Not(Contains(HasSubstr("a file of these has no baseline to subtract"))));
 }
 
 TEST(PartOfTrial, EventsOutsideAreLeftOutAndCounted) {

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/c3d/internal/plate_wrench.h"
+#include "kinemark/io/plates/plate_wrench.h"
 
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cctype>
 #include <optional>
 
 #include "kinemark/io/length_unit.h"
 
-namespace kinemark::io::internal {
+namespace kinemark::io {
 namespace {
 
 using Eigen::Vector3d;
@@ -57,13 +58,17 @@ Eigen::MatrixXd of_four_sensors(double a, double b) {
   return m;
 }
 
-/// CAL_MATRIX(i, j), i fastest: output i from channel j.
-Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size) {
+/// CAL_MATRIX(i, j), i fastest: output i from channel j. A file with plates of several types pads the
+/// smaller.
+Result<Eigen::MatrixXd> calibration(const data::ForcePlate& plate, std::size_t size) {
   const auto n = static_cast<Eigen::Index>(size);
-  if (plate.calibration_rows != static_cast<int>(size) || plate.plate.calibration.size() != size * size)
+  const auto rows = static_cast<Eigen::Index>(plate.calibration_rows);
+  const auto columns = rows > 0 ? std::ssize(plate.calibration) / rows : 0;
+  if (rows < n || columns < n)
     return fail(Code::bad_input, fmt::format("is of type {} but has no CAL_MATRIX of {} x {} numbers",
-                                             plate.plate.type, size, size));
-  Eigen::MatrixXd m = Eigen::Map<const Eigen::MatrixXd>(plate.plate.calibration.data(), n, n);
+                                             plate.type, size, size));
+  const Eigen::MatrixXd m =
+      Eigen::Map<const Eigen::MatrixXd>(plate.calibration.data(), rows, columns).topLeftCorner(n, n);
   if (!m.allFinite() || m.isZero(0.0))
     return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of values that are not numbers");
   return m;
@@ -71,18 +76,18 @@ Result<Eigen::MatrixXd> calibration(const C3dForcePlate& plate, std::size_t size
 
 }  // namespace
 
-Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::vector<std::string>& units,
-                                        double metres_per_unit) {
-  const int type = plate.plate.type;
+Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
+                                        const std::vector<std::string>& units) {
+  const int type = plate.type;
   if (!(type >= 1 && type <= 4) && type != 7)
     return fail(Code::not_supported,
                 fmt::format("is of type {}; forces are read from types 1, 2, 3, 4 and 7", type));
   const std::size_t n = channels_needed(type);
-  if (plate.plate.channel_idx.size() < n)
-    return fail(Code::bad_input, fmt::format("has {} analog channels; type {} needs {}",
-                                             plate.plate.channel_idx.size(), type, n));
+  if (plate.channel_idx.size() < n)
+    return fail(Code::bad_input,
+                fmt::format("has {} analog channels; type {} needs {}", plate.channel_idx.size(), type, n));
   const auto unit = [&](std::size_t c) {
-    const auto idx = static_cast<std::size_t>(plate.plate.channel_idx[c]);
+    const auto idx = static_cast<std::size_t>(plate.channel_idx[c]);
     return idx < units.size() ? units[idx] : std::string();
   };
 
@@ -90,7 +95,7 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   wrench.is_pressure_point_ = type == 1;
   // From the origin of the plate's axes to the centre of its surface; z points down, into the plate. Files
   // that give the opposite vector are recognised by its sign.
-  wrench.centre_ = plate.plate.origin_in_plate;
+  wrench.centre_ = plate.origin_in_plate;
   wrench.origin_flipped_ = wrench.centre_.z() > 0.0;
   const bool sensors = type == 3 || type == 7;
   if (wrench.origin_flipped_ && sensors) wrench.centre_.z() *= -1.0;
@@ -102,9 +107,9 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
     if (sensors || c < 3)
       scale = newtons(unit(c));
     else if (type == 1 && c < 5)
-      scale = metres(unit(c), metres_per_unit);
+      scale = metres(unit(c), plate.metres_per_unit);
     else
-      scale = newton_metres(unit(c), metres_per_unit);
+      scale = newton_metres(unit(c), plate.metres_per_unit);
   }
   if (type == 4 || type == 7) {
     auto matrix = calibration(plate, n);
@@ -125,8 +130,8 @@ Result<PlateWrench> PlateWrench::create(const C3dForcePlate& plate, const std::v
   return wrench;
 }
 
-Vector6 PlateWrench::operator()(const Channels& channels) const {
-  const Channels v = scale_.cwiseProduct(channels.head(scale_.size()));
+Vector6 PlateWrench::operator()(const PlateChannels& channels) const {
+  const PlateChannels v = scale_.cwiseProduct(channels.head(scale_.size()));
   if (is_pressure_point_) {
     const Vector3d force = v.head<3>();
     const Vector3d arm(v[3] - centre_.x(), v[4] - centre_.y(), 0.0);
@@ -139,12 +144,14 @@ Vector6 PlateWrench::operator()(const Channels& channels) const {
   return out;
 }
 
-Result<PlatePose> plate_pose(const C3dForcePlate& plate) {
-  const auto& c = plate.plate.corners_in_world;
+Result<PlatePose> plate_pose(const data::ForcePlate& plate) {
+  // A corner further away than a kilometre is an invalid number.
+  const auto near = [](const Vector3d& x) { return (x.array().abs() < 1000.0).all(); };
+  const auto& c = plate.corners_in_world;
   const Vector3d along_x = 0.5 * (c[0] - c[1] + c[3] - c[2]), along_y = 0.5 * (c[0] - c[3] + c[1] - c[2]);
   const Vector3d normal = along_x.cross(along_y);
   constexpr double kSmallest = 1e-4;  // m^2; no foot fits on less
-  if (!plate.sound || !(normal.norm() > kSmallest))
+  if (!std::ranges::all_of(c, near) || !near(plate.origin_in_plate) || !(normal.norm() > kSmallest))
     return fail(Code::bad_input, "has corners that span no surface");
   PlatePose pose;
   pose.centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
@@ -155,4 +162,4 @@ Result<PlatePose> plate_pose(const C3dForcePlate& plate) {
   return pose;
 }
 
-}  // namespace kinemark::io::internal
+}  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/motion/external_forces.h"
+#include "kinemark/pipeline/files/external_forces.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,10 +112,12 @@ TEST(ExternalForces, APlateAndATableByTheirNames) {
 
 TEST(ExternalForces, OtherFilesAreRefusedInASentence) {
   const TimeBase time{.rate_hz = 100.0, .frames = 3};
-  const auto mot = read_external_forces("grf.mot", time, 20.0);
-  EXPECT_EQ(mot.error().code, Code::usage);
-  EXPECT_THAT(mot.error().message,
-              HasSubstr("grf.mot: forces are read from the plates of a .c3d file or from an"));
+  const auto trc = read_external_forces("grf.trc", time, 20.0);
+  EXPECT_EQ(trc.error().code, Code::usage);
+  EXPECT_THAT(trc.error().message,
+              HasSubstr("grf.trc: forces are read from the plates of a .c3d or .mat file, from"));
+  EXPECT_EQ(read_external_forces("none.mot", time, 20.0).error().code, Code::io);
+  EXPECT_EQ(read_external_forces("none.mat", time, 20.0).error().code, Code::io);
   EXPECT_EQ(read_external_forces("none.c3d", time, 20.0).error().code, Code::io);
   EXPECT_EQ(read_external_forces("none.XML", time, 20.0).error().code, Code::io);
   const testing_support::ScratchFolder scratch;

@@ -1,23 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Force plates of a C3D file as forces on the body. Conventions: docs/formats/c3d.md
+// Force plates of a recording as forces on the body. Conventions: docs/formats/c3d.md
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/data/wrenches.h"
-#include "kinemark/io/c3d/reader.h"
 
 namespace kinemark::io {
 
-/// Options of read_plate_forces().
+/// Options of plate_forces().
 struct PlateOptions {
   double contact_force_n = 20.0;  ///< a plate that pushes less than this along its normal is empty: no wrench
                                   ///< at all in that frame. 0: everything counts, also a pull.
-  bool baseline = true;           ///< subtract the mean over the frames that FORCE_PLATFORM:ZERO names
+  bool baseline = true;           ///< subtract the mean over the frames in which nobody loads the plates
 
   /// contact_force_n is finite and not negative.
   [[nodiscard]] Status check() const;
@@ -32,15 +31,12 @@ struct PlateForces {
   std::vector<std::string> warnings;  ///< irregularities and repairs, one sentence each
 };
 
-/// Forces of the plates of types 1, 2, 3, 4 and 7. Each frame gets the mean of the analog samples from half a
-/// frame before it to half a frame after it. A force is NaN where a sample was not a number.
+/// Forces of the plates of types 1, 2, 3, 4 and 7, from any format that keeps their channels. Each frame gets
+/// the mean of the analog samples from half a frame before it to half a frame after it. A force is NaN where
+/// a sample was not a number.
 ///
-/// Fails when no plate has forces that can be read. Reads the file piece by piece: O(samples), memory 48
-/// bytes per frame and plate.
-[[nodiscard]] Result<PlateForces> read_plate_forces(const C3dReader& reader,
-                                                    const PlateOptions& options = {});
-/// The same of a file that is not open yet.
-[[nodiscard]] Result<PlateForces> read_plate_forces(const std::filesystem::path& path,
-                                                    const PlateOptions& options = {});
+/// Fails when no plate has forces that can be computed: Code::bad_input. O(samples); memory 48 bytes per
+/// frame and plate.
+[[nodiscard]] Result<PlateForces> plate_forces(const data::Trial& trial, const PlateOptions& options = {});
 
 }  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/motion/external_forces.h"
+#include "kinemark/pipeline/files/external_forces.h"
 
 #include <fmt/core.h>
 
@@ -11,8 +11,10 @@
 #include <limits>
 #include <utility>
 
-#include "kinemark/io/c3d/plate_forces.h"
+#include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/osim/external_loads.h"
+#include "kinemark/io/plates/plate_forces.h"
 #include "kinemark/io/text/table_file.h"
 
 namespace kinemark::pipeline {
@@ -71,10 +73,18 @@ Push at_frame(const data::Wrench& wrench, std::int64_t frames, double frame) {
 
 Result<ExternalForces> read_plates(const std::filesystem::path& path, const TimeBase& time,
                                    double contact_force_n) {
-  auto plates = io::read_plate_forces(path, {.contact_force_n = contact_force_n});
+  const auto trial = io::read_markers(path);
+  if (!trial) return std::unexpected(trial.error());
+  auto plates = io::plate_forces(*trial, {.contact_force_n = contact_force_n});
   if (!plates) return std::unexpected(plates.error());
   return ExternalForces{
       .wrenches = resample(plates->wrenches, time), .files = {path}, .warnings = std::move(plates->warnings)};
+}
+
+/// Whether files of an extension can hold force plates.
+bool keeps_plates(std::string_view extension) {
+  const auto* format = io::written_format(extension);
+  return format != nullptr && format->keeps(io::Part::force_plates) != io::Kept::none;
 }
 
 Result<ExternalForces> read_loads(const std::filesystem::path& path, const TimeBase& time) {
@@ -90,14 +100,28 @@ Result<ExternalForces> read_loads(const std::filesystem::path& path, const TimeB
       .wrenches = std::move(*wrenches), .files = {path, loads->data_file}, .warnings = table->warnings};
 }
 
+Result<ExternalForces> read_columns(const std::filesystem::path& path, const TimeBase& time) {
+  const auto table = io::read_table(path);
+  if (!table) return std::unexpected(table.error());
+  const auto loads = io::loads_of_columns(*table, path);
+  if (!loads) return std::unexpected(loads.error());
+  auto wrenches = io::sample_external_loads(*loads, *table, time);
+  if (!wrenches) return std::unexpected(wrenches.error());
+  return ExternalForces{.wrenches = std::move(*wrenches), .files = {path}, .warnings = table->warnings};
+}
+
 }  // namespace
 
 data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time) {
   data::Wrenches out{.time = time, .items = {}};
   const TimeBase& from = wrenches.time;
   for (const data::Wrench& wrench : wrenches.items) {
-    data::Wrench& to = out.items.emplace_back(
-        data::Wrench{.name = wrench.name, .body = wrench.body, .force = {}, .moment = {}, .point = {}});
+    data::Wrench& to = out.items.emplace_back(data::Wrench{.name = wrench.name,
+                                                           .body = wrench.body,
+                                                           .force = {},
+                                                           .moment = {},
+                                                           .point = {},
+                                                           .corners_in_world = wrench.corners_in_world});
     for (std::int64_t f = 0; f < time.frames; ++f) {
       const Push push = at_frame(wrench, wrenches.frames(), (time.time_s(f) - from.t0_s) * from.rate_hz);
       to.force.insert(to.force.end(), push.force.data(), push.force.data() + 3);
@@ -113,12 +137,13 @@ Result<ExternalForces> read_external_forces(const std::filesystem::path& path, c
   std::string kind = path.extension().string();
   std::ranges::transform(kind, kind.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (kind == ".c3d") return read_plates(path, time, contact_force_n);
   if (kind == ".xml") return read_loads(path, time);
+  if (kind == ".mot" || kind == ".sto") return read_columns(path, time);
+  if (keeps_plates(kind)) return read_plates(path, time, contact_force_n);
   return fail(
       Code::usage,
-      fmt::format("{}: forces are read from the plates of a .c3d file or from an OpenSim ExternalLoads .xml, "
-                  "which assigns the columns of a .mot or .sto to bodies",
+      fmt::format("{}: forces are read from the plates of a .c3d or .mat file, from a .mot or .sto with "
+                  "columns such as ground_force_vx, or from an OpenSim ExternalLoads .xml",
                   path.string()));
 }
 

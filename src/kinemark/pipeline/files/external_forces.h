@@ -19,8 +19,10 @@ struct ExternalForces {
   std::vector<std::string> warnings;         ///< one sentence each
 };
 
-/// Forces on the body at the frames of `time`: the plates of a .c3d file, or an OpenSim ExternalLoads .xml
-/// with its table. NaN where the file has no data. Another kind of file: Code::usage.
+/// Forces on the body at the frames of `time`: the plates of a .c3d or .mat file, an OpenSim ExternalLoads
+/// .xml with its table, or a table alone, by the names of its columns (io::loads_of_columns()). NaN where the
+/// file has no data. Another kind of file: Code::usage.
+/// @param contact_force_n  of plates, io::PlateOptions
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
 

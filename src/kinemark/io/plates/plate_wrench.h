@@ -8,23 +8,22 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/io/c3d/force_plates.h"
+#include "kinemark/data/trial.h"
 
-namespace kinemark::io::internal {
+namespace kinemark::io {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Channels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
+using PlateChannels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
 
 /// What one sample of a plate's channels gives: force (N) and moment (N m) about the centre of its surface,
 /// in the plate's axes and with the sign of the file.
 class PlateWrench {
  public:
-  /// `units` of all analog channels; `metres_per_unit` of the file's lengths. A plate that cannot be
-  /// computed: Code::not_supported or bad_input, with the reason as half a sentence.
-  static Result<PlateWrench> create(const C3dForcePlate& plate, const std::vector<std::string>& units,
-                                    double metres_per_unit);
+  /// `units` of all analog channels. A plate that cannot be computed: Code::not_supported or bad_input, with
+  /// the reason as half a sentence.
+  static Result<PlateWrench> create(const data::ForcePlate& plate, const std::vector<std::string>& units);
 
-  [[nodiscard]] Vector6 operator()(const Channels& channels) const;
+  [[nodiscard]] Vector6 operator()(const PlateChannels& channels) const;
   /// Channels whose baseline is a force or moment that was there before anybody stepped on the plate.
   [[nodiscard]] bool has_baseline(std::size_t channel) const {
     return !is_pressure_point_ || channel < 3 || channel > 4;
@@ -34,7 +33,7 @@ class PlateWrench {
  private:
   bool is_pressure_point_ = false;  ///< type 1: channels 3 and 4 are the centre of pressure
   bool origin_flipped_ = false;
-  Channels scale_;  ///< of each channel, to N, N m and m
+  PlateChannels scale_;  ///< of each channel, to N, N m and m
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 8> matrix_;
   Eigen::Vector3d centre_ =
       Eigen::Vector3d::Zero();  ///< of the surface, in the axes and from the origin of the plate
@@ -47,7 +46,7 @@ struct PlatePose {
   Eigen::Vector2d half_size;  ///< m
 };
 
-/// Corners that span no rectangle are Code::bad_input.
-[[nodiscard]] Result<PlatePose> plate_pose(const C3dForcePlate& plate);
+/// Corners that are not plausible or span no rectangle are Code::bad_input.
+[[nodiscard]] Result<PlatePose> plate_pose(const data::ForcePlate& plate);
 
-}  // namespace kinemark::io::internal
+}  // namespace kinemark::io

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/plates/plate_forces.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/missing.h"
+#include "kinemark/io/plates/plate_wrench.h"
+
+namespace kinemark::io {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay below it
+
+/// A plate with valid geometry, and its measurements.
+struct Plate {
+  std::string name;
+  std::vector<int> channel_idx;
+  PlateWrench wrench;
+  PlatePose pose;
+  std::vector<Vector3d> corners_in_world;
+  PlateChannels baseline;
+  std::vector<Vector6> measured;  ///< F; force and moment about the centre, plate axes
+};
+
+/// Values of a plate's channels in a row of analog samples.
+PlateChannels sample(const Plate& plate, const data::AnalogChannels& analog, std::int64_t row) {
+  const auto channels = std::ssize(analog.names);
+  PlateChannels v(plate.baseline.size());
+  for (Eigen::Index c = 0; c < v.size(); ++c)
+    v[c] = analog.values[static_cast<std::size_t>(row * channels +
+                                                  plate.channel_idx[static_cast<std::size_t>(c)])];
+  return v;
+}
+
+std::vector<Plate> usable_plates(const data::Trial& trial, std::vector<std::string>& warnings) {
+  std::vector<Plate> plates;
+  std::vector<bool> taken(trial.analog.names.size(), false);
+  for (const auto& found : trial.force_plates) {
+    // No two plates share a channel; this also bounds the work that a hostile file can cause.
+    bool shared = false;
+    for (const int channel : found.channel_idx) {
+      shared = shared || taken[static_cast<std::size_t>(channel)];
+      taken[static_cast<std::size_t>(channel)] = true;
+    }
+    if (shared) {
+      warnings.push_back(
+          fmt::format("force plate {} is left out: an analog channel of it is used twice", found.number));
+      continue;
+    }
+    auto wrench = PlateWrench::create(found, trial.analog.units);
+    auto pose = plate_pose(found);
+    if (!wrench || !pose) {
+      warnings.push_back(fmt::format("force plate {} is left out: it {}", found.number,
+                                     wrench ? pose.error().message : wrench.error().message));
+      continue;
+    }
+    if (wrench->origin_flipped())
+      warnings.push_back(fmt::format(
+          "force plate {} has an ORIGIN above its surface; taken as measured from the surface instead",
+          found.number));
+    Plate plate{.name = fmt::format("plate {}", found.number),
+                .channel_idx = found.channel_idx,
+                .wrench = std::move(*wrench),
+                .pose = *pose,
+                .corners_in_world = {found.corners_in_world.begin(), found.corners_in_world.end()},
+                .baseline = {},
+                .measured = {}};
+    plate.baseline.setZero(static_cast<Eigen::Index>(std::min<std::size_t>(8, plate.channel_idx.size())));
+    plates.push_back(std::move(plate));
+  }
+  return plates;
+}
+
+/// Analog samples of a frame; 0: not the same whole number in every frame.
+std::int64_t samples_of_frame(const data::Trial& trial) {
+  const auto frames = trial.markers.frames(), samples = trial.analog.samples;
+  return frames > 0 && samples % frames == 0 ? samples / frames : 0;
+}
+
+/// The baseline of a plate: the mean of its channels in `count` samples from `first` on.
+PlateChannels mean_of(const Plate& plate, const data::AnalogChannels& analog, std::int64_t first,
+                      std::int64_t count) {
+  PlateChannels mean = PlateChannels::Zero(plate.baseline.size());
+  for (std::int64_t i = first; i < first + count; ++i) mean += sample(plate, analog, i);
+  mean /= static_cast<double>(count);
+  for (Eigen::Index c = 0; c < mean.size(); ++c)
+    if (!plate.wrench.has_baseline(static_cast<std::size_t>(c)) || !std::isfinite(mean[c])) mean[c] = 0.0;
+  return mean;
+}
+
+/// Fill the plates' baselines from the frames in which nobody loads them, where all of these are there.
+void find_baselines(const data::Trial& trial, std::int64_t per_frame, std::vector<Plate>& plates,
+                    std::vector<std::string>& warnings) {
+  const auto frames = data::unloaded_frames(trial);
+  if (!frames) return;
+  const auto [first, last] = *frames;
+  for (auto& plate : plates) {
+    const auto mean = mean_of(plate, trial.analog, first * per_frame, (last + 1 - first) * per_frame);
+    const double load = std::abs(plate.wrench(mean)[2]);
+    if (load < kSurelyLoaded)
+      plate.baseline = mean;
+    else
+      warnings.push_back(
+          fmt::format("{} carries {:.0f} N in the frames {} to {} that FORCE_PLATFORM:ZERO calls "
+                      "empty; no baseline is subtracted",
+                      plate.name, load, first + 1, last + 1));
+  }
+}
+
+/// Mean of all positions of markers.
+Vector3d mean_of_markers(const data::Trajectories& markers) {
+  Vector3d sum = Vector3d::Zero();
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i + 2 < markers.x_in_world.size(); i += 3) {
+    const Eigen::Map<const Vector3d> point(markers.x_in_world.data() + i);
+    if (!(point.array().abs() < 1000.0).all()) continue;
+    sum += point;
+    ++count;
+  }
+  return count > 0 ? Vector3d(sum / static_cast<double>(count)) : Vector3d(Vector3d::Constant(kNaN));
+}
+
+/// Fill `measured` of a plate, S samples a frame.
+void measure(const data::Trial& trial, std::int64_t S, Plate& plate) {
+  const auto frames = trial.markers.frames(), samples = S * frames;
+  plate.measured.reserve(static_cast<std::size_t>(frames));
+  for (std::int64_t f = 0; f < frames; ++f) {
+    const std::int64_t at = f * S, half = std::min({S / 2, at, samples - 1 - at});
+    Vector6 sum = Vector6::Zero();
+    double weights = 0.0;
+    for (std::int64_t k = -half; k <= half; ++k) {
+      // An even number of samples has none in its middle: both ends of the window count half.
+      const double weight = S % 2 == 0 && half > 0 && std::abs(k) == half ? 0.5 : 1.0;
+      sum += weight * plate.wrench(sample(plate, trial.analog, at + k) - plate.baseline);
+      weights += weight;
+    }
+    plate.measured.emplace_back(sum / weights);
+  }
+}
+
+/// +1 when the body is on the side of the plate's z, else -1 (as it should be: z points into the plate).
+double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std::string>& warnings) {
+  const double height = (markers - plate.pose.centre).dot(plate.pose.world_from_plate.col(2));
+  if (!(height > 0.0)) return -1.0;
+  warnings.push_back(
+      fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "
+                  "taken as they are",
+                  plate.name));
+  return 1.0;
+}
+
+/// The force of the plate on the body: the sign is reversed where the file stores the force of the body on
+/// the plate.
+void settle_sign(Plate& plate, double side, std::vector<std::string>& warnings) {
+  double push = 0.0;
+  for (const Vector6& w : plate.measured)
+    if (std::isfinite(w[2]) && std::abs(w[2]) < 1e9) push += side * w[2] * std::abs(w[2]);
+  if (push >= 0.0) return;
+  for (Vector6& w : plate.measured) w = -w;
+  warnings.push_back(
+      fmt::format("{} stores the force of the body on the plate; its sign was reversed", plate.name));
+}
+
+data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,
+                     std::vector<std::string>& warnings) {
+  data::Wrench wrench{.name = plate.name,
+                      .body = "",
+                      .force = {},
+                      .moment = {},
+                      .point = {},
+                      .corners_in_world = plate.corners_in_world};
+  std::int64_t loaded = 0, off = 0;
+  for (const Vector6& w : plate.measured) {
+    Vector3d force = w.head<3>(), moment = w.tail<3>(), point = Vector3d::Constant(kNaN);
+    const double along = side * force.z();
+    if (!w.allFinite()) {
+      force = moment = Vector3d::Constant(kNaN);
+    } else if (options.contact_force_n > 0.0 && along < options.contact_force_n) {
+      force = moment = Vector3d::Zero();
+    } else {
+      point.setZero();
+      // A force that is not directed into the plate has no centre of pressure; the centre of the plate is
+      // used.
+      if (along >= 1.0) {
+        point = {-moment.y() / force.z(), moment.x() / force.z(), 0.0};
+        moment = {0.0, 0.0, moment.z() - point.x() * force.y() + point.y() * force.x()};
+        const bool inside = (point.head<2>().array().abs() < 1.2 * plate.pose.half_size.array() + 0.02).all();
+        loaded += along >= kSurelyLoaded;
+        off += along >= kSurelyLoaded && !inside;
+      }
+      point = plate.pose.centre + plate.pose.world_from_plate * point;
+      force = plate.pose.world_from_plate * force;
+      moment = plate.pose.world_from_plate * moment;
+      if (!(force.allFinite() && moment.allFinite() && point.allFinite()))
+        force = moment = point = Vector3d::Constant(kNaN);
+    }
+    wrench.force.insert(wrench.force.end(), force.data(), force.data() + 3);
+    wrench.moment.insert(wrench.moment.end(), moment.data(), moment.data() + 3);
+    wrench.point.insert(wrench.point.end(), point.data(), point.data() + 3);
+  }
+  if (20 * off > loaded)
+    warnings.push_back(
+        fmt::format("the centre of pressure leaves {} in {} of {} frames with {:.0f} N or more; its "
+                    "ORIGIN, CORNERS or the unit of its moments may be wrong",
+                    plate.name, off, loaded, kSurelyLoaded));
+  return wrench;
+}
+
+}  // namespace
+
+Status PlateOptions::check() const {
+  if (!std::isfinite(contact_force_n) || contact_force_n < 0.0)
+    return fail(Code::usage, fmt::format("contact force is {} N; need 0 or more", contact_force_n));
+  return {};
+}
+
+Result<PlateForces> plate_forces(const data::Trial& trial, const PlateOptions& options) {
+  if (auto status = options.check(); !status) return std::unexpected(status.error());
+  PlateForces forces;
+  auto plates = usable_plates(trial, forces.warnings);
+  const auto per_frame = samples_of_frame(trial);
+  if (plates.empty() || per_frame < 1)
+    return fail(Code::bad_input, fmt::format("{}: has no force plate whose forces can be read{}{}",
+                                             trial.source, forces.warnings.empty() ? "" : "; ",
+                                             forces.warnings.empty() ? "" : forces.warnings.front()));
+  if (options.baseline) find_baselines(trial, per_frame, plates, forces.warnings);
+  const auto markers = mean_of_markers(trial.markers);
+  forces.wrenches.time = trial.markers.time;
+  for (auto& plate : plates) {
+    measure(trial, per_frame, plate);
+    const double side = side_of_body(plate, markers, forces.warnings);
+    settle_sign(plate, side, forces.warnings);
+    forces.wrenches.items.push_back(on_body(plate, side, options, forces.warnings));
+  }
+  return forces;
+}
+
+}  // namespace kinemark::io
