@@ -92,6 +92,21 @@ TEST(NoiseSpectrum, TakesStretchesWithoutGapsAndBridgesSingleSamples) {
   EXPECT_NEAR(mean_power(spectrum.bins(0.1)), 0.04, 0.006);
 }
 
+// Of 6 % bridged samples the power was 1.13 at low and 0.66 of what it is at the highest frequencies.
+TEST(NoiseSpectrum, OfBridgedWhiteNoiseIsWhite) {
+  constexpr std::int64_t kLength = 4000;
+  std::vector<bool> seen(kLength, true);
+  for (std::size_t i = 10; i + 10 < kLength; i += 17) seen[i] = false;
+  const auto bins = NoiseSpectrum(white(kLength, 1.0, 7), seen).bins(0.02);
+  double low = 0.0, high = 0.0, lows = 0.0, highs = 0.0;
+  for (const auto& bin : bins) {
+    if (bin.frequency < 0.15) low += bin.count * bin.power, lows += bin.count;
+    if (bin.frequency > 0.40) high += bin.count * bin.power, highs += bin.count;
+  }
+  EXPECT_NEAR(low / lows, 1.0, 0.1);
+  EXPECT_NEAR((high / highs) / (low / lows), 1.0, 0.12);
+}
+
 TEST(NoiseSpectrum, OfShortStretchesIsEmpty) {
   std::vector<bool> seen(300, true);
   for (std::size_t i = 0; i < 300; i += 50) seen[i] = seen[i + 1] = seen[i + 2] = false;
