@@ -184,7 +184,8 @@ TEST(C3dWriter, ForcePlatesKeepGeometryChannelsAndCalibration) {
                          .corners_in_world = {Eigen::Vector3d{0.6, 0.4, 0.0}, Eigen::Vector3d{0.0, 0.4, 0.0},
                                               Eigen::Vector3d{0.0, 0.0, 0.0}, Eigen::Vector3d{0.6, 0.0, 0.0}},
                          .origin_in_plate = {0.001, -0.002, -0.04},
-                         .channel_idx = {0, 1, 2, 3, 4, 5}};
+                         .channel_idx = {0, 1, 2, 3, 4, 5},
+                         .calibration_rows = 6};
   for (int i = 0; i < 36; ++i) plate.calibration.push_back(0.5 * i);
   trial.force_plates.push_back(plate);
   trial.force_plates.push_back({.type = 3, .channel_idx = {6, 7, 8, 9, 10, 11, 12, 13}});

@@ -26,10 +26,10 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);

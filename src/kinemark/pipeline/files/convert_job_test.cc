@@ -103,7 +103,7 @@ TEST_F(ConvertFile, ATableBecomesMatAndNoneIsReadFromIt) {
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_THAT(made->written, ElementsAre(at("truth.mat")));
   EXPECT_EQ(convert(at("in/truth.mot"), at("truth.mat"), false).error().code, Code::io);
-  EXPECT_EQ(convert(at("truth.mat"), at("back.mot"), false).error().code, Code::usage);
+  EXPECT_EQ(convert(at("truth.mat"), at("back.mot"), false).error().code, Code::bad_input);
   EXPECT_FALSE(convert(at("truth.mat"), at("back.trc"), false)) << "angles are no markers";
 }
 
@@ -143,10 +143,14 @@ TEST_F(ConvertFile, DifferentKindsAreAMisuse) {
   ASSERT_FALSE(no_rate);
   EXPECT_EQ(no_rate.error().code, Code::usage);
   EXPECT_TRUE(convert(at("a.v3d"), at("a.trc"), false, 179.0));
-  const auto mixed = convert(at("in/markers.c3d"), at("x.mot"), false);
+  const auto mixed = convert(at("in/markers.c3d"), at("x.osim"), false);
   ASSERT_FALSE(mixed);
   EXPECT_EQ(mixed.error().code, Code::usage);
   EXPECT_THAT(mixed.error().message, HasSubstr("different kinds of file"));
+  const auto no_plates = convert(at("in/markers.c3d"), at("x.mot"), false);
+  ASSERT_FALSE(no_plates);
+  EXPECT_EQ(no_plates.error().code, Code::bad_input);
+  EXPECT_THAT(no_plates.error().message, HasSubstr("has no force plates, whose forces a .mot could hold"));
   EXPECT_FALSE(std::filesystem::exists(at("x.mot")));
 }
 

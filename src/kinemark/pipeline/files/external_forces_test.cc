@@ -17,8 +17,8 @@ namespace kinemark::pipeline {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
