@@ -12,6 +12,7 @@
 
 namespace kinemark::io {
 
+/// Force and moment.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using PlateChannels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
 
@@ -23,11 +24,13 @@ class PlateWrench {
   /// the reason as half a sentence.
   static Result<PlateWrench> create(const data::ForcePlate& plate, const std::vector<std::string>& units);
 
+  /// Force and moment of a sample.
   [[nodiscard]] Vector6 operator()(const PlateChannels& channels) const;
   /// Channels whose baseline is a force or moment that was there before anybody stepped on the plate.
   [[nodiscard]] bool has_baseline(std::size_t channel) const {
     return !is_pressure_point_ || channel < 3 || channel > 4;
   }
+  /// Whether ORIGIN lay above the surface, and was reversed.
   [[nodiscard]] bool origin_flipped() const { return origin_flipped_; }
 
  private:
@@ -41,9 +44,9 @@ class PlateWrench {
 
 /// Where a plate lies: origin at the centre of its surface, x from corner 2 to 1, y from corner 4 to 1.
 struct PlatePose {
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d world_from_plate;
-  Eigen::Vector2d half_size;  ///< m
+  Eigen::Vector3d centre;            ///< m, in the laboratory
+  Eigen::Matrix3d world_from_plate;  ///< a rotation
+  Eigen::Vector2d half_size;         ///< m
 };
 
 /// Corners that are not plausible or span no rectangle are Code::bad_input.
