@@ -6,10 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
+#include <limits>
 
-#include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
@@ -23,10 +21,6 @@ constexpr double kFarthest = 25.0;           // squared distance from the path, 
 constexpr double kLooseEnds_m = 0.015;       // path known worse than this does not fill in a frame
 constexpr std::int64_t kGrain = 256;         // flagged frames a chunk
 constexpr double kWeakest = 1e-6;            // of a joint's information, relative
-constexpr double kStranger = 30.0;           // squared SDs of three directions: one in a million by chance
-constexpr std::ptrdiff_t kNext = 2;          // frames: where these stand aside too, the path is abrupt
-constexpr int kRounds = 4;                   // in which strangers leave
-constexpr double kBeside_s = 0.2;            // about a stranger, in which others seem to be ones too
 
 /// A joint's position in one frame as its path predicts it, the frame itself not having been used.
 struct PredictedJoint {
@@ -187,84 +181,6 @@ class Bridge {
   std::vector<Vector3d> centres_;
 };
 
-/// Squared distance of every frame's position from where all others point, in SDs of both; 0 where it holds
-/// none.
-std::vector<double> distances_from_others(const std::vector<PathPoint>& points, const SmoothedPath& path) {
-  std::vector<double> far(points.size(), 0.0);
-  for (std::size_t f = 0; f < points.size(); ++f) {
-    if (!path.known(f)) continue;
-    const Others others = without_frame(points[f], path.position[f], path.covariance_at(f));
-    if (others.known) far[f] = others.distance(points[f].position);
-  }
-  return far;
-}
-
-/// The largest of the distances about a frame.
-double farthest_about(const std::vector<double>& far, std::ptrdiff_t frame, std::ptrdiff_t beside) {
-  return *std::max_element(far.begin() + std::max<std::ptrdiff_t>(0, frame - beside),
-                           far.begin() + std::min(std::ssize(far), frame + beside + 1));
-}
-
-/// Frames whose position lies beyond kStranger from where all others point, each the farthest about it: a
-/// wrong one makes its neighbours seem wrong. Those that were tried before are left out.
-std::vector<std::size_t> strangers_of(const std::vector<double>& far, const std::vector<bool>& tried,
-                                      double rate_hz) {
-  const auto beside = std::max<std::ptrdiff_t>(1, std::lround(kBeside_s * rate_hz));
-  std::vector<std::size_t> out;
-  for (std::ptrdiff_t f = 0; f < std::ssize(far); ++f)
-    if (far[at(f)] > kStranger && !tried[at(f)] && far[at(f)] == farthest_about(far, f, beside))
-      out.push_back(at(f));
-  return out;
-}
-
-/// The frame determines nothing: the position that it shows is not the joint's.
-void doubt(std::size_t frame, std::size_t joint, RecordingPass& pass) {
-  pass.points[joint][frame].information.setZero();
-  pass.state[joint][frame] = CentreState::ambiguous;
-  const auto f = static_cast<std::int64_t>(frame);
-  const auto place = std::ranges::lower_bound(pass.flagged, f, {}, &FlaggedFrame::frame);
-  if (place == pass.flagged.end() || place->frame != f)
-    pass.flagged.insert(place, {.frame = f, .modes = {}, .gathered = std::vector<char>(pass.points.size())});
-}
-
-/// Smooths a joint's path without single frames that stand against all others. Where the next frames stand
-/// aside with one it is the movement that is abrupt, and all are kept.
-void smooth_without_strangers(std::size_t joint, double rate_hz, RecordingPass& pass, const PathPrior& prior,
-                              SmoothedPath& path) {
-  auto& points = pass.points[joint];
-  std::vector<bool> tried(points.size(), false);
-  path = smooth_path(points, rate_hz, prior.white_jerk);
-  auto far = distances_from_others(points, path);
-  for (int round = 0; round < kRounds; ++round) {
-    const auto found = strangers_of(far, tried, rate_hz);
-    if (found.empty()) return;
-    std::vector<Matrix3d> information;
-    for (const std::size_t f : found) {
-      tried[f] = true;
-      information.push_back(points[f].information);
-      points[f].information.setZero();
-    }
-    path = smooth_path(points, rate_hz, prior.white_jerk);
-    far = distances_from_others(points, path);
-    bool restored = false;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const auto f = static_cast<std::ptrdiff_t>(found[i]);
-      if (farthest_about(far, f, kNext) <= kStranger) {
-        doubt(found[i], joint, pass);
-        continue;
-      }
-      points[found[i]].information = information[i];
-      for (auto k = std::max<std::ptrdiff_t>(0, f - kNext); k <= std::min(std::ssize(far) - 1, f + kNext);
-           ++k)
-        tried[at(k)] = true;
-      restored = true;
-    }
-    if (!restored) continue;
-    path = smooth_path(points, rate_hz, prior.white_jerk);
-    far = distances_from_others(points, path);
-  }
-}
-
 }  // namespace
 
 Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, double rate_hz, int threads,
@@ -275,7 +191,7 @@ Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, dou
     if (std::ranges::count_if(pass.points[j], holds_a_position) < kLeastFollowed) continue;
     continuity.prior[j] = find_path_prior(pass.points[j], rate_hz);
     if (continuity.prior[j].follows)
-      smooth_without_strangers(j, rate_hz, pass, continuity.prior[j], continuity.path[j]);
+      continuity.path[j] = smooth_path(pass.points[j], rate_hz, continuity.prior[j].white_jerk);
   }
   const auto count = static_cast<std::int64_t>(pass.flagged.size());
   parallel_for(count, kGrain, threads, [&](std::int64_t begin, std::int64_t end) {
@@ -284,7 +200,7 @@ Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, dou
   });
   for (std::size_t j = 0; j < J; ++j)
     if (continuity.prior[j].follows && count > 0)
-      smooth_without_strangers(j, rate_hz, pass, continuity.prior[j], continuity.path[j]);
+      continuity.path[j] = smooth_path(pass.points[j], rate_hz, continuity.prior[j].white_jerk);
   return continuity;
 }
 

@@ -17,12 +17,12 @@ struct Continuity {
 
 constexpr std::int64_t kLeastFollowed = 10;  ///< frames that determine a joint, for a path of it
 
-/// Smooth the determined frames alone, without single ones that stand against all others, which are ambiguous
-/// from then on; let that path choose among the positions that fit a flagged frame, or fill in what the frame
-/// leaves open; smooth again. Chosen frames gain information in `pass.points`. A position is chosen when it
-/// is 100 times as likely as the others and lies within five standard deviations of the path. Otherwise the
-/// frame is solved once more with the path as prior of its joints; the result is used when noise explains its
-/// cost and the joint stays within five standard deviations of the path. O(F).
+/// Smooth the determined frames alone; let that path choose among the positions that fit a flagged
+/// frame, or fill in what the frame leaves open; smooth again. Chosen frames gain information in
+/// `pass.points`. A position is chosen when it is 100 times as likely as the others and lies within five
+/// standard deviations of the path. Otherwise the frame is solved once more with the path as prior of its
+/// joints; the result is used when noise explains its cost and the joint stays within five standard
+/// deviations of the path. O(F).
 [[nodiscard]] Continuity follow_paths(const FittedChain& fit, const ChainSamples& samples, double rate_hz,
                                       int threads, RecordingPass& pass);
 

@@ -73,29 +73,6 @@ TEST(Continuity, APathThroughFramesWithoutMarkersIsWideAndHonest) {
   }
 }
 
-// As the mirror image of a frame that two and two markers leave: alone it looks determined.
-TEST(Continuity, AFrameAgainstAllOthersDeterminesNothing) {
-  const RandomChain limb = slow_limb(180);
-  const FittedChain fit = known_geometry(limb, kNoise_m);
-  RecordingPass pass = pass_over(fit, limb.samples, 1, {}).value();
-  ASSERT_EQ(pass.state[0][90], CentreState::determined);
-  const auto before = std::ranges::count(pass.state[0], CentreState::determined);
-  pass.points[0][90].position.x() += 0.030;
-  const Continuity found = follow_paths(fit, limb.samples, kRate_hz, 1, pass);
-  EXPECT_EQ(pass.state[0][90], CentreState::ambiguous);
-  EXPECT_LT(error_of(limb, found.path[0].position[90], 90), 0.004);
-  EXPECT_GE(std::ranges::count(pass.state[0], CentreState::determined), before - 2) << "the others stay";
-}
-
-TEST(Continuity, FramesThatStandAsideTogetherAreNotDoubted) {
-  const RandomChain limb = slow_limb(180);
-  const FittedChain fit = known_geometry(limb, kNoise_m);
-  RecordingPass pass = pass_over(fit, limb.samples, 1, {}).value();
-  for (const std::size_t f : {90U, 91U, 92U}) pass.points[0][f].position.x() += 0.030;
-  (void)follow_paths(fit, limb.samples, kRate_hz, 1, pass);
-  for (const std::size_t f : {90U, 91U, 92U}) EXPECT_EQ(pass.state[0][f], CentreState::determined) << f;
-}
-
 TEST(Continuity, SmoothingLowersTheError) {
   const RandomChain limb = slow_limb(200);
   const Followed found = follow(limb);

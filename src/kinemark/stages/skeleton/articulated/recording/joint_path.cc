@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/recording/joint_path.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -18,7 +17,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSaysNothing = 1e-3;  // of what all frames say
 constexpr double kLongestGap_s = 1.0;  // without a frame that holds a position
 // Standard deviations of the first frame: m about the first position found, m/s (limbs stay far below),
 // m/s^2.
@@ -93,17 +91,6 @@ bool holds_a_position(const PathPoint& point) {
 
 Eigen::Matrix3d SmoothedPath::covariance_at(std::size_t frame) const {
   return math::unpack_symmetric3(covariance.data() + 6 * frame);
-}
-
-Others without_frame(const PathPoint& point, const Vector3d& path, const Matrix3d& covariance) {
-  if (!holds_a_position(point)) return {};
-  const Matrix3d together = covariance.inverse(), others = together - point.information;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(others);
-  if (!(eigen.eigenvalues()[0] > kSaysNothing * together.trace() / 3.0)) return {};
-  const Matrix3d inverse = others.inverse();
-  return {.known = true,
-          .position = inverse * (together * path - point.information * point.position),
-          .inverse = (inverse + point.information.inverse()).inverse()};
 }
 
 SmoothedPath smooth_path(std::span<const PathPoint> points, double rate_hz, double white_jerk) {

@@ -35,23 +35,6 @@ struct SmoothedPath {
 /// order 3.
 [[nodiscard]] SmoothedPath smooth_path(std::span<const PathPoint> points, double rate_hz, double white_jerk);
 
-/// What the other frames say of a point in one frame.
-struct Others {
-  bool known = false;  ///< false: they hold no position, or none beside this frame's
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inverse =
-      Eigen::Matrix3d::Zero();  ///< of its covariance and the frame's own together, 1/m^2
-
-  /// Squared, in standard deviations of both.
-  [[nodiscard]] double distance(const Eigen::Vector3d& x) const {
-    return (x - position).dot(inverse * (x - position));
-  }
-};
-
-/// The path of a frame's neighbours, from that through all frames by taking out what the frame itself says.
-[[nodiscard]] Others without_frame(const PathPoint& point, const Eigen::Vector3d& path,
-                                   const Eigen::Matrix3d& covariance);
-
 /// Log likelihood of the positions given such a path, up to a constant that the points alone fix.
 [[nodiscard]] double calc_path_likelihood(std::span<const PathPoint> points, double rate_hz,
                                           double white_jerk);

@@ -195,38 +195,6 @@ TEST(PathSmoother, SeesThatFramesAreUnrelated) {
   EXPECT_FALSE(find_path_prior(points, kRate_hz).follows);
 }
 
-TEST(PathSmoother, APositionLiesFromOthersAsFarAsChanceTakesIt) {
-  const auto drawn = draw(4, 1500, 1e2, 0.002);
-  const auto path = smooth_path(drawn.points, kRate_hz, 1e2);
-  double sum = 0.0, n = 0.0;
-  for (std::size_t f = 0; f < 1500; ++f) {
-    const Others others = without_frame(drawn.points[f], path.position[f], path.covariance_at(f));
-    if (others.known) sum += others.distance(drawn.points[f].position), n += 1.0;
-  }
-  EXPECT_GT(n, 1000.0);
-  EXPECT_NEAR(sum / n, 3.0, 0.35) << "chi-square of three directions";
-}
-
-TEST(PathSmoother, OthersAreThePathWithoutTheFrame) {
-  auto drawn = draw(4, 300, 1e2, 0.002);
-  drawn.points[150] = {.position = drawn.points[150].position + Vector3d(0.030, 0.0, 0.0),
-                       .information = 2e5 * Matrix3d::Identity()};
-  const auto path = smooth_path(drawn.points, kRate_hz, 1e2);
-  const Others others = without_frame(drawn.points[150], path.position[150], path.covariance_at(150));
-  const PathPoint moved = drawn.points[150];
-  drawn.points[150].information.setZero();
-  const auto rest = smooth_path(drawn.points, kRate_hz, 1e2);
-  ASSERT_TRUE(others.known);
-  EXPECT_NEAR((others.position - rest.position[150]).norm(), 0.0, 1e-6);
-  EXPECT_GT(others.distance(moved.position), 60.0);
-  EXPECT_FALSE(without_frame(drawn.points[150], path.position[150], path.covariance_at(150)).known)
-      << "it holds no position";
-  EXPECT_FALSE(without_frame({.position = Vector3d::Ones(), .information = 1e6 * Matrix3d::Identity()},
-                             Vector3d::Zero(), 1e-6 * Matrix3d::Identity())
-                   .known)
-      << "the others say nothing";
-}
-
 TEST(PathSmoother, ATrihedralFixesAPositionAndAPlaneDoesNot) {
   PathPoint p;
   EXPECT_FALSE(holds_a_position(p));
