@@ -103,7 +103,7 @@ TEST_F(ConvertFile, ATableBecomesMatAndNoneIsReadFromIt) {
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_THAT(made->written, ElementsAre(at("truth.mat")));
   EXPECT_EQ(convert(at("in/truth.mot"), at("truth.mat"), false).error().code, Code::io);
-  EXPECT_EQ(convert(at("truth.mat"), at("back.mot"), false).error().code, Code::bad_input);
+  EXPECT_EQ(convert(at("truth.mat"), at("back.mot"), false).error().code, Code::not_supported);
   EXPECT_FALSE(convert(at("truth.mat"), at("back.trc"), false)) << "angles are no markers";
 }
 
