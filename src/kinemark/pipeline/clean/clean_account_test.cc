@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <span>
 
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 
@@ -66,7 +67,7 @@ TEST(CleanAccount, WhatWasDoneAboutADefectIsWhatScreeningDid) {
       {.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B", .first_frame = 9},
       {.kind = data::FindingKind::spike, .subject = "A", .first_frame = 5},
       {.kind = data::FindingKind::spike, .subject = "C", .first_frame = 5}};
-  const auto settled = settle_defects(found, {&found[0], 1}, {&found[2], 1});
+  const auto settled = settle_defects(found, std::span(found).first(1), std::span(found).subspan(2, 1));
   ASSERT_EQ(settled.size(), 4U);
   const std::vector<std::string> done = {settled[0].done, settled[1].done, settled[2].done, settled[3].done};
   EXPECT_EQ(done, (std::vector<std::string>{"exchanged back", "left as it is", "rejected", "left as it is"}));

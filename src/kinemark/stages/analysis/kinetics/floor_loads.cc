@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/stages/analysis/forces/contacts.h"
@@ -32,7 +33,7 @@ Vector3d triple(const Array<double>& values, std::int64_t f) {
 /// One foot and when it is on the floor.
 class Foot {
  public:
-  Foot(const FootTrack& track, const Vector3d& up, double rate_hz) : track_(track), up_(up) {
+  Foot(const FootTrack& track, Vector3d up, double rate_hz) : track_(track), up_(std::move(up)) {
     const std::int64_t frames = track.points.empty() ? 0 : track.points.front().rows();
     still_.assign(at(frames), false);
     for (const auto& x : track.points)
