@@ -87,6 +87,8 @@ class Forces(CommandTest):
         self.refused(2, "forces are read from the plates of a .c3d or .mat file, from", "analyze", self.walk, "--measures", "plates", "--forces", "walk.trc")
         self.write("angles.mot", "q\nnRows=1\nnColumns=2\nendheader\ntime\tknee\n0\t1\n")
         self.refused(3, "angles.mot: has no columns of forces; need NAMEvx", "analyze", self.walk, "--measures", "plates", "--forces", "angles.mot")
+        for words in (("--drop", "LASI"), ("--select", "LASI"), ("--rename", "LASI=A"), ("--doubtful", "drop")):
+            self.refused(2, f"{words[0]}", "convert", self.walk, "grf.mot", *words)
         self.refused(2, "one recording, at the rate of its markers", "convert", self.walk, "grf.mot", "--resample", 50)
 
     def test_labels_that_a_person_swapped_stay(self):

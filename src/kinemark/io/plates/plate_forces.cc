@@ -9,12 +9,17 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/io/plates/plate_wrench.h"
+#include "kinemark/io/plates/internal/plate_wrench.h"
 
 namespace kinemark::io {
 namespace {
 
 using Eigen::Vector3d;
+using internal::plate_pose;
+using internal::PlateChannels;
+using internal::PlatePose;
+using internal::PlateWrench;
+using internal::Vector6;
 
 constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay below it
 

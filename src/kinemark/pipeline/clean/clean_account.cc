@@ -64,11 +64,9 @@ std::vector<data::Defect> settle_defects(std::vector<data::Finding> found,
   };
   std::vector<data::Defect> out;
   for (data::Finding& finding : found) {
-    const char* done = is_among(finding, exchanged)  ? "exchanged back"
-                       : is_among(finding, rejected) ? "rejected"
-                                                     : "left as it is";
-    const bool handled = std::string_view(done) != "left as it is";
-    out.push_back({std::move(finding), done, handled});
+    const bool is_exchanged = is_among(finding, exchanged), is_rejected = is_among(finding, rejected);
+    const char* done = is_exchanged ? "exchanged back" : is_rejected ? "rejected" : "left as it is";
+    out.push_back({std::move(finding), done, is_exchanged || is_rejected});
   }
   return out;
 }

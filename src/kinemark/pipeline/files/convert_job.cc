@@ -189,6 +189,11 @@ Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
   if (!job.merged.empty() || job.resample_hz)
     return fail(Code::usage, fmt::format("{}: forces are those of one recording, at the rate of its markers",
                                          job.out.string()));
+  const auto& chosen = job.selection;
+  if (!chosen.select.empty() || !chosen.drop.empty() || !chosen.rename.empty() || job.doubtful)
+    return fail(Code::usage, fmt::format("{}: no marker goes into a table of forces; --select, --drop, "
+                                         "--rename and --doubtful are not for it",
+                                         job.out.string()));
   auto recording = open_recording({.path = job.in,
                                    .skeleton = job.skeleton,
                                    .plates = true,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -77,8 +78,12 @@ Result<ExternalForces> read_plates(const std::filesystem::path& path, const Time
   if (!trial) return std::unexpected(trial.error());
   auto plates = io::plate_forces(*trial, {.contact_force_n = contact_force_n});
   if (!plates) return std::unexpected(plates.error());
-  return ExternalForces{
-      .wrenches = resample(plates->wrenches, time), .files = {path}, .warnings = std::move(plates->warnings)};
+  ExternalForces out{.wrenches = resample(plates->wrenches, time), .files = {path}, .warnings = {}};
+  // Of its other irregularities, those of its markers, nothing is used here.
+  std::ranges::copy_if(trial->warnings, std::back_inserter(out.warnings),
+                       [](const std::string& warning) { return warning.starts_with("force plate "); });
+  std::ranges::move(plates->warnings, std::back_inserter(out.warnings));
+  return out;
 }
 
 /// Whether files of an extension can hold force plates.

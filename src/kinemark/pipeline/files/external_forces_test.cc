@@ -10,6 +10,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 
@@ -108,6 +109,29 @@ TEST(ExternalForces, APlateAndATableByTheirNames) {
   for (std::int64_t f = 0; f < 500; ++f)
     most = std::max(most, of_frame(plates.wrenches.items[0].force, f).z());
   EXPECT_NEAR(most, 950.0, 10.0);
+}
+
+TEST(ExternalForces, APlateThatCannotBeReadIsSaid) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = 4});
+  trial.analog = {.rate_hz = 100.0, .samples = 4};
+  for (const char* name : {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}) {
+    trial.analog.names.emplace_back(name);
+    trial.analog.units.emplace_back(name[0] == 'F' ? "N" : "Nmm");
+  }
+  for (int i = 0; i < 4; ++i) trial.analog.values.insert(trial.analog.values.end(), {0, 0, -700, 0, 0, 0});
+  data::ForcePlate plate{.number = 2, .type = 2, .channel_idx = {0, 1, 2, 3, 4, 5}};
+  plate.corners_in_world = {Vector3d(0.5, 0, 0), Vector3d(0, 0, 0), Vector3d(0, 0.5, 0),
+                            Vector3d(0.5, 0.5, 0)};
+  trial.force_plates = {{.type = 6, .channel_idx = {0}}, plate};
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_markers(scratch / "p.c3d", trial, false));
+  const auto read = read_external_forces(scratch / "p.c3d", trial.markers.time, 20.0);
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->wrenches.items.size(), 1U);
+  EXPECT_EQ(read->wrenches.items[0].name, "plate 2");
+  EXPECT_THAT(read->warnings, ::testing::Contains(HasSubstr("force plate 1 is left out: its type or")));
+  for (const auto& warning : read->warnings) EXPECT_THAT(warning, HasSubstr("plate "));
 }
 
 TEST(ExternalForces, OtherFilesAreRefusedInASentence) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/core/counted.h"
@@ -42,6 +43,8 @@ Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& 
     std::erase_if(out.exchanged, [&](const auto& swap) { return by_hand(swap, rules.swapped); });
     if (auto s = exchange_back(trial, out.exchanged); !s) return s;
   }
+  for (const auto& swap : sure_swaps(out.defects, rules.sure))
+    if (by_hand(swap, rules.swapped)) out.edited.push_back(swap);
   double samples = 0.0;
   for (const data::Finding& defect : out.defects) {
     if (defect.confidence < rules.sure || defect.kind == data::FindingKind::clock_jump) continue;
@@ -141,6 +144,14 @@ Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules
   return out;
 }
 
+std::vector<std::string> swap_sentences(const Screening& screening, const TimeBase& time) {
+  std::vector<std::string> out;
+  for (const auto& swap : screening.exchanged) out.push_back("Exchanged back: " + sentence_of(swap, time));
+  for (const auto& swap : screening.edited)
+    out.push_back("Left as edits have it: " + sentence_of(swap, time));
+  return out;
+}
+
 Result<std::string> note_on_upsampling(const data::Trajectories& markers) {
   const auto found = trajectory::detect_upsampling(markers);
   if (!found) return std::unexpected(found.error());
@@ -159,8 +170,7 @@ Status leave_out_defects(data::Trial& trial, bool keep_defects,
   if (!screening) return std::unexpected(screening.error());
   if (auto note = upsampling_sentence(*screening->upsampling, trial.markers); !note.empty())
     warnings.push_back(std::move(note));
-  for (const auto& swap : screening->exchanged)
-    warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
+  std::ranges::move(swap_sentences(*screening, trial.markers.time), std::back_inserter(warnings));
   const auto& sure = screening->sure;
   for (std::size_t i = 0; i < std::min(sure.size(), kListed); ++i)
     warnings.push_back("Left out: " + sentence_of(sure[i], trial.markers.time));

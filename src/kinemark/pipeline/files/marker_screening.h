@@ -52,6 +52,7 @@ struct Screening {
   std::vector<data::Finding> defects;    ///< all defects
   std::vector<data::Finding> sure;       ///< those that reject_defects is about
   std::vector<data::Finding> exchanged;  ///< label swaps that were exchanged back; none of `sure`
+  std::vector<data::Finding> edited;     ///< sure label swaps that stay, as edits have them; none of `sure`
   double sure_share = 0.0;               ///< of all samples
   bool rejected = false;                 ///< the sure ones were
   std::optional<data::UpsamplingAccount> upsampling;  ///< when looked for
@@ -67,6 +68,9 @@ struct Screening {
 /// That the recorder made samples of these markers between those that it measured, how many, and at what rate
 /// it measured; empty where none are seen (trajectory::detect_upsampling()). Fails as that.
 [[nodiscard]] Result<std::string> note_on_upsampling(const data::Trajectories& markers);
+
+/// A sentence on each label swap that was exchanged back, and on each that stays, as edits have it.
+[[nodiscard]] std::vector<std::string> swap_sentences(const Screening& screening, const TimeBase& time);
 
 /// For what counts measured samples alone: marks what the recorder made, exchanges back and rejects what
 /// screening is sure of unless `keep_defects`, and adds what was exchanged and

@@ -159,6 +159,9 @@ TEST(ScreenMarkers, MarkersThatAPersonSwappedStayAsTheyAre) {
   auto repaired = swapped;
   const auto found = screen_markers(repaired, {.exchange_back = true}).value();
   ASSERT_EQ(found.exchanged.size(), 1U);
+  EXPECT_THAT(found.edited, IsEmpty());
+  EXPECT_THAT(swap_sentences(found, repaired.markers.time),
+              Not(Contains(HasSubstr("Left as edits have it: "))));
   for (const bool exchange_back : {true, false}) {
     auto kept = swapped;
     const auto left =
@@ -166,6 +169,8 @@ TEST(ScreenMarkers, MarkersThatAPersonSwappedStayAsTheyAre) {
             kept, {.exchange_back = exchange_back, .swapped = {{names[1], names[0]}}, .reject_defects = true})
             .value();
     EXPECT_THAT(left.exchanged, IsEmpty());
+    EXPECT_EQ(left.edited.size(), 1U);
+    EXPECT_THAT(swap_sentences(left, kept.markers.time), Contains(HasSubstr("Left as edits have it: ")));
     EXPECT_THAT(left.sure, IsEmpty());
     EXPECT_EQ(left.defects.size(), found.defects.size()) << "it is said all the same";
     EXPECT_EQ(kept.markers.x_in_world, as_it_is);

@@ -239,6 +239,7 @@ class Merger {
     joined.samples = per * out_.markers.frames();
     out_.analog = std::move(joined);
     out_.force_plates = first.force_plates;
+    out_.unloaded_s = first.unloaded_s;
   }
 
   void add_events() {

@@ -133,10 +133,12 @@ TEST(MergeTrials, AnalogSamplesThatFollowEachOtherAreJoined) {
   add_analog(a);
   add_analog(b);
   a.force_plates = b.force_plates = {{.type = 2, .channel_idx = {0}}};
+  a.unloaded_s = {a.markers.time.t0_s, a.markers.time.time_s(1)};
   const auto t = merge_trials({b, a}).value();
   EXPECT_EQ(t.analog.samples, 12);
   for (std::int64_t s = 0; s < 12; ++s) EXPECT_EQ(t.analog.values[at(s)], static_cast<double>(2 + s));
   EXPECT_EQ(t.force_plates.size(), 1U);
+  EXPECT_EQ(t.unloaded_s, a.unloaded_s);
   EXPECT_THAT(t.warnings, IsEmpty());
   EXPECT_THAT(t.warnings,
               Not(Contains(HasSubstr("left out: the files do not hold the same ones over all frames"))));

@@ -60,10 +60,12 @@ Status find_plates(const RecordingSource& source, Recording& recording) {
   if (!source.forces.empty()) return take_forces(source, recording);
   if (recording.trial.force_plates.empty()) return {};
   auto forces = io::plate_forces(recording.trial, {.contact_force_n = source.contact_force_n});
-  if (forces)
-    recording.plates = std::move(forces->wrenches);
-  else
+  if (!forces) {
     recording.plates_fault = forces.error().message;
+    return {};
+  }
+  recording.plates = std::move(forces->wrenches);
+  std::ranges::move(forces->warnings, std::back_inserter(recording.notes));
   return {};
 }
 

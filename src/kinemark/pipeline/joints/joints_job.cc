@@ -75,8 +75,7 @@ Status screen_trial(const JointsJob& job, const EditsTaken& edits, data::Trial& 
   if (screening->made_left_out > 0)
     warnings.push_back(
         fmt::format("{} samples that the recorder interpolated were left out.", screening->made_left_out));
-  for (const auto& swap : screening->exchanged)
-    warnings.push_back("Exchanged back: " + sentence_of(swap, trial.markers.time));
+  std::ranges::move(swap_sentences(*screening, trial.markers.time), std::back_inserter(warnings));
   const auto& sure = screening->sure;
   if (sure.empty()) return {};
   if (!screening->rejected) {

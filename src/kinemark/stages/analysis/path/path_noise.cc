@@ -132,10 +132,28 @@ double PathNoise::variance_about_mean(double seconds, bool before) const {
 
 namespace {
 
-// Deviations, robust, of the single axes' samples from the cubic through four neighbours.
-Eigen::RowVectorXd robust_scale(std::vector<std::vector<double>>& sizes) {
-  Eigen::RowVectorXd out(std::ssize(sizes));
-  for (Eigen::Index k = 0; k < out.size(); ++k) out[k] = 1.4826 * math::median(sizes[at(k)]) + 1e-15;
+// How far samples lie from the cubic through their four neighbours, where all five are seen.
+struct OffCubic {
+  SeriesMatrix residual;     // n x K; 0 where not known
+  std::vector<bool> known;   // n
+  Eigen::RowVectorXd scale;  // K, robust deviations; empty: fewer than eight are known
+};
+
+OffCubic off_cubic(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  const std::int64_t n = x.rows();
+  OffCubic out{
+      .residual = SeriesMatrix::Zero(n, x.cols()), .known = std::vector<bool>(at(n), false), .scale = {}};
+  std::vector<std::vector<double>> sizes(at(x.cols()));
+  for (std::int64_t i = 2; i + 2 < n; ++i) {
+    if (!(seen[at(i - 2)] && seen[at(i - 1)] && seen[at(i)] && seen[at(i + 1)] && seen[at(i + 2)])) continue;
+    out.residual.row(i) =
+        x.row(i) - (4.0 * (x.row(i - 1) + x.row(i + 1)) - x.row(i - 2) - x.row(i + 2)) / 6.0;
+    out.known[at(i)] = true;
+    for (Eigen::Index k = 0; k < x.cols(); ++k) sizes[at(k)].push_back(std::abs(out.residual(i, k)));
+  }
+  if (sizes.front().size() < 8) return out;
+  out.scale.resize(x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k) out.scale[k] = 1.4826 * math::median(sizes[at(k)]) + 1e-15;
   return out;
 }
 
@@ -167,54 +185,14 @@ double distance_from(const std::vector<std::int64_t>& neighbours, const SeriesMa
   return off.cwiseQuotient(scale).norm() / std::sqrt(squares);
 }
 
-std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>& seen, double limit);
-
-}  // namespace
-
-std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector<bool>& seen) {
-  return outliers_beyond(x, seen, kOutlier);
-}
-
-std::vector<bool> without_spikes(const SeriesMatrix& x, const std::vector<bool>& seen) {
-  constexpr double kCubicSquares = 70.0 / 36.0;  // of the weights of a sample and its four neighbours
-  const auto spikes = outliers_beyond(x, seen, kFarOutlier);
-  std::vector<bool> out = seen;
-  std::vector<std::vector<double>> sizes(at(x.cols()));
-  for (std::int64_t i = 0; i < x.rows(); ++i) out[at(i)] = seen[at(i)] && !spikes[at(i)];
-  for (std::int64_t i = 2; i + 2 < x.rows(); ++i) {
-    if (!(out[at(i - 2)] && out[at(i - 1)] && out[at(i)] && out[at(i + 1)] && out[at(i + 2)])) continue;
-    for (Eigen::Index k = 0; k < x.cols(); ++k)
-      sizes[at(k)].push_back(
-          std::abs(x(i, k) - (4.0 * (x(i - 1, k) + x(i + 1, k)) - x(i - 2, k) - x(i + 2, k)) / 6.0));
-  }
-  if (sizes.front().size() < 8) return out;
-  const Eigen::RowVectorXd scale = robust_scale(sizes) / std::sqrt(kCubicSquares);
-  for (std::int64_t i = 0; i < x.rows(); ++i) {
-    if (!spikes[at(i)]) continue;
-    for (auto k = std::max<std::int64_t>(0, i - kBeside); k <= std::min(x.rows() - 1, i + kBeside); ++k)
-      if (out[at(k)] && distance_from(neighbours_of(k, out), x, k, scale) > kOutlier) out[at(k)] = false;
-  }
-  return out;
-}
-
-namespace {
-
 std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>& seen, double limit) {
   const std::int64_t n = x.rows();
   std::vector<bool> out(at(n), false);
-  if (n < 8) return out;
-  SeriesMatrix residual = SeriesMatrix::Zero(n, x.cols());
-  std::vector<bool> known(at(n), false);
-  std::vector<std::vector<double>> sizes(at(x.cols()));
-  for (std::int64_t i = 2; i + 2 < n; ++i) {
-    if (!(seen[at(i - 2)] && seen[at(i - 1)] && seen[at(i)] && seen[at(i + 1)] && seen[at(i + 2)])) continue;
-    residual.row(i) = x.row(i) - (4.0 * (x.row(i - 1) + x.row(i + 1)) - x.row(i - 2) - x.row(i + 2)) / 6.0;
-    known[at(i)] = true;
-    for (Eigen::Index k = 0; k < x.cols(); ++k) sizes[at(k)].push_back(std::abs(residual(i, k)));
-  }
-  if (sizes.front().size() < 8) return out;
-  const Eigen::RowVectorXd scale = robust_scale(sizes);
-  const auto distance = [&](std::int64_t i) { return residual.row(i).cwiseQuotient(scale).norm(); };
+  const auto [residual, known, scale] = off_cubic(x, seen);
+  if (scale.size() == 0) return out;
+  const auto distance = [&, &residual = residual, &scale = scale](std::int64_t i) {
+    return residual.row(i).cwiseQuotient(scale).norm();
+  };
   std::int64_t count = 0;
   for (std::int64_t i = 3; i + 3 < n; ++i) {
     if (!known[at(i)] || !known[at(i - 1)] || !known[at(i + 1)] || distance(i) <= limit) continue;
@@ -232,6 +210,26 @@ std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>
 }
 
 }  // namespace
+
+std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  return outliers_beyond(x, seen, kOutlier);
+}
+
+std::vector<bool> without_spikes(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  constexpr double kCubicSquares = 70.0 / 36.0;  // of the weights of a sample and its four neighbours
+  const auto spikes = outliers_beyond(x, seen, kFarOutlier);
+  std::vector<bool> out = seen;
+  for (std::int64_t i = 0; i < x.rows(); ++i) out[at(i)] = seen[at(i)] && !spikes[at(i)];
+  const auto rest = off_cubic(x, out);
+  if (rest.scale.size() == 0) return out;
+  const Eigen::RowVectorXd scale = rest.scale / std::sqrt(kCubicSquares);
+  for (std::int64_t i = 0; i < x.rows(); ++i) {
+    if (!spikes[at(i)]) continue;
+    for (auto k = std::max<std::int64_t>(0, i - kBeside); k <= std::min(x.rows() - 1, i + kBeside); ++k)
+      if (out[at(k)] && distance_from(neighbours_of(k, out), x, k, scale) > kOutlier) out[at(k)] = false;
+  }
+  return out;
+}
 
 double rounding_step(const SeriesMatrix& x, const std::vector<bool>& seen) {
   double step = 0.0;

@@ -10,7 +10,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 
-namespace kinemark::io {
+namespace kinemark::io::internal {
 
 /// Force and moment.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -52,4 +52,4 @@ struct PlatePose {
 /// Corners that are not plausible or span no rectangle are Code::bad_input.
 [[nodiscard]] Result<PlatePose> plate_pose(const data::ForcePlate& plate);
 
-}  // namespace kinemark::io
+}  // namespace kinemark::io::internal

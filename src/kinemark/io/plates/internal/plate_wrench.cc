@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/plates/plate_wrench.h"
+#include "kinemark/io/plates/internal/plate_wrench.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +11,7 @@
 
 #include "kinemark/io/length_unit.h"
 
-namespace kinemark::io {
+namespace kinemark::io::internal {
 namespace {
 
 using Eigen::Vector3d;
@@ -162,4 +162,4 @@ Result<PlatePose> plate_pose(const data::ForcePlate& plate) {
   return pose;
 }
 
-}  // namespace kinemark::io
+}  // namespace kinemark::io::internal
