@@ -18,6 +18,8 @@ PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "b
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 WALK = DATA / "c3d-parser-clinics" / "MH0222_BP15.c3d"
 STEPS = DATA / "btk-others" / "PiG_Motion3_FF.c3d"
+TAI_CHI = DATA / "motionmachine-taichi" / "taichi.v3d"
+HAND = DATA / "dfki-hand" / "recording.tsv"
 MODEL = DATA / "opensim-gait2354" / "subject01_simbody.osim"
 OPTIONS = ("--rate", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
 COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "analyze", "report")
@@ -151,11 +153,11 @@ def farthest(one, other, of):
 
 
 def check_forces(folder):
-    """Plates of one recording as C3D, MAT, and TRC with a table of forces, a journal beside each."""
+    """Plates of one recording as C3D, MAT, NWB, and TRC with a table of forces, a journal beside each."""
     shutil.copy(STEPS, folder / "steps.c3d")
     first = json.loads(run(folder, "info", "steps.c3d", "--json").stdout)["first_frame"]
     base = None
-    for ending in ("c3d", "mat", "trc"):
+    for ending in ("c3d", "mat", "nwb", "trc"):
         place = folder / f"forces_{ending}"
         place.mkdir()
         run(folder, "convert", "steps.c3d", place / f"steps.{ending}", "--edits", "none")
@@ -168,12 +170,65 @@ def check_forces(folder):
         if base is None:
             base = found
             row(not isinstance(found, str), "steps on plates of the C3D", "found", f"{len(found)} numbers" if not isinstance(found, str) else found)
-        elif ending == "mat":
+        elif ending in ("mat", "nwb"):
             worst = farthest(base, found, lambda _: True)
-            row(worst <= 1e-9, "steps on plates of the MAT", "numbers of the C3D within 1e-9", f"{worst:.2g}" if worst < 1e300 else str(found)[:100])
+            row(worst <= 1e-9, f"steps on plates of the {ending.upper()}", "numbers of the C3D within 1e-9", f"{worst:.2g}" if worst < 1e300 else str(found)[:100])
         else:
             worst = farthest(base, found, lambda name: name.startswith("Foot "))
             row(worst <= 0.005, "steps of the TRC with a table of forces", "those of the C3D within 5 ms", f"{1e3 * worst:.2g} ms" if worst < 1e300 else str(found)[:100])
+
+
+def check_back(folder):
+    """A recording that went through NWB is a C3D again: channels, plates, events and forces."""
+    for name, source in (("steps", STEPS), ("walk", WALK)):
+        place = folder / f"back_{name}"
+        place.mkdir()
+        shutil.copy(source, place / "first.c3d")
+        for way in ("mat", "nwb"):
+            run(place, "convert", "first.c3d", f"way.{way}")
+            run(place, "convert", f"way.{way}", f"{way}.c3d")
+        facts = [json.loads(run(place, "info", file, "--json").stdout or "{}") for file in ("first.c3d", "way.nwb", "nwb.c3d")]
+        keys = ("points", "frames", "rate_hz", "first_frame", "missing", "labels", "channels", "analog_channels", "analog_rate_hz", "force_plates", "events")
+        other = [key for key in keys for after in facts[1:] if after.get(key, "none") != facts[0].get(key)]
+        row(not other, f"{name}: C3D to NWB to C3D", f"{len(keys)} facts are the same", " ".join(other) or "the same")
+        bytes_of = [(place / f"{way}.c3d").read_bytes() for way in ("mat", "nwb") if (place / f"{way}.c3d").is_file()]
+        row(len(bytes_of) == 2 and bytes_of[0] == bytes_of[1], f"{name}: C3D by way of NWB", "bytes of that by way of MAT", f"{len(bytes_of)} files")
+    place = folder / "back_steps"
+    worst = farthest(steps_of(place, "first.c3d"), steps_of(place, "nwb.c3d"), lambda _: True)
+    row(worst <= 1e-9, "steps: forces and steps after NWB", "numbers of the C3D within 1e-9", f"{worst:.2g}")
+
+
+SAME = ("points", "frames", "rate_hz", "first_frame", "missing", "labels")  # which every format keeps
+SAID = {"channels": "no marker", "analog_channels": "analog channel", "force_plates": "force plate", "events": "event", "filtered": "the filters of markers"}
+ENDINGS = ("c3d", "mat", "nwb", "csv", "trc", "glb", "tsv")
+
+
+def silent_losses(folder, source, ending, *rate):
+    """What the recording `source` has, its conversion has not, and no note names."""
+    out = folder / f"{source.stem}_{source.suffix[1:]}" / f"sub-01/motion/sub-01_task-a_tracksys-{ending}_motion.{ending}"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    done = run(folder, "convert", source, out, *rate)
+    if done.returncode not in (0, 1):
+        return [done.stderr.strip()[:80]]
+    before = json.loads(run(folder, "info", source, "--json", *rate).stdout)
+    after = json.loads(run(folder, "info", out, "--json").stdout) if ending != "glb" else {key: before[key] for key in SAME}
+    silent = [key for key in SAME if after[key] != before[key]]
+    return silent + [key for key, word in SAID.items() if before.get(key) and after.get(key) != before.get(key) and word not in done.stderr]
+
+
+def check_kept(folder):
+    """Every format that is read, written as every other: what is not kept is said."""
+    shutil.copy(STEPS, folder / "kept.c3d")
+    run(folder, "clean", "kept.c3d", "smooth.nwb", "--derivatives", "--quiet")
+    sources = [(folder / "kept.c3d", ()), (folder / "smooth.nwb", ()), (TAI_CHI, ("--rate", "179")), (HAND, ())]
+    for ending in ENDINGS[1:5]:
+        run(folder, "convert", "kept.c3d", f"kept.{ending}", "--quiet")
+        sources.append((folder / f"kept.{ending}", ()))
+    pairs = [(source, ending, rate) for source, rate in sources if source.is_file() for ending in ENDINGS]
+    silent = [f"{source.name} to {ending}: {' '.join(lost)}" for source, ending, rate in pairs if (lost := silent_losses(folder, source, ending, *rate))]
+    row(not silent, f"{len(pairs)} conversions: what the new format does not keep is said", "all", f"{len(silent)} silent {'; '.join(silent[:3])}")
+    said = run(folder, "convert", "smooth.nwb", "again.nwb").stderr
+    row("derivatives of markers are not carried on" in said, "derivatives that a conversion leaves behind are said", "said", said.splitlines()[0][:100] if said else "")
 
 
 def main():
@@ -185,8 +240,10 @@ def main():
         check_formats(Path(folder))
         if STEPS.is_file():
             check_forces(Path(folder))
+            check_back(Path(folder))
+            check_kept(Path(folder))
         else:
-            print(f"SKIP | steps on plates in three formats | | NO REAL DATA: {STEPS} is not there; set KINEMARK_TEST_DATA")
+            print(f"SKIP | steps on plates in four formats | | NO REAL DATA: {STEPS} is not there; set KINEMARK_TEST_DATA")
     return 0
 
 

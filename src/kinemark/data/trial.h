@@ -65,6 +65,8 @@ struct Trial {
   /// (FORCE_PLATFORM:ZERO); the first after the last: it says none.
   std::array<double, 2> unloaded_s = {0.0, -1.0};
   std::vector<ForeignGroup> foreign;  ///< what only a C3D file can keep, and nothing here reads
+  /// What the file holds and a trial does not, in words ("derivatives of markers"): no conversion carries it.
+  std::vector<std::string> unread;
   std::vector<std::string> warnings;  ///< irregularities of the file, one sentence each
 
   /// number of the last frame in the file's own counting

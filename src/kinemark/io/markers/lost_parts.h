@@ -13,7 +13,8 @@ namespace kinemark::io {
 /// What a trial holds of a part, in words ("2 events"); empty: nothing. O(F M).
 [[nodiscard]] std::string held(const data::Trial& trial, Part part);
 
-/// What a trial holds and a format does not keep, a sentence each; empty when nothing is lost.
+/// What a trial holds and a format does not keep, and what its file holds beside (Trial::unread), a sentence
+/// each; empty when nothing is lost.
 [[nodiscard]] std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& trial);
 
 /// The table of formats as Markdown: a row for each, what it is read or written as, a column for each part.

@@ -131,6 +131,14 @@ TEST(LostParts, WhatAFormatKeepsInPartMayBeAllThereIs) {
   EXPECT_THAT(lost_in(*written_format(".c3d"), trial), ElementsAre(HasSubstr("one standard deviation")));
 }
 
+TEST(LostParts, WhatTheReaderCouldNotCarryIsSaidOfEveryFormat) {
+  data::Trial trial = bare();
+  trial.unread = {"derivatives of markers"};
+  for (const char* ending : {".c3d", ".nwb", ".csv"})
+    EXPECT_THAT(lost_in(*written_format(ending), trial),
+                ElementsAre("derivatives of markers are not carried on"));
+}
+
 /// What the table promises is what the writers do: written, read, and looked for.
 TEST(LostParts, AFormatKeepsWhatTheTableSays) {
   const testing_support::ScratchFolder scratch;

@@ -20,8 +20,8 @@ struct MarkerReadOptions {
 /// Read a marker file, C3D, TRC, NWB, CSV, Visual3D text (.v3d) or another file of the table
 /// marker_formats(), in metres. The content decides which (a C3D has 0x50 in its second byte, a TRC begins
 /// with PathFileType, an NWB file with the signature of HDF5); where the content is not conclusive the
-/// extension decides, so that a damaged file gets the error message of its format. Of an NWB file a trial
-/// holds positions with their provenance; read_nwb() gives the rest, and read_v3d() the segment orientations
+/// extension decides, so that a damaged file gets the error message of its format. Of an NWB file
+/// read_nwb() gives also derivatives and metadata, and read_v3d() the segment orientations
 /// of a Visual3D text. Samples that no marker can have are rejected with a warning (reject_implausible()).
 /// Code::not_supported for any other file, naming what is supported; Code::usage when a rate is given for a
 /// file that stores its own; else as read_c3d(), read_trc(), read_nwb(), read_trajectories_csv() and
@@ -43,9 +43,8 @@ struct MarkerWriteOptions {
   std::vector<std::string>* lost = nullptr;  ///< gets what had no room, a sentence each; null: not wanted
 };
 
-/// Write a trial in the format of the extension: .c3d, .trc (millimetres), .nwb (positions with their
-/// provenance; write_nwb() takes more) or .csv (write_trajectories_csv()). Code::usage for any other; else as
-/// the writer of that format.
+/// Write a trial in the format of the extension: .c3d, .trc (millimetres), .nwb, .mat or .csv
+/// (write_trajectories_csv()). Code::usage for any other; else as the writer of that format.
 [[nodiscard]] Status write_markers(const std::filesystem::path& path, const data::Trial& trial,
                                    const MarkerWriteOptions& options);
 

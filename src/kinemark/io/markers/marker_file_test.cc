@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinemark/io/file.h"
+#include "kinemark/io/nwb/nwb.h"
 #include "support/scratch.h"
 #include "support/test_data.h"
 
@@ -128,6 +131,43 @@ TEST(MarkerFile, Visual3dTextNeedsARateAndOthersRefuseOne) {
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().code, Code::usage);
   EXPECT_THAT(twice.error().message, HasSubstr("the file stores its own rate"));
+}
+
+TEST(MarkerFile, AnglesOfAVisual3dTextGoAlongAsChannels) {
+  const testing_support::ScratchFolder scratch;
+  const std::string head =
+      "\ta.c3d\ta.c3d\ta.c3d\ta.c3d\ta.c3d\ta.c3d\n\tHip\tHip\tHip\tHip\tHip\tHip\n"
+      "\tLANDMARK\tLANDMARK\tLANDMARK\tLINK_MODEL_BASED\tLINK_MODEL_BASED\tLINK_MODEL_BASED\n"
+      "\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\nITEM\tX\tY\tZ\tX\tY\tZ\n";
+  ASSERT_TRUE(
+      write_text(scratch / "a.v3d", head + "1\t1\t2\t3\t90.1\t0.2\t-45.3\n2\t4\t5\t6\t7\t\t9\n", false));
+  const auto trial = read_markers(scratch / "a.v3d", {.rate_hz = 100.0});
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_THAT(trial->channels.names, testing::ElementsAre("Hip_angles_XYZ"));
+  EXPECT_THAT(trial->channels.units, testing::ElementsAre("deg"));
+  EXPECT_EQ(trial->channels.kinds, std::vector{data::ChannelKind::angle});
+  EXPECT_EQ(trial->channels.values.at(0), 90.1) << "the file's own number";
+  EXPECT_TRUE(std::isnan(trial->channels.values.at(4)));
+  ASSERT_TRUE(write_markers(scratch / "a.c3d", *trial, false));
+  EXPECT_EQ(read_markers(scratch / "a.c3d").value().channels.names, trial->channels.names);
+}
+
+TEST(MarkerFile, ANwbKeepsWhoRecordedAndSaysWhatNoTrialHolds) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = small();
+  trial.software = "Vicon Nexus";
+  trial.first_frame = 165;
+  ASSERT_TRUE(write_markers(scratch / "a.nwb", trial, false));
+  const auto back = read_markers(scratch / "a.nwb").value();
+  EXPECT_EQ(back.software, "Vicon Nexus");
+  EXPECT_EQ(back.first_frame, 165);
+  EXPECT_THAT(back.unread, testing::IsEmpty());
+  data::Derivatives rates;
+  rates.velocity.assign(trial.markers.x_in_world.size(), 0.5);
+  rates.filters.resize(2);
+  ASSERT_TRUE(write_nwb(scratch / "b.nwb", trial, &rates, {.subject_id = "M1"}));
+  EXPECT_THAT(read_markers(scratch / "b.nwb").value().unread,
+              testing::ElementsAre("derivatives of markers", "subject and session"));
 }
 
 TEST(MarkerFile, ProvenanceSurvivesEveryFormatThatCanHoldIt) {

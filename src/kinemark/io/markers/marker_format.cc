@@ -3,7 +3,6 @@
 #include "kinemark/io/markers/marker_format.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "kinemark/io/animation/amc.h"
@@ -68,18 +67,32 @@ Result<data::Trial> read_c3d_trial(const fs::path& path, ReadOptions, Box box_m)
 Result<data::Trial> read_nwb_trial(const fs::path& path, ReadOptions, Box) {
   auto file = read_nwb(path);
   if (!file) return std::unexpected(file.error());
-  data::Trial trial{.source = path.string(), .format = "NWB", .units_in_file = "m"};
-  trial.software = file->metadata.software;
-  trial.markers = std::move(file->trajectories);
+  data::Trial trial = std::move(file->trial);
+  trial.source = path.string();
+  trial.format = "NWB";
+  trial.units_in_file = "m";
+  const NwbMetadata& metadata = file->metadata;
+  trial.software = metadata.recorder.empty() ? metadata.software : metadata.recorder;
   trial.warnings = std::move(file->warnings);
-  const double first = trial.markers.time.t0_s * trial.markers.time.rate_hz;
-  if (first > 0.0 && first < 1e15) trial.first_frame = std::llround(first) + 1;
+  if (file->derivatives && !file->derivatives->velocity.empty())
+    trial.unread.emplace_back("derivatives of markers");
+  if (!metadata.subject_id.empty() || !metadata.species.empty() || !metadata.session_start.empty())
+    trial.unread.emplace_back("subject and session");
   return trial;
 }
 
 Result<data::Trial> read_v3d_trial(const fs::path& path, ReadOptions options, Box) {
   auto text = read_v3d(path, {.rate_hz = options.rate_hz});
   if (!text) return std::unexpected(text.error());
+  // Angles go along as those of a BVH or AMC do.
+  data::Channels& angles = text->trial.channels;
+  for (const std::string& signal : text->orientations.names) angles.names.push_back(signal + "_angles_XYZ");
+  if (angles.names.empty()) return std::move(text->trial);
+  angles.kinds.assign(angles.names.size(), data::ChannelKind::angle);
+  angles.units.assign(angles.names.size(), "deg");
+  angles.rate_hz = options.rate_hz;
+  angles.frames = text->orientations.frames;
+  angles.values = std::move(text->orientations.angles_deg);
   return std::move(text->trial);
 }
 
@@ -96,9 +109,9 @@ Status refuse_several(const fs::path& path, const data::Trial&, WriteOptions) {
 Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOptions options) {
   NwbMetadata metadata;
   metadata.set = options.set;
+  metadata.recorder = trial.software == metadata.software ? "" : trial.software;
   if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-  return write_nwb(path, trial.markers, nullptr, metadata,
-                   {.force = options.force, .ndx_pose = options.ndx_pose});
+  return write_nwb(path, trial, nullptr, metadata, {.force = options.force, .ndx_pose = options.ndx_pose});
 }
 
 using enum Kept;
@@ -106,11 +119,11 @@ using enum Kept;
 //                                         plates groups filters
 constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none,  whole, whole,
                                              whole, whole,   whole, whole, whole};
-constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, none, none, none, none, none, none, whole};
-constexpr std::array<Kept, kParts> kOfCsv = kOfNwb;
-constexpr std::array<Kept, kParts> kOfBids = {none, none, none, none, whole, none, none, none, none, none};
-constexpr std::array<Kept, kParts> kOfMat = {whole, whole, whole, whole, whole,
+constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, whole, whole,
                                              whole, whole, whole, none,  whole};
+constexpr std::array<Kept, kParts> kOfCsv = {whole, whole, whole, none, none, none, none, none, none, whole};
+constexpr std::array<Kept, kParts> kOfBids = {none, none, none, none, whole, none, none, none, none, none};
+constexpr std::array<Kept, kParts> kOfMat = kOfNwb;
 
 constexpr std::array kFormats = {
     MarkerFormat{.name = "C3D",

@@ -29,6 +29,7 @@ struct NwbMetadata {
   std::string sex;         ///< "F", "M", "U" (unknown) or "O" (other)
   std::string age;         ///< ISO 8601 duration, "P34Y"
 
+  std::string recorder;                                      ///< program that recorded it; empty: not known
   std::string software = "kinemark";                         ///< what wrote the file
   std::string version;                                       ///< of the software
   std::string command;                                       ///< what made the file, as it was typed

@@ -10,24 +10,28 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/derivatives.h"
-#include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/io/nwb/metadata.h"
 
 // Neurodata Without Borders 2 (HDF5): one file holds positions, states, methods, covariances, true sample
-// times, derivatives with standard deviations, filters and provenance. docs/formats/nwb.md says where each
-// one is. A build without HDF5 (KINEMARK_NWB=OFF) answers every call with Code::not_supported.
+// times, derivatives with standard deviations, filters and provenance, analog channels, events and force
+// plates. docs/formats/nwb.md says where each one is. A build without HDF5 (KINEMARK_NWB=OFF) answers every
+// call with Code::not_supported.
 namespace kinemark::io {
 
 /// What one NWB file holds.
 struct NwbFile {
-  data::Trajectories trajectories;               ///< positions, m, with their provenance
+  /// Positions, m, with their provenance; in files of ours also residuals, points that are no markers, analog
+  /// channels, events and force plates. What names the file (source, format, warnings) is left empty.
+  data::Trial trial;
   std::optional<data::Derivatives> derivatives;  ///< where the file has them
   NwbMetadata metadata;                          ///< who, when, how
   std::vector<std::string>
       warnings;  ///< irregularities of the file and parts that could not be used, one sentence each
 };
 
-/// Read marker positions and what belongs to them. Files of write_nwb() come back bit by bit. Of other files
+/// Read marker positions and what belongs to them. Files of write_nwb() come back bit by bit: of a trial all
+/// but its groups of parameters. Of other files
 /// every SpatialSeries and PoseEstimationSeries (ndx-pose) with two or three coordinates in a length unit is
 /// a marker; those that do not share the clock of the largest group are left out with a warning. Uneven
 /// timestamps become sample_offset_s; NaN, infinite and zero-confidence samples are missing. Time and memory
@@ -56,6 +60,13 @@ struct NwbWriteOptions {
 /// Code::bad_input: invalid trajectories, no frames, no markers, metadata that NWB does not allow; Code::io:
 /// the disk.
 [[nodiscard]] Status write_nwb(const std::filesystem::path& path, const data::Trajectories& trajectories,
+                               const data::Derivatives* derivatives = nullptr,
+                               const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
+
+/// The same of a whole trial: also its residuals, points that are no markers, analog channels, events, force
+/// plates, the time in which nobody loads them, and the number of its first frame. Groups of parameters of a
+/// C3D file have no room.
+[[nodiscard]] Status write_nwb(const std::filesystem::path& path, const data::Trial& trial,
                                const data::Derivatives* derivatives = nullptr,
                                const NwbMetadata& metadata = {}, const NwbWriteOptions& options = {});
 
@@ -99,6 +110,9 @@ class NwbWriter {
   /// ContractError); its clock is not looked at. Pieces of whole multiples of 4096 frames are fastest.
   [[nodiscard]] Status write(const data::Trajectories& piece, const data::Derivatives* derivatives = nullptr,
                              std::int64_t first_frame = 0);
+  /// Write what `trial` holds besides positions, once, before commit(). Its markers are those of the outline
+  /// (else ContractError); its positions are not looked at.
+  [[nodiscard]] Status write_signals(const data::Trial& trial);
   /// Write names of methods and filters and the digest of all that is there, close, sync, and put the file
   /// into its place. @param set  of files that it belongs to, in place of the metadata's; empty: as there
   [[nodiscard]] Status commit(const std::string& set = {});

@@ -36,6 +36,12 @@ Status write_nwb(const std::filesystem::path& path, const data::Trajectories& /*
   return absent(path);
 }
 
+Status write_nwb(const std::filesystem::path& path, const data::Trial& /*trial*/,
+                 const data::Derivatives* /*derivatives*/, const NwbMetadata& /*metadata*/,
+                 const NwbWriteOptions& /*options*/) {
+  return absent(path);
+}
+
 Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> /*tables*/,
                         const NwbMetadata& /*metadata*/, bool /*force*/) {
   return absent(path);
@@ -55,6 +61,8 @@ Status NwbWriter::write(const data::Trajectories& /*piece*/, const data::Derivat
                         std::int64_t /*first_frame*/) {
   return absent("NWB");
 }
+
+Status NwbWriter::write_signals(const data::Trial& /*trial*/) { return absent("NWB"); }
 
 Status NwbWriter::commit(const std::string& /*set*/) { return absent("NWB"); }
 

@@ -75,7 +75,7 @@ TEST(ForeignNwb, PositionsInMillimetresOfAnyGroup) {
   }
   const auto back = read_nwb(scratch / "a.nwb");
   ASSERT_TRUE(back) << back.error().message;
-  const auto& t = back->trajectories;
+  const auto& t = back->trial.markers;
   EXPECT_THAT(t.names, ElementsAre("elbow", "wrist"));
   EXPECT_EQ(t.time.rate_hz, 59.94) << "stored in single precision, meant as the decimal";
   EXPECT_EQ(t.time.t0_s, 2.0);
@@ -95,7 +95,7 @@ TEST(ForeignNwb, ConversionAndOffsetLeadToTheUnit) {
     file.out().attribute(data.id(), "offset", 3.0, H5T_IEEE_F32LE);
     file.even(series, 30.0);
   }
-  const auto t = read_nwb(scratch / "a.nwb").value().trajectories;
+  const auto t = read_nwb(scratch / "a.nwb").value().trial.markers;
   EXPECT_LT((t.x(2, 0) - 0.01 * Eigen::Vector3d(4.0, 4.125, 4.25)).norm(), 1e-15);
 }
 
@@ -106,7 +106,7 @@ TEST(ForeignNwb, TwoCoordinatesLieInAPlane) {
     file.even(file.series(file.group("/acquisition/Position", "Position").id(), "mouse", "", 2), 30.0);
   }
   const auto back = read_nwb(scratch / "a.nwb").value();
-  EXPECT_EQ(back.trajectories.x(1, 0), Eigen::Vector3d(1.0, 1.25, 0.0)) << "metres where no unit is told";
+  EXPECT_EQ(back.trial.markers.x(1, 0), Eigen::Vector3d(1.0, 1.25, 0.0)) << "metres where no unit is told";
   EXPECT_THAT(back.warnings, ElementsAre(HasSubstr("the third is set to 0")));
 }
 
@@ -119,7 +119,7 @@ TEST(ForeignNwb, PosesWithConfidence) {
     file.even(paw, 100.0);
     file.numbers(paw, "confidence", {0.9, 0.0, std::nan(""), 1.0});
   }
-  const auto t = read_nwb(scratch / "a.nwb").value().trajectories;
+  const auto t = read_nwb(scratch / "a.nwb").value().trial.markers;
   EXPECT_TRUE(t.present(0, 0));
   EXPECT_FALSE(t.present(1, 0));
   EXPECT_FALSE(t.present(2, 0));
@@ -136,10 +136,10 @@ TEST(ForeignNwb, UnevenTimestampsAreKept) {
       file.numbers(file.series(position.id(), name, "m"), "timestamps", stamps);
   }
   const auto back = read_nwb(scratch / "a.nwb").value();
-  EXPECT_NEAR(back.trajectories.time.rate_hz, 10.0, 1e-12);
+  EXPECT_NEAR(back.trial.markers.time.rate_hz, 10.0, 1e-12);
   for (std::int64_t f = 0; f < kFrames; ++f)
     for (std::int64_t m = 0; m < 2; ++m)
-      EXPECT_NEAR(back.trajectories.time_s(f, m), stamps[static_cast<std::size_t>(f)], 1e-15);
+      EXPECT_NEAR(back.trial.markers.time_s(f, m), stamps[static_cast<std::size_t>(f)], 1e-15);
   EXPECT_THAT(back.warnings, ElementsAre(HasSubstr("timestamps are uneven")));
 }
 
@@ -151,8 +151,8 @@ TEST(ForeignNwb, EvenTimestampsAreAClock) {
     file.numbers(series, "timestamps", {5.0, 5.5, 6.0, 6.5});
   }
   const auto back = read_nwb(scratch / "a.nwb").value();
-  EXPECT_EQ(back.trajectories.time, (TimeBase{.rate_hz = 2.0, .t0_s = 5.0, .frames = 4}));
-  EXPECT_TRUE(back.trajectories.sample_offset_s.empty());
+  EXPECT_EQ(back.trial.markers.time, (TimeBase{.rate_hz = 2.0, .t0_s = 5.0, .frames = 4}));
+  EXPECT_TRUE(back.trial.markers.sample_offset_s.empty());
   EXPECT_THAT(back.warnings, IsEmpty());
 }
 
@@ -170,7 +170,7 @@ TEST(ForeignNwb, TheLargestGroupOnOneClockIsRead) {
     file.even(file.series(large.id(), "flat", "m", 1), 100.0);
   }
   const auto back = read_nwb(scratch / "a.nwb").value();
-  EXPECT_THAT(back.trajectories.names, ElementsAre("a", "b"));
+  EXPECT_THAT(back.trial.markers.names, ElementsAre("a", "b"));
   EXPECT_THAT(back.warnings,
               ElementsAre(HasSubstr("/processing/big/flat: data are not numbers"),
                           HasSubstr("/processing/big/gaze: is in 'degrees'"),
@@ -185,7 +185,7 @@ TEST(ForeignNwb, ProcessedPositionsGoBeforeRawOnes) {
     file.even(file.series(file.group("/acquisition/Position", "Position").id(), "raw", "m"), 30.0);
     file.even(file.series(file.group("/processing/Position", "Position").id(), "clean", "m"), 30.0);
   }
-  EXPECT_THAT(read_nwb(scratch / "a.nwb").value().trajectories.names, ElementsAre("clean"));
+  EXPECT_THAT(read_nwb(scratch / "a.nwb").value().trial.markers.names, ElementsAre("clean"));
 }
 
 TEST(ForeignNwb, AFileWithoutUsablePositionsSaysWhy) {

@@ -28,8 +28,8 @@ using ::testing::HasSubstr;
 /// A result that a caller can live with.
 void expect_sane(const Result<NwbFile>& file) {
   if (file) {
-    EXPECT_TRUE(file->trajectories.validate());
-    EXPECT_TRUE(!file->derivatives || file->derivatives->validate(file->trajectories));
+    EXPECT_TRUE(file->trial.markers.validate());
+    EXPECT_TRUE(!file->derivatives || file->derivatives->validate(file->trial.markers));
   } else {
     EXPECT_EQ(file.error().message.find('\n'), std::string::npos);
     // A unit that damage made unreadable is one that is not supported.
@@ -126,8 +126,8 @@ TEST(HostileNwb, BytesChangedAtRandomAreFoundByChecksums) {
     refused += file ? 0 : 1;
     // What is not found must not matter: free space, or metadata that can be done without.
     if (file) {
-      EXPECT_TRUE(testing::same_bits(file->trajectories.x_in_world, intact->trajectories.x_in_world));
-      EXPECT_EQ(file->trajectories.names, intact->trajectories.names);
+      EXPECT_TRUE(testing::same_bits(file->trial.markers.x_in_world, intact->trial.markers.x_in_world));
+      EXPECT_EQ(file->trial.markers.names, intact->trial.markers.names);
     }
   }
   EXPECT_GT(refused, 20);
@@ -216,7 +216,7 @@ TEST(HostileNwb, LostProvenanceDoesNotCostTheSamples) {
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_EQ(file->metadata.software, "kinemark") << "general/was_generated_by says so, too";
   EXPECT_EQ(file->metadata.sources.size(), 2U);
-  EXPECT_TRUE(file->trajectories.validate());
+  EXPECT_TRUE(file->trial.markers.validate());
 }
 
 }  // namespace

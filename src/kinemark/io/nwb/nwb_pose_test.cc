@@ -37,10 +37,10 @@ class NwbPose : public ::testing::Test {
 TEST_F(NwbPose, TheRecordingComesBackAsWithoutIt) {
   const auto back = read_nwb(path_);
   ASSERT_TRUE(back) << back.error().message;
-  EXPECT_EQ(back->trajectories.names, t_.names);
-  EXPECT_TRUE(testing::same_bits(back->trajectories.x_in_world, t_.x_in_world));
-  EXPECT_EQ(back->trajectories.state, t_.state);
-  EXPECT_TRUE(testing::same_bits(back->trajectories.sample_offset_s, t_.sample_offset_s));
+  EXPECT_EQ(back->trial.markers.names, t_.names);
+  EXPECT_TRUE(testing::same_bits(back->trial.markers.x_in_world, t_.x_in_world));
+  EXPECT_EQ(back->trial.markers.state, t_.state);
+  EXPECT_TRUE(testing::same_bits(back->trial.markers.sample_offset_s, t_.sample_offset_s));
   EXPECT_THAT(back->warnings, IsEmpty()) << "the digest covers the pose";
 }
 

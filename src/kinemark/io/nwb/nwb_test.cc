@@ -58,7 +58,7 @@ TEST(Nwb, EverythingComesBackBitByBit) {
   ASSERT_TRUE(written) << written.error().message;
   const auto back = read_nwb(scratch / "a.nwb");
   ASSERT_TRUE(back) << back.error().message;
-  expect_same(back->trajectories, t);
+  expect_same(back->trial.markers, t);
   ASSERT_TRUE(back->derivatives);
   expect_same(*back->derivatives, d);
   EXPECT_THAT(back->warnings, ElementsAre());
@@ -95,7 +95,7 @@ TEST(Nwb, WhatIsNotThereStaysAbsent) {
   auto t = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
   ASSERT_TRUE(write_nwb(scratch / "a.nwb", t));
   const auto back = read_nwb(scratch / "a.nwb").value();
-  expect_same(back.trajectories, t);
+  expect_same(back.trial.markers, t);
   EXPECT_FALSE(back.derivatives);
   EXPECT_THAT(back.metadata.identifier, ::testing::StartsWith("kinemark-"));
   EXPECT_EQ(back.metadata.session_start, "") << "no date was told, none is made up";
@@ -111,7 +111,7 @@ TEST(Nwb, OffsetsOfMarkersAndFiltersWithoutDerivatives) {
   d.filters = sample_derivatives(t).filters;
   ASSERT_TRUE(write_nwb(scratch / "a.nwb", t, &d));
   const auto back = read_nwb(scratch / "a.nwb").value();
-  expect_same(back.trajectories, t);
+  expect_same(back.trial.markers, t);
   ASSERT_TRUE(back.derivatives);
   expect_same(*back.derivatives, d);
 }
@@ -186,7 +186,7 @@ TEST(NwbWriter, PiecesInAnyOrderMakeTheSameRecording) {
     ASSERT_TRUE(writer.write(cut(t, {0, 2, 3}, f, n), nullptr, f));
   }
   ASSERT_TRUE(writer.commit());
-  const auto back = read_nwb(scratch / "a.nwb").value().trajectories;
+  const auto back = read_nwb(scratch / "a.nwb").value().trial.markers;
   EXPECT_TRUE(testing::same_bits(back.x_in_world, t.x_in_world));
   EXPECT_TRUE(testing::same_bits(back.covariance, t.covariance));
   EXPECT_TRUE(testing::same_bits(back.sample_offset_s, t.sample_offset_s));
@@ -208,7 +208,7 @@ TEST(NwbWriter, SamplesThatNobodyWroteAreMissing) {
   auto writer = NwbWriter::create(scratch / "a.nwb", NwbOutline::of(t, nullptr)).value();
   ASSERT_TRUE(writer.write(cut(t, {1}, 10, 20), nullptr, 10));
   ASSERT_TRUE(writer.commit());
-  const auto back = read_nwb(scratch / "a.nwb").value().trajectories;
+  const auto back = read_nwb(scratch / "a.nwb").value().trial.markers;
   for (std::int64_t f = 0; f < t.frames(); ++f)
     for (std::int64_t m = 0; m < t.markers(); ++m)
       EXPECT_EQ(back.state[back.index(f, m)],
@@ -277,7 +277,7 @@ TEST(Nwb, SamplesFromBeforeAFilterAreNoMarkersOfTheirOwn) {
   ASSERT_TRUE(write_nwb(scratch / "a.nwb", t));
   const auto back = read_nwb(scratch / "a.nwb");
   ASSERT_TRUE(back) << back.error().message;
-  expect_same(back->trajectories, t);
+  expect_same(back->trial.markers, t);
 }
 
 }  // namespace

@@ -10,10 +10,12 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
+#include "kinemark/io/nwb/internal/marker_table.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/output.h"
 #include "kinemark/io/nwb/internal/pose_writer.h"
 #include "kinemark/io/nwb/internal/root.h"
+#include "kinemark/io/nwb/internal/signals_writer.h"
 #include "kinemark/io/nwb/nwb.h"
 
 namespace kinemark::io {
@@ -36,25 +38,6 @@ bool holds(const NwbOutline& outline, const internal::Rate& rate) {
 }
 
 }  // namespace
-
-NwbOutline NwbOutline::of(const data::Trajectories& t, const data::Derivatives* d) {
-  NwbOutline out{.names = t.names,
-                 .time = t.time,
-                 .method = !t.method.empty(),
-                 .covariance = !t.covariance.empty(),
-                 .unfiltered = !t.unfiltered_in_world.empty(),
-                 .filters = !t.filters.empty() || (d != nullptr && !d->filters.empty())};
-  if (!t.sample_offset_s.empty())
-    out.offsets = t.sample_offset_s.size() == t.names.size() ? Offsets::per_marker : Offsets::per_sample;
-  if (d == nullptr) return out;
-  out.velocity = !d->velocity.empty();
-  out.velocity_sd = !d->velocity_sd.empty();
-  out.acceleration = !d->acceleration.empty();
-  out.acceleration_sd = !d->acceleration_sd.empty();
-  out.jerk = !d->jerk.empty();
-  out.jerk_sd = !d->jerk_sd.empty();
-  return out;
-}
 
 /// A file being written.
 struct NwbWriter::Open {
@@ -105,6 +88,7 @@ struct NwbWriter::Open {
   std::vector<double> offset_s;                           ///< M
   std::vector<std::pair<std::size_t, Handle>> unclocked;  ///< marker and series without times
   std::vector<data::FilterUsed> filters;                  ///< M
+  std::optional<std::int64_t> first_frame;                ///< its number, where signals tell it
 };
 
 void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
@@ -255,36 +239,14 @@ void NwbWriter::Open::put_times(const data::Trajectories& piece, const std::vect
 }
 
 void NwbWriter::Open::write_tables() {
-  const std::size_t markers = outline.names.size();
-  std::vector<internal::Column> columns{
-      {.name = "marker", .description = "name of the marker", .texts = outline.names},
-      {.name = "series", .description = "name of its series", .texts = series_names},
-      {.name = "t0_s",
-       .description = "time of frame 0, s",
-       .numbers = std::vector<double>(markers, outline.time.t0_s)},
-      {.name = "rate_hz",
-       .description = "frames per second",
-       .numbers = std::vector<double>(markers, outline.time.rate_hz)}};
-  if (outline.offsets == NwbOutline::Offsets::per_marker) {
-    columns.push_back({.name = "offset_s", .description = "time of its samples after their frame, s"});
-    columns.back().numbers = offset_s;
-  }
-  if (outline.filters) {
-    internal::Column name{.name = "filter", .description = "filter that it went through"};
-    internal::Column order{.name = "filter_order", .description = "order of the filter"};
-    internal::Column cutoff{.name = "filter_cutoff_hz",
-                            .description = "-3 dB of the whole filter, Hz; NaN where it has none"};
-    internal::Column noise{.name = "filter_noise_sd_m",
-                           .description = "noise found in the samples, per axis, m; NaN when unknown"};
-    for (const data::FilterUsed& f : filters) {
-      name.texts.push_back(f.method);
-      order.integers.push_back(f.order);
-      cutoff.numbers.push_back(f.cutoff_hz);
-      noise.numbers.push_back(f.noise_sd_m);
-    }
-    for (auto* c : {&name, &order, &cutoff, &noise}) columns.push_back(std::move(*c));
-  }
-  out.table(module.id(), internal::kMarkersTable, "markers, in their order", columns);
+  const internal::MarkerTable markers{
+      .names = outline.names,
+      .series_names = series_names,
+      .time = outline.time,
+      .first_frame = first_frame,
+      .offset_s = outline.offsets == NwbOutline::Offsets::per_marker ? offset_s : std::vector<double>{},
+      .filters = outline.filters ? filters : std::vector<data::FilterUsed>{}};
+  internal::write_marker_table(out, module.id(), markers);
   if (!methods.empty())
     out.table(module.id(), internal::kMethodsTable, "methods that made samples",
               {{.name = "method", .description = "name of the method", .texts = methods}});
@@ -387,6 +349,19 @@ Status NwbWriter::write(const data::Trajectories& piece, const data::Derivatives
   return {};
 }
 
+Status NwbWriter::write_signals(const data::Trial& trial) {
+  check(open_ != nullptr, "the file is written already");
+  Open& open = *open_;
+  check(trial.markers.names == open.outline.names && trial.markers.frames() == open.outline.time.frames,
+        "signals are of other markers than the outline");
+  check(!open.first_frame, "signals are written once");
+  const internal::Quiet quiet;
+  open.first_frame = trial.first_frame;
+  internal::write_signals(open.out, open.module.id(), trial, open.series_names, open.compression);
+  if (open.out.failed()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open.path));
+  return {};
+}
+
 Status NwbWriter::commit(const std::string& set) {
   check(open_ != nullptr, "the file is written already");
   const internal::Quiet quiet;
@@ -402,19 +377,6 @@ Status NwbWriter::commit(const std::string& set) {
   if (!open->out.close())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open->path));
   return open->file.commit();
-}
-
-Status write_nwb(const std::filesystem::path& path, const data::Trajectories& trajectories,
-                 const data::Derivatives* derivatives, const NwbMetadata& metadata,
-                 const NwbWriteOptions& options) {
-  if (auto status = trajectories.validate(); !status) return fail_at(path.string(), status.error());
-  if (derivatives != nullptr)
-    if (auto status = derivatives->validate(trajectories); !status)
-      return fail_at(path.string(), status.error());
-  auto writer = NwbWriter::create(path, NwbOutline::of(trajectories, derivatives), metadata, options);
-  if (!writer) return std::unexpected(writer.error());
-  if (auto status = writer->write(trajectories, derivatives); !status) return status;
-  return writer->commit();
 }
 
 }  // namespace kinemark::io

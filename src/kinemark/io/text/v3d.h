@@ -21,11 +21,11 @@ namespace kinemark::io {
 struct SegmentOrientations {
   std::vector<std::string> names;  ///< S, the file's signal names
   std::int64_t frames = 0;         ///< F
-  Array<double> angles_rad;        ///< F x S x 3; NaN where a cell is missing
+  Array<double> angles_deg;        ///< F x S x 3, as the file has them; NaN where a cell is missing
 
   [[nodiscard]] std::int64_t find(std::string_view name) const;  ///< index, or -1
   /// The three angles of a signal in a frame, rad; NaN where missing.
-  [[nodiscard]] Eigen::Map<const Eigen::Vector3d> angles(std::int64_t frame, std::int64_t signal) const;
+  [[nodiscard]] Eigen::Vector3d angles(std::int64_t frame, std::int64_t signal) const;
   /// Takes directions of the segment to the laboratory; NaN where an angle is missing.
   [[nodiscard]] Eigen::Matrix3d world_from_segment(std::int64_t frame, std::int64_t signal) const;
 };

@@ -16,11 +16,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (!file->trial.validate()) std::abort();
   const auto& orientations = file->orientations;
-  if (orientations.angles_rad.size() !=
+  if (orientations.angles_deg.size() !=
       3 * orientations.names.size() * static_cast<std::size_t>(orientations.frames))
     std::abort();
   if (orientations.frames != file->trial.markers.frames()) std::abort();
-  if (file->trial.markers.x_in_world.size() + orientations.angles_rad.size() > 3 * (size / 2 + 1'000'000))
+  if (file->trial.markers.x_in_world.size() + orientations.angles_deg.size() > 3 * (size / 2 + 1'000'000))
     std::abort();
   return 0;
 }

@@ -128,7 +128,7 @@ Result<V3dFile> parse(std::string_view text, double rate_hz) {
   trial.warnings = header->warnings;
   trial.markers.x_in_world.assign(3 * rows * points, kNaN);
   trial.markers.state.assign(rows * points, data::SampleState::missing);
-  out.orientations.angles_rad.assign(3 * rows * signals, kNaN);
+  out.orientations.angles_deg.assign(3 * rows * signals, kNaN);
   Tally tally;
   std::int64_t expected = 0;
   std::string_view line;
@@ -142,7 +142,7 @@ Result<V3dFile> parse(std::string_view text, double rate_hz) {
     expected = item + 1;
     if (auto status =
             read_cells(cells, lines.number(), *header, trial.markers.x_in_world.data() + 3 * row * points,
-                       out.orientations.angles_rad.data() + 3 * row * signals, tally);
+                       out.orientations.angles_deg.data() + 3 * row * signals, tally);
         !status)
       return std::unexpected(status.error());
   }
@@ -150,7 +150,6 @@ Result<V3dFile> parse(std::string_view text, double rate_hz) {
 
   trial.markers.names = std::move(header->points);
   trial.markers.time = {.rate_hz = rate_hz, .t0_s = 0.0, .frames = static_cast<std::int64_t>(rows)};
-  for (double& angle : out.orientations.angles_rad) angle *= kRadPerDeg;
   out.orientations.names = std::move(header->angles);
   out.orientations.frames = static_cast<std::int64_t>(rows);
   out.recorded_as = std::move(header->recorded_as);
@@ -166,9 +165,9 @@ std::int64_t SegmentOrientations::find(std::string_view name) const {
   return at == names.end() ? -1 : at - names.begin();
 }
 
-Eigen::Map<const Eigen::Vector3d> SegmentOrientations::angles(std::int64_t frame, std::int64_t signal) const {
+Eigen::Vector3d SegmentOrientations::angles(std::int64_t frame, std::int64_t signal) const {
   const auto signals = static_cast<std::int64_t>(names.size());
-  return Eigen::Map<const Eigen::Vector3d>(angles_rad.data() + 3 * (frame * signals + signal));
+  return kRadPerDeg * Eigen::Map<const Eigen::Vector3d>(angles_deg.data() + 3 * (frame * signals + signal));
 }
 
 Eigen::Matrix3d SegmentOrientations::world_from_segment(std::int64_t frame, std::int64_t signal) const {

@@ -67,6 +67,7 @@ TEST(ParseV3d, ReadsLandmarksInMetresAndAnglesInRadians) {
   ASSERT_EQ(file.orientations.find("Knee"), 0);
   EXPECT_EQ(file.orientations.find("Hip"), -1);
   EXPECT_EQ(file.orientations.angles(0, 0), Eigen::Vector3d(90.0, 0.0, -45.0) * kRadPerDeg);
+  EXPECT_EQ(file.orientations.angles_deg.at(2), -45.0);
 }
 
 TEST(ParseV3d, AnglesTurnAboutXThenTheNewYThenTheNewZ) {
@@ -95,7 +96,7 @@ TEST(ParseV3d, LineEndsAndTrailingTabsDoNotMatter) {
        {crlf, tabs.join("\t\n"), Text{}.join() + "\n \t\n", "\xEF\xBB\xBF" + Text{}.join()}) {
     const auto file = good(text);
     EXPECT_EQ(file.trial.markers.x_in_world, plain.trial.markers.x_in_world);
-    EXPECT_EQ(file.orientations.angles_rad, plain.orientations.angles_rad);
+    EXPECT_EQ(file.orientations.angles_deg, plain.orientations.angles_deg);
     EXPECT_THAT(file.trial.warnings, IsEmpty());
   }
 }

@@ -110,10 +110,10 @@ TEST_F(RunClean, NwbHoldsStatesCovariancesAndDerivatives) {
   const auto file = io::read_nwb(at("out.nwb"));
   ASSERT_TRUE(file) << file.error().message;
   ASSERT_TRUE(file->derivatives);
-  EXPECT_EQ(file->trajectories.made_by(100, 0), "cubic");
+  EXPECT_EQ(file->trial.markers.made_by(100, 0), "cubic");
   EXPECT_EQ(file->derivatives->filters[1].method, "kalman");
-  const double v = file->derivatives->velocity[3 * file->trajectories.index(60, 1)];
-  const double sd = file->derivatives->velocity_sd[3 * file->trajectories.index(60, 1)];
+  const double v = file->derivatives->velocity[3 * file->trial.markers.index(60, 1)];
+  const double sd = file->derivatives->velocity_sd[3 * file->trial.markers.index(60, 1)];
   const double slope = (truth(61, 1).x() - truth(59, 1).x()) / 0.02;
   EXPECT_GT(sd, 0.0);
   EXPECT_NEAR(v, slope, 5.0 * sd + 1e-3);

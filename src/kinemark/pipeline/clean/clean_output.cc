@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <utility>
 
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -176,10 +178,18 @@ Status CleanOutput::take(MarkerPiece piece, std::int64_t marker) {
   return nwb_->write(piece.markers, &piece.derivatives, 0);
 }
 
+Status CleanOutput::finish_nwb(const data::Trial& trial, const std::string& set,
+                               std::vector<std::string>& lost) {
+  if (auto s = nwb_->write_signals(trial); !s) return s;
+  std::ranges::move(io::lost_in(*io::written_format(".nwb"), trial), std::back_inserter(lost));
+  return nwb_->commit(set);
+}
+
 Status CleanOutput::finish(data::Trial& trial, const std::filesystem::path& derivatives,
                            const std::string& set, std::vector<std::string>& lost) {
   trial.markers = std::move(cleaned_);
-  if (auto s = nwb_ ? nwb_->commit(set) : io::write_markers(file_, trial, false, set, &lost); !s) return s;
+  if (auto s = nwb_ ? finish_nwb(trial, set, lost) : io::write_markers(file_, trial, false, set, &lost); !s)
+    return s;
   return table_ ? table_file(derivatives, [this] { return table_->table(); }).write(derivatives, set)
                 : Status{};
 }

@@ -148,16 +148,21 @@ TEST_F(CleanOutputTest, AnNwbIsWrittenMarkerByMarkerAndSeenAtTheEnd) {
   take_both(out);
   EXPECT_FALSE(fs::exists(file));
   data::Trial trial = trial_;
+  trial.events = {{.label = "Foot Strike", .context = "Left", .time_s = 0.01}};
+  trial.foreign = {{.name = "SUBJECTS"}};
   ASSERT_TRUE(out.finish(trial, {}, "", lost_));
   const auto back = io::read_nwb(file);
   ASSERT_TRUE(back) << back.error().message;
-  EXPECT_EQ(back->trajectories.made_by(2, 1), "cubic");
-  EXPECT_EQ(back->trajectories.made_by(0, 0), "smoothed by kalman");
-  EXPECT_EQ(back->trajectories.unfiltered_in_world[3 * back->trajectories.index(3, 0)], 3.0);
+  EXPECT_EQ(back->trial.markers.made_by(2, 1), "cubic");
+  EXPECT_EQ(back->trial.markers.made_by(0, 0), "smoothed by kalman");
+  EXPECT_EQ(back->trial.markers.unfiltered_in_world[3 * back->trial.markers.index(3, 0)], 3.0);
   ASSERT_TRUE(back->derivatives);
   EXPECT_EQ(back->derivatives->velocity.at(0), 50.0);
   EXPECT_TRUE(std::isnan(back->derivatives->jerk.at(0))) << "promised, but not known";
   EXPECT_TRUE(trial.markers.covariance.empty()) << "it is in the file, not kept twice";
+  ASSERT_EQ(back->trial.events.size(), 1U);
+  EXPECT_EQ(back->trial.events[0].context, "Left");
+  EXPECT_THAT(lost_, ::testing::ElementsAre("1 group of parameters cannot be stored in a .nwb file"));
 }
 
 TEST_F(CleanOutputTest, AFileThatCannotBeMadeIsSaid) {

@@ -262,6 +262,8 @@ class Merger {
     out_.software = first.software;
     out_.foreign = std::move(first.foreign);
     for (std::size_t i = 0; i < trials_.size(); ++i) {
+      for (const auto& what : trials_[i].unread)
+        out_.unread.push_back(fmt::format("{} of {}", what, trials_[i].source));
       for (const auto& warning : trials_[i].warnings)
         out_.warnings.push_back(fmt::format("{}: {}", trials_[i].source, warning));
       if (i > 0 && !trials_[i].foreign.empty())

@@ -13,6 +13,7 @@ namespace kinemark::io::internal {
 namespace {
 
 constexpr hsize_t kChunkFrames = 4096;
+constexpr hsize_t kMostChunkNumbers = 1 << 19;    // of rows of many numbers: 4 MB
 constexpr std::size_t kMaxCompactBytes = 32'000;  // an object's header can hold 64 KB
 
 std::uint64_t hash_of(std::string_view text) {
@@ -32,6 +33,12 @@ Handle simple_space(const std::vector<hsize_t>& dims) {
 }
 
 }  // namespace
+
+std::size_t Column::rows() const {
+  std::size_t one = 1;
+  for (const hsize_t size : across) one *= std::max<hsize_t>(size, 1);
+  return std::max({texts.size(), numbers.size() / one, integers.size() / one});
+}
 
 Output::Output(const std::string& path, std::string_view identity) : identity_(hash_of(identity)) {
   // The format of HDF5 1.10 checks its own structures with checksums; the older ones do not.
@@ -155,7 +162,8 @@ Handle Output::number(hid_t parent, const char* name, double value) {
 Handle Output::samples(hid_t parent, const char* name, hid_t file_type, std::int64_t frames, int width,
                        double fill, int compression) {
   std::vector<hsize_t> dims{static_cast<hsize_t>(frames)};
-  std::vector<hsize_t> chunk{std::min(kChunkFrames, dims[0])};
+  const hsize_t most = std::max<hsize_t>(1, kMostChunkNumbers / static_cast<hsize_t>(width));
+  std::vector<hsize_t> chunk{std::min({kChunkFrames, dims[0], most})};
   if (width > 1) {
     dims.push_back(static_cast<hsize_t>(width));
     chunk.push_back(static_cast<hsize_t>(width));
@@ -189,9 +197,11 @@ void Output::write(const Handle& samples, hid_t memory_type, std::int64_t first,
 Handle Output::column(hid_t table, const Column& column) {
   if (!column.texts.empty()) return texts(table, column.name.c_str(), column.texts);
   const bool whole = !column.integers.empty();
-  const std::size_t rows = whole ? column.integers.size() : column.numbers.size();
-  const Handle space = simple_space({rows});
-  const Handle create = small_data(rows * sizeof(double), {rows});
+  const std::size_t count = whole ? column.integers.size() : column.numbers.size();
+  std::vector<hsize_t> dims{column.rows()};
+  dims.insert(dims.end(), column.across.begin(), column.across.end());
+  const Handle space = simple_space(dims);
+  const Handle create = small_data(count * sizeof(double), dims);
   Handle made = keep(H5Dcreate2(table, column.name.c_str(), whole ? H5T_STD_I64LE : H5T_IEEE_F64LE,
                                 space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT),
                      H5Dclose);
@@ -201,9 +211,9 @@ Handle Output::column(hid_t table, const Column& column) {
 }
 
 void Output::table(hid_t parent, const char* name, const char* description,
-                   const std::vector<Column>& columns) {
+                   const std::vector<Column>& columns, bool intervals) {
   const Handle made = group(parent, name);
-  declare(made.id(), "DynamicTable", "hdmf-common");
+  declare(made.id(), intervals ? "TimeIntervals" : "DynamicTable", intervals ? "core" : "hdmf-common");
   attribute(made.id(), "description", description);
   std::vector<std::string> names;
   Column id{.name = "id", .integers = {}};
@@ -212,7 +222,7 @@ void Output::table(hid_t parent, const char* name, const char* description,
     const Handle data = column(made.id(), c);
     declare(data.id(), "VectorData", "hdmf-common");
     attribute(data.id(), "description", c.description);
-    id.integers.resize(std::max({c.texts.size(), c.numbers.size(), c.integers.size()}));
+    id.integers.resize(c.rows());
   }
   attribute(made.id(), "colnames", names);
   for (std::size_t i = 0; i < id.integers.size(); ++i) id.integers[i] = static_cast<std::int64_t>(i);

@@ -18,6 +18,10 @@ struct Column {
   std::vector<std::string> texts;
   std::vector<double> numbers;
   std::vector<std::int64_t> integers;
+  std::vector<hsize_t> across =
+      {};  ///< sizes of what one row holds, of numbers and integers; empty: one value
+
+  [[nodiscard]] std::size_t rows() const;
 };
 
 /// Writes the parts of an NWB file. A failure is recorded, not returned: what follows one does
@@ -46,8 +50,9 @@ class Output {
   /// Rows [first, first + count) of samples().
   void write(const Handle& samples, hid_t memory_type, std::int64_t first, std::int64_t count, int width,
              const void* values);
-  /// A DynamicTable; columns are of equal length.
-  void table(hid_t parent, const char* name, const char* description, const std::vector<Column>& columns);
+  /// A DynamicTable, or TimeIntervals where the columns say from when to when; columns are of equal length.
+  void table(hid_t parent, const char* name, const char* description, const std::vector<Column>& columns,
+             bool intervals = false);
   void soft_link(hid_t parent, const char* name, const std::string& target);
 
   [[nodiscard]] hid_t file() const { return file_.id(); }

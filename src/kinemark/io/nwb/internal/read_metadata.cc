@@ -41,6 +41,8 @@ void read_provenance(Input& in, NwbMetadata& out) {
     if (kind == "software") {
       out.software = columns[1][i];
       out.version = value;
+    } else if (kind == "recorder") {
+      out.recorder = value;
     } else if (kind == "command") {
       out.command = value;
     } else if (kind == "option") {

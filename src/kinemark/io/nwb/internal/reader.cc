@@ -12,6 +12,7 @@
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/series.h"
+#include "kinemark/io/nwb/internal/signals_reader.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -133,9 +134,35 @@ Result<std::vector<data::FilterUsed>> read_filters(Input& in, std::size_t marker
   return out;
 }
 
+/// Number of the first frame: as the table of markers says, else from its time.
+Status read_first_frame(Input& in, data::Trial& trial) {
+  const double from_time = trial.markers.time.t0_s * trial.markers.time.rate_hz;
+  if (from_time > 0.0 && from_time < 1e15) trial.first_frame = std::llround(from_time) + 1;
+  const std::string path = fmt::format("{}/{}/first_frame", kModule, kMarkersTable);
+  const Handle column = in.object(in.file(), path);
+  if (!column) return {};
+  const auto numbers = in.numbers<double>(column.id());
+  if (!numbers || numbers->empty() || !(std::abs(numbers->front()) <= 1e15))
+    return fail(Code::bad_input, path + ": holds no number of a frame");
+  trial.first_frame = std::llround(numbers->front());
+  return {};
+}
+
+/// Residuals and cameras of markers.
+Status read_reconstruction(Input& in, const PositionGroup& group, data::Trial& trial) {
+  const auto frames = static_cast<std::size_t>(trial.markers.frames());
+  Array<double> residual;
+  if (auto s = read_container(in, group, kResidual, 1, frames, residual); !s) return s;
+  trial.residual_m.resize(residual.size());
+  std::ranges::transform(residual, trial.residual_m.begin(), [](double r) { return static_cast<float>(r); });
+  return read_container(in, group, kCameras, 1, frames, trial.camera_mask);
+}
+
 /// What only our files hold.
 Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
-  Trajectories& t = out.trajectories;
+  if (auto status = read_reconstruction(in, group, out.trial); !status) return status;
+  if (auto status = read_signals(in, out.trial); !status) return status;
+  Trajectories& t = out.trial.markers;
   const auto frames = static_cast<std::size_t>(t.frames());
   t.sample_offset_s = group.offset_s;
   if (auto status = read_container(in, group, kOffset, 1, frames, t.sample_offset_s); !status) return status;
@@ -185,17 +212,15 @@ Result<NwbFile> read(Input& in) {
   out.metadata.reference_frame = first.reference_frame;
   std::vector<std::string> names;
   for (const PositionSeries& s : group->series) names.push_back(s.marker);
-  out.trajectories = Trajectories::all_missing(std::move(names), first.time);
+  Trajectories& t = out.trial.markers = Trajectories::all_missing(std::move(names), first.time);
   for (std::size_t m = 0; m < group->series.size(); ++m)
-    if (auto status = read_marker(in, group->series[m], static_cast<std::int64_t>(m), out.trajectories);
-        !status)
+    if (auto status = read_marker(in, group->series[m], static_cast<std::int64_t>(m), t); !status)
       return std::unexpected(status.error());
   if (std::ranges::any_of(group->series, [](const auto& s) { return s.width == 2; }))
     out.warnings.emplace_back("positions have two coordinates; the third is set to 0");
   if (group->ours()) {
     if (auto status = read_extras(in, *group, out); !status) return std::unexpected(status.error());
   } else if (!first.stamps_s.empty()) {
-    Trajectories& t = out.trajectories;
     if (!in.afford(samples, sizeof(double))) return too_large(first.path);
     t.sample_offset_s.resize(samples);
     for (std::int64_t f = 0; f < t.frames(); ++f)
@@ -205,7 +230,8 @@ Result<NwbFile> read(Input& in) {
         "timestamps are uneven; frames are taken as even at {:.6g} Hz and samples keep their true times",
         t.time.rate_hz));
   }
-  if (auto status = out.trajectories.validate(); !status) return std::unexpected(status.error());
+  if (auto status = read_first_frame(in, out.trial); !status) return std::unexpected(status.error());
+  if (auto status = out.trial.validate(); !status) return std::unexpected(status.error());
   return out;
 }
 

@@ -33,7 +33,7 @@ std::string fallback(const std::string& text, const char* otherwise) {
 }
 
 void write_provenance(Output& out, hid_t module, const NwbMetadata& m) {
-  Column kind{.name = "kind", .description = "software, command, seed or option"};
+  Column kind{.name = "kind", .description = "software, recorder, command, seed or option"};
   Column name{.name = "item", .description = "what is told"};
   Column value{.name = "value", .description = "its value"};
   const auto row = [&](const char* k, const std::string& n, const std::string& v) {
@@ -42,6 +42,7 @@ void write_provenance(Output& out, hid_t module, const NwbMetadata& m) {
     value.texts.push_back(v);
   };
   row("software", m.software, m.version);
+  if (!m.recorder.empty()) row("recorder", "recorder", m.recorder);
   if (!m.command.empty()) row("command", "command", m.command);
   if (m.seed) row("seed", "seed", fmt::format("{}", *m.seed));
   for (const auto& [option, setting] : m.options) row("option", option, setting);

@@ -16,7 +16,7 @@
 namespace kinemark::io::internal {
 namespace {
 
-constexpr std::uint64_t kBegin = 0x315042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
+constexpr std::uint64_t kBegin = 0x325042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
 constexpr std::size_t kBuffer = 1 << 16;
 
 /// Bytes out, gathered into large pieces.
@@ -185,6 +185,56 @@ void pass_trajectories(Pipe& pipe, Trajectories& t) {
   pass_filters(pipe, t.filters);
 }
 
+template <class Pipe, class Channels>
+void pass_channels(Pipe& pipe, Channels& c) {
+  pass_texts(pipe, c.names);
+  pass_each(pipe, c.kinds, [&](auto& kind) { pass(pipe, kind); });
+  pass_texts(pipe, c.units);
+  pass(pipe, c.rate_hz);
+  pass(pipe, c.frames);
+  pass(pipe, c.values);
+}
+
+template <class Pipe, class Analog>
+void pass_analog(Pipe& pipe, Analog& a) {
+  pass_texts(pipe, a.names);
+  pass_texts(pipe, a.units);
+  pass(pipe, a.rate_hz);
+  pass(pipe, a.samples);
+  pass(pipe, a.values);
+}
+
+template <class Pipe, class Plate>
+void pass_plate(Pipe& pipe, Plate& plate) {
+  pass(pipe, plate.number);
+  pass(pipe, plate.type);
+  for (auto& corner : plate.corners_in_world)
+    for (auto& x : corner) pass(pipe, x);
+  for (auto& x : plate.origin_in_plate) pass(pipe, x);
+  pass_each(pipe, plate.channel_idx, [&](auto& channel) { pass(pipe, channel); });
+  pass_each(pipe, plate.calibration, [&](auto& number) { pass(pipe, number); });
+  pass(pipe, plate.calibration_rows);
+  pass(pipe, plate.metres_per_unit);
+}
+
+/// All of a trial but what names its file.
+template <class Pipe, class Trial>
+void pass_trial(Pipe& pipe, Trial& trial) {
+  pass_trajectories(pipe, trial.markers);
+  pass(pipe, trial.first_frame);
+  pass(pipe, trial.residual_m);
+  pass(pipe, trial.camera_mask);
+  pass_channels(pipe, trial.channels);
+  pass_analog(pipe, trial.analog);
+  pass_each(pipe, trial.events, [&](auto& event) {
+    pass(pipe, event.label);
+    pass(pipe, event.context);
+    pass(pipe, event.time_s);
+  });
+  pass_each(pipe, trial.force_plates, [&](auto& plate) { pass_plate(pipe, plate); });
+  for (auto& time : trial.unloaded_s) pass(pipe, time);
+}
+
 template <class Pipe, class Derivatives>
 void pass_derivatives(Pipe& pipe, Derivatives& d) {
   for (const Rate& rate : kRates) pass(pipe, d.*rate.values);
@@ -193,8 +243,9 @@ void pass_derivatives(Pipe& pipe, Derivatives& d) {
 
 template <class Pipe, class Metadata>
 void pass_metadata(Pipe& pipe, Metadata& m) {
-  for (auto* text : {&m.identifier, &m.session_description, &m.session_start, &m.created, &m.reference_frame,
-                     &m.subject_id, &m.species, &m.sex, &m.age, &m.software, &m.version, &m.command, &m.set})
+  for (auto* text :
+       {&m.identifier, &m.session_description, &m.session_start, &m.created, &m.reference_frame,
+        &m.subject_id, &m.species, &m.sex, &m.age, &m.recorder, &m.software, &m.version, &m.command, &m.set})
     pass(pipe, *text);
   pass_each(pipe, m.sources, [&](auto& source) {
     pass(pipe, source.file);
@@ -211,7 +262,7 @@ void pass_metadata(Pipe& pipe, Metadata& m) {
 void pass_all(Sink& out, const NwbFile& file) {
   pass(out, file.derivatives.has_value());
   pass(out, file.metadata.seed.has_value());
-  pass_trajectories(out, file.trajectories);
+  pass_trial(out, file.trial);
   pass_metadata(out, file.metadata);
   pass_texts(out, file.warnings);
   if (file.derivatives) pass_derivatives(out, *file.derivatives);
@@ -222,7 +273,7 @@ bool pass_all(Source& in, NwbFile& file) {
   std::uint8_t derivatives = 0, seed = 0;
   pass(in, derivatives);
   pass(in, seed);
-  pass_trajectories(in, file.trajectories);
+  pass_trial(in, file.trial);
   pass_metadata(in, file.metadata);
   pass_texts(in, file.warnings);
   if (derivatives == 1) pass_derivatives(in, file.derivatives.emplace());
@@ -245,9 +296,9 @@ bool pass_all(Source& in, PoseTable& table) {
 
 /// Arrays of the sizes that names and clock promise, as every file of read_nwb() has them.
 bool is_sound(const NwbFile& file) {
-  const auto& t = file.trajectories;
+  const auto& t = file.trial.markers;
   if (t.time.frames < 0 || static_cast<std::size_t>(t.time.frames) > t.x_in_world.size()) return false;
-  return t.validate() && (!file.derivatives || file.derivatives->validate(file.trajectories));
+  return file.trial.validate() && (!file.derivatives || file.derivatives->validate(t));
 }
 bool is_sound(const PoseTable& table) { return table.validate().has_value(); }
 

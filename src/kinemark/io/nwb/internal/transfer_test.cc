@@ -38,8 +38,8 @@ std::optional<Result<NwbFile>> receive_bytes(const std::string& bytes, std::size
 }
 
 NwbFile sample() {
-  NwbFile file{.trajectories = testing::sample_trajectories(), .metadata = testing::sample_metadata()};
-  file.derivatives = testing::sample_derivatives(file.trajectories);
+  NwbFile file{.trial = testing::sample_trial(), .metadata = testing::sample_metadata()};
+  file.derivatives = testing::sample_derivatives(file.trial.markers);
   file.metadata.set = "0123456789abcdef";
   file.warnings = {"one", "", "three"};
   return file;
@@ -71,19 +71,29 @@ TEST(Transfer, ATableOfPointsArrivesAndADamagedOneDoesNot) {
 TEST(Transfer, EverythingArrives) {
   for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
     NwbFile file = sample();
-    file.trajectories = testing::sample_trajectories(frames);
-    file.derivatives = testing::sample_derivatives(file.trajectories);
+    file.trial = testing::sample_trial(frames);
+    file.derivatives = testing::sample_derivatives(file.trial.markers);
     const auto back = receive_bytes(bytes_of(file));
     ASSERT_TRUE(back && *back);
     const NwbFile& got = **back;
-    EXPECT_EQ(got.trajectories.names, file.trajectories.names);
-    EXPECT_EQ(got.trajectories.time, file.trajectories.time);
-    EXPECT_TRUE(testing::same_bits(got.trajectories.x_in_world, file.trajectories.x_in_world));
-    EXPECT_EQ(got.trajectories.state, file.trajectories.state);
-    EXPECT_TRUE(testing::same_bits(got.trajectories.covariance, file.trajectories.covariance));
-    EXPECT_TRUE(testing::same_bits(got.trajectories.sample_offset_s, file.trajectories.sample_offset_s));
-    EXPECT_EQ(got.trajectories.methods, file.trajectories.methods);
-    EXPECT_EQ(got.trajectories.method, file.trajectories.method);
+    EXPECT_EQ(got.trial.markers.names, file.trial.markers.names);
+    EXPECT_EQ(got.trial.markers.time, file.trial.markers.time);
+    EXPECT_TRUE(testing::same_bits(got.trial.markers.x_in_world, file.trial.markers.x_in_world));
+    EXPECT_EQ(got.trial.markers.state, file.trial.markers.state);
+    EXPECT_TRUE(testing::same_bits(got.trial.markers.covariance, file.trial.markers.covariance));
+    EXPECT_TRUE(testing::same_bits(got.trial.markers.sample_offset_s, file.trial.markers.sample_offset_s));
+    EXPECT_EQ(got.trial.markers.methods, file.trial.markers.methods);
+    EXPECT_EQ(got.trial.markers.method, file.trial.markers.method);
+    EXPECT_EQ(got.trial.first_frame, file.trial.first_frame);
+    EXPECT_EQ(got.trial.camera_mask, file.trial.camera_mask);
+    EXPECT_EQ(got.trial.channels.kinds, file.trial.channels.kinds);
+    EXPECT_TRUE(testing::same_bits(got.trial.channels.values, file.trial.channels.values));
+    EXPECT_EQ(got.trial.analog.units, file.trial.analog.units);
+    EXPECT_TRUE(testing::same_bits(got.trial.analog.values, file.trial.analog.values));
+    EXPECT_EQ(got.trial.events[1].time_s, file.trial.events[1].time_s);
+    EXPECT_EQ(got.trial.force_plates[1].channel_idx, file.trial.force_plates[1].channel_idx);
+    EXPECT_EQ(got.trial.force_plates[1].corners_in_world, file.trial.force_plates[1].corners_in_world);
+    EXPECT_EQ(got.trial.unloaded_s, file.trial.unloaded_s);
     for (const Rate& rate : kRates)
       EXPECT_TRUE(testing::same_bits((*got.derivatives).*rate.values, (*file.derivatives).*rate.values));
     EXPECT_EQ(got.derivatives->filters.size(), file.derivatives->filters.size());
@@ -127,7 +137,7 @@ TEST(Transfer, ChangedBytesAreNothingOrAValidRecording) {
     byte = static_cast<char>(byte ^ (1 << (k % 8)));
     const auto back = receive_bytes(changed);
     if (back && *back) {
-      EXPECT_TRUE((*back)->trajectories.validate());
+      EXPECT_TRUE((*back)->trial.markers.validate());
     }
   }
 }

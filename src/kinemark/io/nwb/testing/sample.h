@@ -77,6 +77,52 @@ inline NwbMetadata sample_metadata() {
           .seed = 18446744073709551615ULL};
 }
 
+/// Two plates that are wired, one of them calibrated, and one that is not.
+inline std::vector<data::ForcePlate> sample_plates() {
+  data::ForcePlate plate{.number = 1, .type = 2, .channel_idx = {0, 2}, .metres_per_unit = 1e-3};
+  for (std::size_t c = 0; c < 4; ++c)
+    plate.corners_in_world[c] = Eigen::Vector3d(1.0 / 3.0, 0.1, -0.0) * static_cast<double>(c);
+  data::ForcePlate calibrated{.number = 7,
+                              .type = 4,
+                              .origin_in_plate = {0.1, 0.2, -0.03},
+                              .channel_idx = {4, 3, 1},
+                              .calibration = {1.5, std::numeric_limits<double>::quiet_NaN(), -2.0, 0.1},
+                              .calibration_rows = 2,
+                              .metres_per_unit = 1.0};
+  return {plate, calibrated, {.number = 3, .type = 1}};
+}
+
+/// All that a trial can hold but groups of parameters; analog channels of four units at a rate of their own.
+inline data::Trial sample_trial(std::int64_t frames = 50) {
+  Random random(9, 0);
+  data::Trial t;
+  t.first_frame = 165;
+  t.markers = sample_trajectories(frames);
+  for (std::size_t i = 0; i < t.markers.state.size(); ++i) {
+    t.residual_m.push_back(i % 3 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                      : static_cast<float>(random.uniform(0.0, 1e-3)));
+    t.camera_mask.push_back(static_cast<std::uint8_t>(i % 128));
+  }
+  t.channels = {.names = {"LKneeAngles", "a/b"},
+                .kinds = {data::ChannelKind::angle, data::ChannelKind::modeled_marker},
+                .units = {"deg", ""},
+                .rate_hz = t.markers.time.rate_hz,
+                .frames = frames};
+  fill(t.channels.values, static_cast<std::size_t>(6 * frames), -90.0, 90.0, random);
+  t.channels.values[3] = std::numeric_limits<double>::quiet_NaN();
+  t.analog = {.names = {"Fx1", "EMG/a", "Fz1", "", "Fx1"},
+              .units = {"N", "mV", "N", "", "Nmm/V"},
+              .rate_hz = 1000.0 / 3.0,
+              .samples = 4 * frames + 1};
+  fill(t.analog.values, static_cast<std::size_t>(5 * t.analog.samples), -1e3, 1e3, random);
+  t.events = {{.label = "Foot Off", .context = "Right", .time_s = 0.7},
+              {.label = "Foot Strike", .context = "Left", .time_s = 1.0 / 3.0},
+              {.label = "", .context = "", .time_s = 0.0}};
+  t.force_plates = sample_plates();
+  t.unloaded_s = {1.0 / 3.0, 0.4};
+  return t;
+}
+
 /// Equal to the last bit; one NaN is as good as another.
 inline bool same_bits(const Array<double>& a, const Array<double>& b) {
   return std::ranges::equal(a, b, [](double x, double y) {

@@ -53,6 +53,7 @@ class CleanOutput {
 
  private:
   CleanOutput(const CleanJob& job, std::filesystem::path file, const data::Trajectories& smoothed);
+  Status finish_nwb(const data::Trial& trial, const std::string& set, std::vector<std::string>& lost);
   bool derivatives_, unfiltered_;
   std::filesystem::path file_;
   data::Trajectories cleaned_;
