@@ -140,7 +140,7 @@ std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& 
                       ? fmt::format("{} cannot be stored in a {} file", what, format.extension)
                       : fmt::format("{} are {} in a {} file", what, words.in_part, format.extension));
   }
-  for (const std::string& what : trial.unread) out.push_back(fmt::format("{} are not carried on", what));
+  for (const std::string& what : trial.unread) out.push_back(fmt::format("not carried on: {}", what));
   return out;
 }
 

@@ -22,7 +22,8 @@ namespace kinemark::io {
 /// What one NWB file holds.
 struct NwbFile {
   /// Positions, m, with their provenance; in files of ours also residuals, points that are no markers, analog
-  /// channels, events and force plates. What names the file (source, format, warnings) is left empty.
+  /// channels, events and force plates; of files of others, under `unread`, how many series are left out.
+  /// What names the file (source, format, warnings) is left empty.
   data::Trial trial;
   std::optional<data::Derivatives> derivatives;  ///< where the file has them
   NwbMetadata metadata;                          ///< who, when, how

@@ -85,6 +85,24 @@ TEST(ForeignNwb, PositionsInMillimetresOfAnyGroup) {
   EXPECT_THAT(back->warnings, IsEmpty());
 }
 
+TEST(ForeignNwb, SeriesOfAnythingElseAreCounted) {
+  const testing_support::ScratchFolder scratch;
+  {
+    ForeignFile file(scratch / "a.nwb");
+    const Handle module = file.group("/processing/mocap", "ProcessingModule");
+    const Handle position = file.out().group(module.id(), "Position", "Position");
+    file.even(file.series(position.id(), "wrist", "mm"), 100.0);
+    const Handle many = file.out().group(module.id(), "Many", "BehavioralTimeSeries");
+    file.even(file.series(many.id(), "speed", "m/s", 1, 0.0, "TimeSeries"), 100.0);
+    file.even(file.series(file.group("/acquisition/emg").id(), "probe", "volts", 2, 0.0, "ElectricalSeries"),
+              1000.0);
+  }
+  const auto back = read_nwb(scratch / "a.nwb");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_THAT(back->trial.unread, ElementsAre("2 series that are no positions"));
+  EXPECT_THAT(back->warnings, IsEmpty());
+}
+
 TEST(ForeignNwb, ConversionAndOffsetLeadToTheUnit) {
   const testing_support::ScratchFolder scratch;
   {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/counted.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
@@ -218,6 +219,9 @@ Result<NwbFile> read(Input& in) {
       return std::unexpected(status.error());
   if (std::ranges::any_of(group->series, [](const auto& s) { return s.width == 2; }))
     out.warnings.emplace_back("positions have two coordinates; the third is set to 0");
+  if (group->no_positions > 0)
+    out.trial.unread.push_back(counted(static_cast<std::int64_t>(group->no_positions),
+                                       "series that is no position", "series that are no positions"));
   if (group->ours()) {
     if (auto status = read_extras(in, *group, out); !status) return std::unexpected(status.error());
   } else if (!first.stamps_s.empty()) {

@@ -93,10 +93,19 @@ struct Found {
   bool pose;
 };
 
-/// Every group of a positional type under `path`, by the group that holds it. Fails where something is there
-/// that cannot be opened: leaving it out would lose markers silently.
-Status walk(Input& in, const std::string& path, int depth, int& groups_left,
-            std::map<std::string, std::vector<Found>>& found) {
+/// What a walk over the groups of a file came by.
+struct Walked {
+  std::map<std::string, std::vector<Found>> found;  ///< of a positional type, by the group that holds them
+  std::size_t no_positions = 0;                     ///< series of other types
+  int groups_left = kMaxGroups;
+};
+
+/// A series of anything, as TimeSeries and ElectricalSeries; the containers of behaviour are none.
+bool is_series(const std::string& type) { return type.ends_with("Series") && type != "BehavioralTimeSeries"; }
+
+/// Every group of a positional type under `path`. Fails where something is there that cannot be opened:
+/// leaving it out would lose markers silently.
+Status walk(Input& in, const std::string& path, int depth, Walked& walked) {
   const auto damaged = [](const std::string& what) {
     return fail(Code::bad_input, what + ": cannot be opened; the file is broken. Nothing was read.");
   };
@@ -109,12 +118,14 @@ Status walk(Input& in, const std::string& path, int depth, int& groups_left,
     if (in.broken(group.id(), name)) return damaged(child_path);
     const Handle child = in.object(group.id(), name);
     if (H5Iget_type(child.id()) != H5I_GROUP) continue;
-    if (--groups_left < 0) return {};
+    if (--walked.groups_left < 0) return {};
     const std::string type = in.text_attribute(child.id(), "neurodata_type").value_or("");
     if (type == "SpatialSeries" || type == "PoseEstimationSeries") {
-      found[path].push_back({child_path, name, type == "PoseEstimationSeries"});
+      walked.found[path].push_back({child_path, name, type == "PoseEstimationSeries"});
+    } else if (is_series(type)) {
+      ++walked.no_positions;
     } else if (depth < kMaxDepth && type != "DynamicTable") {
-      if (auto status = walk(in, child_path, depth + 1, groups_left, found); !status) return status;
+      if (auto status = walk(in, child_path, depth + 1, walked); !status) return status;
     }
   }
   return {};
@@ -148,13 +159,12 @@ void keep_one_clock(std::vector<PositionSeries>& all, std::vector<std::string>& 
 }
 
 Result<PositionGroup> find_foreign(Input& in) {
-  std::map<std::string, std::vector<Found>> found;
-  int groups_left = kMaxGroups;
-  if (auto status = walk(in, "", 0, groups_left, found); !status) return std::unexpected(status.error());
+  Walked walked;
+  if (auto status = walk(in, "", 0, walked); !status) return std::unexpected(status.error());
   PositionGroup best;
   std::optional<Error> why_not;
   std::size_t others = 0;
-  for (const auto& [parent, members] : found) {
+  for (const auto& [parent, members] : walked.found) {
     PositionGroup group;
     for (const Found& f : members) {
       auto series = describe(in, f.path, f.name, f.pose, true);
@@ -176,6 +186,7 @@ Result<PositionGroup> find_foreign(Input& in) {
     if (why_not) return std::unexpected(*why_not);
     return fail(Code::bad_input, "holds no positions (SpatialSeries or PoseEstimationSeries)");
   }
+  best.no_positions = walked.no_positions;
   if (others > 0) best.warnings.push_back(fmt::format("{} other series of positions are left out", others));
   return best;
 }

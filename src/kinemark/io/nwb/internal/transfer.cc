@@ -233,6 +233,7 @@ void pass_trial(Pipe& pipe, Trial& trial) {
   });
   pass_each(pipe, trial.force_plates, [&](auto& plate) { pass_plate(pipe, plate); });
   for (auto& time : trial.unloaded_s) pass(pipe, time);
+  pass_texts(pipe, trial.unread);
 }
 
 template <class Pipe, class Derivatives>

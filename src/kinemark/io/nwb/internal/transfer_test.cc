@@ -72,6 +72,7 @@ TEST(Transfer, EverythingArrives) {
   for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
     NwbFile file = sample();
     file.trial = testing::sample_trial(frames);
+    file.trial.unread = {"2 series that are no positions"};
     file.derivatives = testing::sample_derivatives(file.trial.markers);
     const auto back = receive_bytes(bytes_of(file));
     ASSERT_TRUE(back && *back);
@@ -94,6 +95,7 @@ TEST(Transfer, EverythingArrives) {
     EXPECT_EQ(got.trial.force_plates[1].channel_idx, file.trial.force_plates[1].channel_idx);
     EXPECT_EQ(got.trial.force_plates[1].corners_in_world, file.trial.force_plates[1].corners_in_world);
     EXPECT_EQ(got.trial.unloaded_s, file.trial.unloaded_s);
+    EXPECT_EQ(got.trial.unread, file.trial.unread);
     for (const Rate& rate : kRates)
       EXPECT_TRUE(testing::same_bits((*got.derivatives).*rate.values, (*file.derivatives).*rate.values));
     EXPECT_EQ(got.derivatives->filters.size(), file.derivatives->filters.size());

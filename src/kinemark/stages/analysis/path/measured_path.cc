@@ -74,6 +74,11 @@ std::vector<std::string> not_measured_sentences(std::span<const NotMeasured> mar
       if (marker.why == why) names.push_back(marker.subject);
     return names;
   };
+  if (const auto names = named(NotMeasuredWhy::made_samples); !names.empty())
+    out.push_back(
+        fmt::format("most samples of {} were made by the recorder: 'kinemark clean IN OUT --upsampled "
+                    "decimate' leaves those that it measured",
+                    listed(names)));
   if (const auto names = named(NotMeasuredWhy::too_few_samples); !names.empty()) {
     std::int64_t least = kLeastSamples, most = 0;
     for (const auto& marker : markers)
@@ -112,8 +117,9 @@ std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajec
       return sample(f).allFinite() && markers.state[markers.index(f, marker)] != data::SampleState::rejected;
     return markers.state[markers.index(f, marker)] == data::SampleState::measured;
   };
-  std::int64_t first = markers.frames(), last = -1, count = 0;
+  std::int64_t first = markers.frames(), last = -1, count = 0, made = 0;
   for (std::int64_t f = 0; f < markers.frames(); ++f) {
+    made += markers.state[markers.index(f, marker)] == data::SampleState::upsampled;
     if (!measured(f)) continue;
     first = std::min(first, f);
     last = f;
@@ -123,6 +129,8 @@ std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajec
     return std::unexpected(
         NotMeasured{.subject = out.name_, .why = why, .samples = count, .rate_hz = markers.time.rate_hz});
   };
+  // Of a rate that was doubled the last frame is measured, so that it has one less that was made.
+  if (made > 0 && 10 * made >= 9 * count) return not_measured(NotMeasuredWhy::made_samples);
   if (count < kLeastSamples) return not_measured(NotMeasuredWhy::too_few_samples);
   auto& recording = out.recording_;
   recording.rate_hz = markers.time.rate_hz;

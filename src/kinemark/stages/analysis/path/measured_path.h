@@ -22,6 +22,7 @@ namespace kinemark::analysis {
 
 /// Why a marker is not measured.
 enum class NotMeasuredWhy : std::uint8_t {
+  made_samples,     ///< the recorder made as many samples as it measured, or more
   too_few_samples,  ///< less than a smoother can be chosen by
   unknown_noise,    ///< neither found nor stated
   too_slow,         ///< a frame rate below what movement needs

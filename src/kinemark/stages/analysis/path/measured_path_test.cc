@@ -68,6 +68,21 @@ TEST(NotMeasuredMarkers, StatedNoiseIsKnown) {
   EXPECT_THAT(said, Not(Contains(HasSubstr("is not known: no seven frames in a row differ"))));
 }
 
+TEST(NotMeasuredMarkers, WhatTheRecorderMadeIsNoPath) {
+  auto made = reach_and_others();
+  for (std::int64_t f = 0; f < made.frames(); ++f)
+    for (int m = 0; m < 2; ++m)
+      if (f % 2 == 1) made.state[made.index(f, m)] = data::SampleState::upsampled;
+  for (const double noise_sd_m : {0.0, 5e-4})
+    EXPECT_THAT(
+        warnings_of(made, {.noise_sd_m = noise_sd_m}),
+        Contains("most samples of 2 markers (HAND, NAIL) were made by the recorder: 'kinemark clean IN "
+                 "OUT --upsampled decimate' leaves those that it measured"));
+  auto filled = reach_and_others();
+  for (std::int64_t f = 60; f < 100; ++f) filled.state[filled.index(f, 0)] = data::SampleState::upsampled;
+  EXPECT_THAT(warnings_of(filled), Not(Contains(HasSubstr("were made by the recorder")))) << "a span of them";
+}
+
 TEST(NotMeasuredMarkers, OfARateBelowMovementAreOneSentence) {
   auto slow = reach_and_others();
   slow.time.rate_hz = 0.8;
