@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace kinemark::cli {
 
@@ -16,9 +18,11 @@ struct CommonOptions {
   bool force = false;
   bool quiet = false;
   bool json = false;
-  std::string config;        ///< file of options, which are among the words by then
-  std::string save_config;   ///< file for the options; empty: none
-  std::string command_line;  ///< as typed, with what --config put in
+  std::string config;                       ///< file of options, which are among the words by then
+  std::string save_config;                  ///< file for the options; empty: none
+  std::vector<std::string> reads;           ///< files_read() of the command that started this one
+  std::string command_line;                 ///< as typed, with what --config put in
+  std::vector<std::filesystem::path> kept;  ///< files_read() and that of --config: never replaced
 };
 
 /// A command adds itself to the program and stores its action in `run`, which returns the exit status.

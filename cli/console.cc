@@ -46,6 +46,7 @@ void settle(const CommonOptions& common, std::string counts, pipeline::JobSettin
   job.threads = common.threads;
   job.seed = common.seed;
   job.force = common.force;
+  job.kept = common.kept;
   job.command_line = common.command_line;
   job.progress = show_progress(common, std::move(counts));
 }

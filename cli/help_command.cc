@@ -9,6 +9,7 @@
 #include "cli/manual.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/lost_parts.h"
+#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::cli {
 namespace {
@@ -51,6 +52,8 @@ int write_manual(const CLI::App& app, const CommonOptions& common, const std::st
   const auto top = command_tree(app);
   for (const auto* command : all_commands(top)) {
     const auto path = std::filesystem::path(folder) / (manual_name(*command) + ".1");
+    if (const auto apart = pipeline::check_apart({path}, common.kept); !apart)
+      return report_error(apart.error());
     if (const auto written = io::write_text(path, manual_page(*command, top), common.force); !written)
       return report_error(written.error());
   }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/command_tree.h"
 #include "cli/console.h"
+#include "cli/files_read.h"
 #include "cli/hints.h"
 #include "cli/program.h"
 #include "cli/settings_options.h"
@@ -38,19 +40,23 @@ int run_program(int argc, char** argv) {
   const auto words = kinemark::cli::with_settings(app, std::vector<std::string>(argv + 1, argv + argc));
   if (!words) return kinemark::cli::report_error(words.error());
   common.command_line = "kinemark";
-  for (const auto& word : *words) common.command_line += " " + word;
+  for (const auto& word : words->words)
+    if (!word.starts_with("--reads=")) common.command_line += " " + word;
   try {
-    app.parse(std::vector<std::string>(words->rbegin(), words->rend()));
+    app.parse(std::vector<std::string>(words->words.rbegin(), words->words.rend()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
+      kinemark::cli::hide_for_help(app);
       app.exit(error, std::cout, std::cerr);
       return std::cout.flush() ? 0 : report_lost_output();
     }
-    return report_usage(app, kinemark::cli::explain_usage(app, error, *words));
+    return report_usage(app, kinemark::cli::explain_usage(app, error, words->words));
   }
+  common.kept = kinemark::cli::files_read(app);
+  if (!words->config.empty()) common.kept.push_back(words->config);
   kinemark::cli::watch_signals();
   if (!common.save_config.empty())
-    if (const auto s = kinemark::cli::save_settings(app, common.save_config, common.force); !s)
+    if (const auto s = kinemark::cli::save_settings(app, common); !s)
       return kinemark::cli::report_error(s.error());
   const int status = run();
   return kinemark::cli::output_failed() ? report_lost_output() : status;

@@ -44,6 +44,10 @@ void add_common_options(CLI::App& app, CommonOptions& common) {
   app.add_option("--save-config", common.save_config, "Write the options given to a file for --config")
       ->type_name("FILE.toml")
       ->group("Everywhere");
+  app.add_option("--reads", common.reads, "Files that are read elsewhere and must stay as they are")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group("");  // what `run` says to the commands that it starts; hidden
   app.add_flag("--force", common.force, "Replace files that exist")->group("Everywhere");
   app.add_flag("--quiet", common.quiet, "Say nothing but errors")->group("Everywhere");
   app.add_flag("--json", common.json, "Print the result as JSON on stdout")->group("Everywhere");

@@ -8,7 +8,10 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
+
+#include "cli/files_read.h"
 
 #include "cli/hints.h"
 #include "kinemark/core/nearest_name.h"
@@ -21,7 +24,8 @@ namespace kinemark::cli {
 namespace {
 
 constexpr std::string_view kConfig = "--config";
-constexpr std::array<std::string_view, 5> kNotInFiles = {"config", "save-config", "force", "help", "version"};
+constexpr std::array<std::string_view, 6> kNotInFiles = {"config", "save-config", "reads",
+                                                         "force",  "help",        "version"};
 
 bool is_in_files(std::string_view name) { return std::ranges::find(kNotInFiles, name) == kNotInFiles.end(); }
 
@@ -110,10 +114,10 @@ Result<std::vector<std::string>> words_of(const pipeline::Setting& setting, cons
 
 }  // namespace
 
-Result<std::vector<std::string>> with_settings(const CLI::App& app, std::vector<std::string> words) {
+Result<WordsGiven> with_settings(const CLI::App& app, std::vector<std::string> words) {
   const auto file = take_config(words);
   if (!file) return std::unexpected(file.error());
-  if (!*file) return words;
+  if (!*file) return WordsGiven{.words = std::move(words), .config = {}};
   const Place place = find_command(app, words);
   if (place.name.empty()) return fail(Code::usage, "--config: no command; give it before the options");
   const auto settings = pipeline::read_settings(**file);
@@ -130,31 +134,37 @@ Result<std::vector<std::string>> with_settings(const CLI::App& app, std::vector<
     inserted.insert(inserted.end(), more->begin(), more->end());
   }
   words.insert(words.begin() + static_cast<std::ptrdiff_t>(place.after), inserted.begin(), inserted.end());
-  return words;
+  return WordsGiven{.words = std::move(words), .config = **file};
 }
 
 namespace {
 
-/// All values of options that may name a file, also behind NAME= and live sources' names.
-std::vector<std::filesystem::path> values_given(const CLI::App& command) {
-  std::vector<std::filesystem::path> out;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_items_expected_max() == 0) continue;
-    for (const std::string& value : option->results()) {
-      out.emplace_back(value);
-      for (const char mark : {'=', ':'})
-        if (const auto at = value.find(mark); at != std::string::npos) out.emplace_back(value.substr(at + 1));
-    }
-  }
-  return out;
+/// The job may read files that others name, which nobody knows yet. They do not end in .toml, but a link may
+/// lead to one.
+Status check_link(const std::filesystem::path& path) {
+  std::error_code absent;
+  const bool is_link =
+      std::filesystem::is_symlink(path, absent) ||
+      (std::filesystem::is_regular_file(path, absent) && std::filesystem::hard_link_count(path, absent) > 1);
+  if (!is_link || !std::filesystem::exists(path, absent)) return {};
+  const auto there = pipeline::read_settings(path);
+  if (there && !there->command.empty()) return {};
+  return fail(Code::usage,
+              fmt::format("{}: is a link to a file that holds no options of a command; name another file",
+                          path.string()));
 }
 
 }  // namespace
 
-Status save_settings(const CLI::App& app, const std::filesystem::path& path, bool force) {
+Status save_settings(const CLI::App& app, const CommonOptions& common) {
   const CLI::App& command = reached(app);
+  const std::filesystem::path path = common.save_config;
   if (auto s = pipeline::check_ending(path, {".toml"}, "options"); !s) return s;
-  if (auto s = pipeline::check_apart({path}, values_given(command)); !s) return s;
+  if (auto s = pipeline::check_apart({path}, common.kept); !s) return s;
+  const auto written = files_written(app);
+  if (std::ranges::count(written, path) > 1)  // itself is among them
+    return fail(Code::usage, fmt::format("{}: would be written twice; name another file", path.string()));
+  if (auto s = common.force ? check_link(path) : Status(); !s) return s;
   pipeline::Settings settings;
   for (const CLI::App* at = &command; at->get_parent() != nullptr; at = at->get_parent())
     settings.command = at->get_name() + (settings.command.empty() ? "" : " ") + settings.command;
@@ -165,7 +175,7 @@ Status save_settings(const CLI::App& app, const std::filesystem::path& path, boo
     if (!setting.is_switch) setting.values = option->results();
     settings.list.push_back(std::move(setting));
   }
-  return io::write_text(path, pipeline::settings_text(settings), force);
+  return io::write_text(path, pipeline::settings_text(settings), common.force);
 }
 
 }  // namespace kinemark::cli

@@ -9,9 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/command.h"
 #include "kinemark/core/result.h"
 
 namespace kinemark::cli {
+
+/// A command line, and the file that was after --config; empty without.
+struct WordsGiven {
+  std::vector<std::string> words;
+  std::filesystem::path config;
+};
 
 /// The words of a command line with what the file after --config says put behind the command; what is typed
 /// takes precedence. The words as they are without --config. Nothing is parsed by `app` yet.
@@ -19,12 +26,11 @@ namespace kinemark::cli {
 /// Code::usage: no file after --config, no command; Code::bad_input: the file is for another command, names
 /// an option that the command does not have, or gives a value to a switch or none to another; else as
 /// read_settings().
-[[nodiscard]] Result<std::vector<std::string>> with_settings(const CLI::App& app,
-                                                             std::vector<std::string> words);
+[[nodiscard]] Result<WordsGiven> with_settings(const CLI::App& app, std::vector<std::string> words);
 
-/// Write the options that were given, `app` having parsed them: no files that stand without an option, and
-/// neither
-/// --force nor these two. An existing file is replaced only with `force`.
-[[nodiscard]] Status save_settings(const CLI::App& app, const std::filesystem::path& path, bool force);
+/// Write the options that were given, `app` having parsed them, to the file of --save-config: no files that
+/// stand without an option, and neither --force nor these two. An existing file is replaced with --force, but
+/// none of `common.kept`, none that the command writes too, and through a link only options: Code::usage.
+[[nodiscard]] Status save_settings(const CLI::App& app, const CommonOptions& common);
 
 }  // namespace kinemark::cli

@@ -49,6 +49,7 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
   }
   std::optional<io::OutputFile> file;
   if (!arguments.figures.empty()) {
+    if (auto s = pipeline::check_apart({arguments.figures}, common.kept); !s) return report_error(s.error());
     auto created = io::OutputFile::create(arguments.figures, common.force);
     if (!created) return report_error(created.error());
     file.emplace(std::move(*created));
@@ -122,8 +123,6 @@ struct TaiChiArguments : StudyArguments {
 int run_tai_chi(const CommonOptions& common, const TaiChiArguments& arguments) {
   if (!arguments.seeds.empty() && !arguments.files.data.empty())
     return report_error({Code::usage, "--seeds draws simulated subjects; it does not go with --data"});
-  if (auto s = pipeline::check_apart({arguments.figures}, {arguments.files.data}); !s)
-    return report_error(s.error());
   return run_study(
       common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {

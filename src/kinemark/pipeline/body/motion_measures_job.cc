@@ -207,6 +207,13 @@ Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob&
   return stretches;
 }
 
+std::vector<std::filesystem::path> files_of(const MotionMeasuresJob& job) {
+  auto files = pipeline::files_of(job.gait);
+  files.insert(files.end(), {job.motion, beside(job.motion, "_sd.sto"), job.model, job.forces});
+  if (!job.forces.empty()) files.push_back(edits_of(job.forces));
+  return files;
+}
+
 Status add_inputs(const char* role, const std::vector<std::filesystem::path>& paths,
                   MotionMeasuresOutcome& out) {
   for (const auto& path : paths) {
@@ -250,11 +257,13 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   if (auto s = check(job); !s) return std::unexpected(s.error());
   std::vector<std::filesystem::path> targets;
   if (!job.output.empty()) targets.push_back(job.output);
-  auto staging = Staging::create(targets, job.force, {job.motion, job.model, job.forces});
+  auto staging = Staging::create(targets, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
   std::optional<GaitDrawing> drawing;
   if (auto walking = drawing_of(job); walking.wanted()) {
-    auto begun = GaitDrawing::begin(std::move(walking), {job.motion, job.model, job.forces, job.output});
+    auto others = files_of(job);
+    others.push_back(job.output);
+    auto begun = GaitDrawing::begin(std::move(walking), others);
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
   } else if (auto s = job.gait.check(); !s) {
@@ -317,6 +326,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
                     : ending == ".json"
                         ? json_file(job.output, [&] { return motion_measures_json(out); })
                         : nwb_file(job.output, {{.name = name, .measures = out.measures}}, out.inputs, job);
+  staging->add_inputs(out.inputs);
   auto written = write_results(*staging, {file}, {}, "the measures");
   if (!written) return std::unexpected(written.error());
   std::ranges::move(*written, std::back_inserter(out.written));

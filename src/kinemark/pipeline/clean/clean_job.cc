@@ -135,7 +135,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   if (auto s = io::check_marker_format(job.output); !s) return std::unexpected(s.error());
   if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   const CleanFiles files(job);
-  auto staging = Staging::create(files.all(), job.force, files_of(job.input, job));
+  auto staging = Staging::create(files.all(), job, files_of(job.input, job));
   if (!staging) return std::unexpected(staging.error());
   const RecordingSource source{.path = job.input,
                                .needs_samples = true,

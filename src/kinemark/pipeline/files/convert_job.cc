@@ -114,6 +114,15 @@ void turn_y_up(std::optional<Vertical> vertical, data::Trial& trial) {
                                        name_of_direction(vertical->up), vertical->from));
 }
 
+/// Every file that the job reads.
+std::vector<std::filesystem::path> files_of(const ConvertJob& job) {
+  auto inputs = pipeline::files_of(job.in, job);
+  inputs.insert(inputs.end(), {job.model, job.skeleton});
+  for (const auto& part : job.merged)
+    std::ranges::move(pipeline::files_of(part, job), std::back_inserter(inputs));
+  return inputs;
+}
+
 /// The files of one recording together, each by its own journal.
 Result<Recording> read_merged(const ConvertJob& job, const std::vector<std::filesystem::path>& files) {
   RecordingOptions options;
@@ -168,7 +177,7 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
   auto notes = trial.warnings;
   notes.insert(notes.end(), recording->notes.begin(), recording->notes.end());
   if (ending_of(job.out) == ".tsv") {
-    auto made = write_motion_bids(job.out, trial, job.force, files);
+    auto made = write_motion_bids(job.out, trial, job, files_of(job));
     if (!made) return std::unexpected(made.error());
     written = std::move(*made);
     const auto lost = io::lost_in(*io::written_format(".tsv"), trial);
@@ -278,10 +287,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (job.ndx_pose && ending_of(job.out) != ".nwb")
     return fail(Code::usage, fmt::format("--ndx-pose: {} is no .nwb file", job.out.string()));
   if (auto s = check_each_once(job); !s) return std::unexpected(s.error());
-  auto inputs = files_of(job.in, job);
-  inputs.insert(inputs.end(), {job.model, job.skeleton});
-  inputs.insert(inputs.end(), job.merged.begin(), job.merged.end());
-  if (auto s = check_apart({job.out}, inputs); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, {job.out}, files_of(job)); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   std::vector<std::filesystem::path> written = {job.out};
   switch (kind_of(from)) {

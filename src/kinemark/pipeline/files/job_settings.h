@@ -17,9 +17,12 @@ namespace kinemark::pipeline {
 
 /// What every job is told besides its own task. A job that has no use for a field passes it over.
 struct JobSettings {
-  int threads = 1;           ///< 0: all cores. Any number gives the same bits.
-  std::uint64_t seed = 1;    ///< of everything random
-  bool force = false;        ///< replace files that exist
+  int threads = 1;         ///< 0: all cores. Any number gives the same bits.
+  std::uint64_t seed = 1;  ///< of everything random
+  bool force = false;      ///< replace files that exist
+  /// Files that stay as they are whatever the job writes, `force` or not: all that the caller gives to be
+  /// read. Staging, PageFile and check_apart() ask for them besides what the job itself names.
+  std::vector<std::filesystem::path> kept;
   std::string command_line;  ///< as typed, for the record
   Progress progress;         ///< may be empty; each run_x() says what it counts
 };

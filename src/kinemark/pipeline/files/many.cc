@@ -9,6 +9,7 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <new>
@@ -20,6 +21,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/recording.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -90,7 +92,7 @@ Result<std::vector<TrialOutcome>> plan(const ManyJob& job) {
     outputs.push_back(trial.output);
     trials.push_back(std::move(trial));
   }
-  if (auto s = check_apart(outputs, job.inputs); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, outputs, job.inputs); !s) return std::unexpected(s.error());
   for (const auto& folder : {job.folder, job.pages}) {
     if (folder.empty()) continue;
     std::error_code error;
@@ -123,6 +125,8 @@ void run_trial(const ManyJob& job, TrialOutcome& trial) {
   }
   JobSettings settings = job;
   settings.progress = {};
+  for (const auto& input : job.inputs)
+    std::ranges::move(files_of(input, {}), std::back_inserter(settings.kept));
   settings.threads = std::max(1, thread_count(job.threads) / thread_count(job.jobs));
   settings.force = job.force || (presence == Presence::part && is_ours(made));
   const auto begin = std::chrono::steady_clock::now();

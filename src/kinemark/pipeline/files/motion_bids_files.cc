@@ -15,8 +15,8 @@ namespace kinemark::pipeline {
 
 namespace fs = std::filesystem;
 
-Result<std::vector<fs::path>> write_motion_bids(const fs::path& path, const data::Trial& trial, bool force,
-                                                const std::vector<fs::path>& inputs) {
+Result<std::vector<fs::path>> write_motion_bids(const fs::path& path, const data::Trial& trial,
+                                                const JobSettings& job, const std::vector<fs::path>& inputs) {
   const auto name = io::parse_motion_name(path);
   if (!name) return std::unexpected(name.error());
   const auto files = io::motion_files(*name, trial);
@@ -33,7 +33,7 @@ Result<std::vector<fs::path>> write_motion_bids(const fs::path& path, const data
                          return file.write(staged);
                        }});
   }
-  auto staging = Staging::create(std::move(targets), force, inputs);
+  auto staging = Staging::create(std::move(targets), job, inputs);
   if (!staging) return std::unexpected(staging.error());
   return write_results(*staging, results, {}, "convert");
 }

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
@@ -15,10 +16,10 @@ namespace kinemark::pipeline {
 /// that is not as BIDS has it; else as io::motion_files() and Staging.
 ///
 /// @param path    TOP/sub-LABEL/motion/sub-LABEL_task-LABEL_tracksys-LABEL_motion.tsv
-/// @param inputs  files that the job reads
+/// @param job, inputs  as for Staging::create()
 /// @return        what was written, the table first
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_motion_bids(
-    const std::filesystem::path& path, const data::Trial& trial, bool force,
+    const std::filesystem::path& path, const data::Trial& trial, const JobSettings& job,
     const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace kinemark::pipeline

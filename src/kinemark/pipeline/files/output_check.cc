@@ -10,7 +10,6 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/place.h"
 #include "kinemark/pipeline/files/input_list.h"
-#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
@@ -24,6 +23,12 @@ Status check_apart(const std::vector<fs::path>& outputs, const std::vector<fs::p
         return fail(Code::usage, fmt::format("{}: is the file that is read as {}; name another output",
                                              output.string(), input.string()));
   return {};
+}
+
+Status check_apart(const JobSettings& job, const std::vector<fs::path>& outputs,
+                   const std::vector<fs::path>& inputs) {
+  if (auto s = check_apart(outputs, inputs); !s) return s;
+  return check_apart(outputs, job.kept);
 }
 
 Status check_ending(const fs::path& output, const std::vector<std::string>& endings, std::string_view what) {

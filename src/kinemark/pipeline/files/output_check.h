@@ -9,12 +9,16 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
 /// Code::usage, naming the output, when one of the outputs is one of the inputs: the same file, under
 /// whatever name and through whatever link. Names that are empty or of nothing that is there do not count.
 [[nodiscard]] Status check_apart(const std::vector<std::filesystem::path>& outputs,
+                                 const std::vector<std::filesystem::path>& inputs);
+/// The same for what a job writes without Staging: its inputs and those that its caller gives (`job.kept`).
+[[nodiscard]] Status check_apart(const JobSettings& job, const std::vector<std::filesystem::path>& outputs,
                                  const std::vector<std::filesystem::path>& inputs);
 
 /// The ending of an output is one that its job writes, or there is none: Code::usage, naming those,

@@ -31,6 +31,15 @@ TEST(CheckApart, AnOutputIsNoInputUnderAnyName) {
   EXPECT_TRUE(check_apart({scratch / "out", ""}, {input, "", scratch / "absent"}));
 }
 
+TEST(CheckApart, AJobKeepsWhatItsCallerGives) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "in", "x", false));
+  const JobSettings job{.force = true, .kept = {scratch / "in"}};
+  EXPECT_FALSE(check_apart(job, {scratch / "in"}, {}));
+  EXPECT_TRUE(check_apart(job, {scratch / "out"}, {}));
+  EXPECT_FALSE(check_apart(JobSettings{}, {scratch / "in"}, {scratch / "in"}));
+}
+
 TEST(CheckBelow, ASetupWritesInItsOwnFolderAndBelow) {
   const testing_support::ScratchFolder scratch;
   fs::create_directories(scratch / "setups/sub");

@@ -27,7 +27,7 @@ TEST_F(PageFileTest, AppearsWhenItIsWrittenAndNotBefore) {
   const auto path = folder_ / "page.html";
   JobOutcome outcome;
   {
-    auto page = PageFile::begin(path, {folder_ / "a.c3d"}, false);
+    auto page = PageFile::begin(path, {}, {folder_ / "a.c3d"});
     ASSERT_TRUE(page) << page.error().message;
     EXPECT_TRUE(page->wanted());
     EXPECT_FALSE(fs::exists(path));
@@ -39,13 +39,13 @@ TEST_F(PageFileTest, AppearsWhenItIsWrittenAndNotBefore) {
 
 TEST_F(PageFileTest, NothingStaysOfAPageThatWasNotWritten) {
   {
-    ASSERT_TRUE(PageFile::begin(folder_ / "page.html", {}, false));
+    ASSERT_TRUE(PageFile::begin(folder_ / "page.html", {}, {}));
   }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(PageFileTest, AnEmptyPathIsNoPage) {
-  auto page = PageFile::begin({}, {}, false);
+  auto page = PageFile::begin({}, {}, {});
   ASSERT_TRUE(page);
   EXPECT_FALSE(page->wanted());
   JobOutcome outcome;
@@ -54,18 +54,32 @@ TEST_F(PageFileTest, AnEmptyPathIsNoPage) {
 }
 
 TEST_F(PageFileTest, RefusesOtherEndingsOtherFilesAndWhatIsThere) {
-  const auto other = PageFile::begin(folder_ / "page.pdf", {}, false);
+  const auto other = PageFile::begin(folder_ / "page.pdf", {}, {});
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().code, Code::usage);
   EXPECT_NE(other.error().message.find("ends in .html"), std::string::npos);
-  const auto same = PageFile::begin(folder_ / "a.html", {folder_ / "b" / ".." / "a.html"}, false);
+  const auto same = PageFile::begin(folder_ / "a.html", {}, {folder_ / "b" / ".." / "a.html"});
   ASSERT_FALSE(same);
   EXPECT_EQ(same.error().code, Code::usage);
   JobOutcome outcome;
-  auto first = PageFile::begin(folder_ / "a.html", {}, false);
+  auto first = PageFile::begin(folder_ / "a.html", {}, {});
   ASSERT_TRUE(first && first->write("1", outcome));
-  EXPECT_FALSE(PageFile::begin(folder_ / "a.html", {}, false));
-  EXPECT_TRUE(PageFile::begin(folder_ / "a.html", {}, true));
+  EXPECT_FALSE(PageFile::begin(folder_ / "a.html", {}, {}));
+  EXPECT_TRUE(PageFile::begin(folder_ / "a.html", {.force = true}, {}));
+}
+
+TEST_F(PageFileTest, IsNoFileThatIsReadWheneverThatIsKnown) {
+  ASSERT_TRUE(io::write_text(folder_ / "a.c3d", "recorded", false));
+  fs::create_symlink("a.c3d", folder_ / "link.html");
+  EXPECT_EQ(
+      PageFile::begin(folder_ / "link.html", {.force = true, .kept = {folder_ / "a.c3d"}}, {}).error().code,
+      Code::usage);
+  auto page = PageFile::begin(folder_ / "link.html", {.force = true}, {});
+  ASSERT_TRUE(page);
+  page->add_inputs({{.role = "markers", .path = (folder_ / "a.c3d").string()}});
+  JobOutcome outcome;
+  EXPECT_EQ(page->write("<p>", outcome).error().code, Code::usage);
+  EXPECT_EQ(io::read_text(folder_ / "a.c3d").value(), "recorded");
 }
 
 }  // namespace

@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "kinemark/io/animation/amc.h"
+#include "kinemark/io/bids/motion_name.h"
 #include "kinemark/io/plates/plate_forces.h"
 #include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/pipeline/files/turn.h"
 
@@ -76,6 +80,7 @@ void state_up(const Vertical& stated, Recording& recording) {
                                           name_of_direction(stated.up), plates->from,
                                           name_of_direction(plates->up)));
   set_screen_up(recording.trial, stated.up);
+  recording.up = stated.up;
 }
 
 void turn_axes(const RecordingOptions& options, Recording& recording) {
@@ -124,6 +129,7 @@ Result<Recording> read_recording(const RecordingSource& source, const RecordingO
                    .file = std::move(input->file),
                    .forces = {},
                    .edits = {},
+                   .up = {},
                    .rate_known = input->rate_known,
                    .notes = {}};
 }
@@ -155,6 +161,10 @@ std::optional<Vertical> stated_vertical(const AxesChoice& axes) {
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
                                             const RecordingOptions& options) {
   std::vector<std::filesystem::path> files{recording};
+  if (ending_of(recording) == ".amc") files.push_back(io::skeleton_beside(recording));
+  if (io::is_motion_tsv(recording))
+    for (const char* ending : {"channels.tsv", "motion.json"})
+      if (auto found = io::find_sidecar(recording, ending)) files.push_back(std::move(*found));
   if (options.edits == kEditsBeside)
     files.push_back(edits_of(recording));
   else if (!names_no_journal(options.edits))

@@ -4,6 +4,7 @@
 // here, with the same options in the same order.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -78,6 +79,7 @@ struct Recording {
   data::InputFile file;      ///< role "markers"; bytes and hash only when asked for
   std::vector<data::InputFile> forces;  ///< files of RecordingSource::forces, role "forces"
   EditsTaken edits;                     ///< that were applied
+  std::optional<Eigen::Vector3d> up;    ///< as --up states it, length 1
   bool rate_known = true;               ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
   std::vector<std::string> notes;       ///< what was done to it, one sentence each
 };
@@ -100,7 +102,8 @@ struct Recording {
 /// The axis that is said to point up; none: nobody says one, or it is to be found. `options` are checked.
 [[nodiscard]] std::optional<Vertical> stated_vertical(const AxesChoice& axes);
 
-/// The files that opening a recording reads: its own, and the journal, whether it is there or not.
+/// The files that opening a recording reads: its own, the skeleton of an .amc, the sidecars of a _motion.tsv,
+/// and the journal, whether it is there or not.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
                                                           const RecordingOptions& options);
 

@@ -213,6 +213,16 @@ TEST(RecordingOptions, NameTheFilesThatAreRead) {
   EXPECT_THAT(files_of("a/walk.c3d", {}), ElementsAre("a/walk.c3d", "a/walk_edits.jsonl"));
   EXPECT_THAT(files_of("a/walk.c3d", {.edits = kEditsNone}), ElementsAre("a/walk.c3d"));
   EXPECT_THAT(files_of("a/walk.c3d", {.edits = "b.jsonl"}), ElementsAre("a/walk.c3d", "b.jsonl"));
+  const testing_support::ScratchFolder scratch;
+  for (const char* name : {"01.asf", "01_02.amc", "sub-1_task-w_tracksys-o_channels.tsv",
+                           "sub-1_task-w_tracksys-o_motion.json", "sub-1_task-w_tracksys-o_motion.tsv"})
+    ASSERT_TRUE(io::write_text(scratch / name, "x", false));
+  EXPECT_THAT(files_of(scratch / "01_02.amc", {.edits = kEditsNone}),
+              ElementsAre(scratch / "01_02.amc", scratch / "01.asf"));
+  const auto motion = scratch / "sub-1_task-w_tracksys-o_motion.tsv";
+  EXPECT_THAT(files_of(motion, {.edits = kEditsNone}),
+              ElementsAre(motion, scratch / "sub-1_task-w_tracksys-o_channels.tsv",
+                          scratch / "sub-1_task-w_tracksys-o_motion.json"));
 }
 
 TEST(RecordingOptions, AJournalIsOfOneRecording) {

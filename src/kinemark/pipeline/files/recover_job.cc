@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "kinemark/io/recording/recover.h"
+#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
 
 Result<RecoverOutcome> run_recover(const RecoverJob& job) {
+  if (auto s = check_apart(job, {job.out}, {job.in}); !s) return std::unexpected(s.error());
   auto report = io::recover_recording(job.in, job.out, job.force);
   if (!report) return std::unexpected(report.error());
   RecoverOutcome out;

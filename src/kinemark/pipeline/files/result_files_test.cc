@@ -45,7 +45,7 @@ TEST_F(WriteResults, EveryKindReadsBack) {
   table.columns = {"a"};
   table.time_s = {0.0, 0.1};
   table.values.assign({1.0, 2.0});
-  auto staging = Staging::create({at("t.txt"), at("t.sto"), at("t.trc"), at("t.osim")}, false, {}).value();
+  auto staging = Staging::create({at("t.txt"), at("t.sto"), at("t.trc"), at("t.osim")}, {}, {}).value();
   const auto written =
       write_results(staging,
                     {text(at("t.txt"), "words"), table_file(at("t.sto"), [&] { return table; }),
@@ -60,7 +60,7 @@ TEST_F(WriteResults, EveryKindReadsBack) {
 }
 
 TEST_F(WriteResults, OnlyWhatWasWrittenIsReportedInTheOrderOfTheStaging) {
-  auto staging = Staging::create({at("a"), at("b"), at("c")}, false, {}).value();
+  auto staging = Staging::create({at("a"), at("b"), at("c")}, {}, {}).value();
   const auto written = write_results(staging, {text(at("c"), "C"), text(at("a"), "A")}, {}, "work");
   ASSERT_TRUE(written);
   EXPECT_THAT(*written, ElementsAre(at("a"), at("c")));
@@ -71,7 +71,7 @@ TEST_F(WriteResults, OnlyWhatWasWrittenIsReportedInTheOrderOfTheStaging) {
 TEST_F(WriteResults, AFailureNamesTheTargetAndLeavesNothing) {
   data::Trial nothing;
   {
-    auto staging = Staging::create({at("a"), at("markers.xyz")}, false, {}).value();
+    auto staging = Staging::create({at("a"), at("markers.xyz")}, {}, {}).value();
     const auto written =
         write_results(staging, {text(at("a"), "A"), marker_file(at("markers.xyz"), nothing)}, {}, "work");
     ASSERT_FALSE(written);
@@ -88,10 +88,10 @@ TEST_F(WriteResults, ProgressCountsFilesAndMayStop) {
     reported.emplace_back(done, total);
     return true;
   };
-  auto staging = Staging::create({at("a"), at("b")}, false, {}).value();
+  auto staging = Staging::create({at("a"), at("b")}, {}, {}).value();
   ASSERT_TRUE(write_results(staging, {text(at("a"), ""), text(at("b"), "")}, all, "work"));
   EXPECT_THAT(reported, ElementsAre(std::pair(1, 2), std::pair(2, 2)));
-  auto again = Staging::create({at("c"), at("d")}, false, {}).value();
+  auto again = Staging::create({at("c"), at("d")}, {}, {}).value();
   const auto stopped = write_results(
       again, {text(at("c"), ""), text(at("d"), "")}, [](std::int64_t done, std::int64_t) { return done < 2; },
       "the walk");

@@ -32,11 +32,13 @@ Status Staging::find_targets() {
   return {};
 }
 
-Result<Staging> Staging::create(std::vector<fs::path> targets, bool force,
+Result<Staging> Staging::create(std::vector<fs::path> targets, const JobSettings& job,
                                 const std::vector<fs::path>& inputs) {
-  if (auto s = check_apart(targets, inputs); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, targets, inputs); !s) return std::unexpected(s.error());
   Staging staging;
-  staging.force_ = force;
+  staging.force_ = job.force;
+  staging.inputs_ = job.kept;
+  staging.add_inputs(inputs);
   staging.targets_ = std::move(targets);
   if (auto s = staging.find_targets(); !s) return std::unexpected(s.error());
   for (std::size_t i = 0; i < staging.resolved_.size(); ++i) {
@@ -49,14 +51,14 @@ Result<Staging> Staging::create(std::vector<fs::path> targets, bool force,
   return staging;
 }
 
-Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names, bool force,
-                                   const std::vector<fs::path>& inputs) {
+Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names,
+                                   const JobSettings& job, const std::vector<fs::path>& inputs) {
   auto made = std::make_unique<NewFolder>(folder);
   if (made->error())
     return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), made->error().message()));
   std::vector<fs::path> targets;
   for (const auto& name : names) targets.push_back(folder / name);
-  auto staging = create(std::move(targets), force, inputs);
+  auto staging = create(std::move(targets), job, inputs);
   if (staging) staging->made_ = std::move(made);
   return staging;
 }
@@ -92,6 +94,14 @@ std::unexpected<Error> Staging::failure(Error error) const {
   return std::unexpected(std::move(error));
 }
 
+void Staging::add_inputs(const std::vector<fs::path>& inputs) {
+  inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
+}
+
+void Staging::add_inputs(const std::vector<data::InputFile>& inputs) {
+  for (const auto& input : inputs) inputs_.emplace_back(input.path);
+}
+
 Status Staging::place_all() {
   std::vector<std::pair<std::size_t, io::Replaced>> done;
   const auto held = io::hold_end();
@@ -111,6 +121,7 @@ Status Staging::place_all() {
 }
 
 Status Staging::commit() {
+  if (auto s = check_apart(targets_, inputs_); !s) return s;
   if (auto s = place_all(); !s) return s;
   for (const auto& [parent, hidden] : folders_)
     if (auto s = io::sync_folder(parent); !s) return s;

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 #include "kinemark/io/temporary.h"
+#include "kinemark/pipeline/files/job_settings.h"
 
 namespace kinemark::pipeline {
 
@@ -19,15 +21,15 @@ class NewFolder;
 /// (one per folder) and moved into place by commit(). Without commit() nothing stays.
 class Staging {
  public:
-  /// Fails when a target exists (unless `force`), is one of the inputs (in any case), is given twice, or its
-  /// folder cannot be written.
-  /// @param inputs  all files that the job reads
-  static Result<Staging> create(std::vector<std::filesystem::path> targets, bool force,
+  /// Fails when a target exists (unless `job.force`), is one of the inputs or of `job.kept` (in any case), is
+  /// given twice, or its folder cannot be written.
+  /// @param inputs  all files that the job reads, as far as they are known by now; see add_inputs()
+  static Result<Staging> create(std::vector<std::filesystem::path> targets, const JobSettings& job,
                                 const std::vector<std::filesystem::path>& inputs);
   /// The same for files of one folder, which is made when absent, and goes again when no file came.
   /// @param names  of the files in it
   static Result<Staging> create_in(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                                   bool force, const std::vector<std::filesystem::path>& inputs);
+                                   const JobSettings& job, const std::vector<std::filesystem::path>& inputs);
   Staging(Staging&& other) noexcept;  ///< takes the targets over
   Staging& operator=(Staging&&) = delete;
   ~Staging();
@@ -42,8 +44,12 @@ class Staging {
   [[nodiscard]] std::vector<std::filesystem::path> written() const;
   /// A failure of writing path(i), told of targets[i].
   [[nodiscard]] std::unexpected<Error> failure(Error error) const;
+  /// Files that the job has read meanwhile: those that lie beside others, or that others name.
+  void add_inputs(const std::vector<std::filesystem::path>& inputs);
+  void add_inputs(const std::vector<data::InputFile>& inputs);  ///< the same, as they stand in a record
   /// Move every file that was written into place, one directly after the other, the first target last, as all
-  /// of them are on the disk by then. Without force a target that came in the meantime is a failure. After a
+  /// of them are on the disk by then. Without force a target that came in the meantime is a failure, and with
+  /// it one that is an input, as in create(). After a
   /// failure all is as it was before, where the file system can exchange files.
   [[nodiscard]] Status commit();
 
@@ -54,6 +60,7 @@ class Staging {
   [[nodiscard]] Status place_all();
 
   bool force_ = false;
+  std::vector<std::filesystem::path> inputs_;               ///< that no target may be
   std::unique_ptr<NewFolder> made_;                         ///< goes last
   std::map<std::filesystem::path, io::Temporary> folders_;  ///< hidden one in each parent folder
   std::vector<std::filesystem::path> targets_;              ///< as given

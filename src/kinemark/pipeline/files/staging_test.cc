@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 TEST(Staging, FilesAppearTogetherOnCommit) {
   const testing_support::ScratchFolder scratch;
   {
-    auto staging = Staging::create({scratch / "a", scratch / "b"}, false, {}).value();
+    auto staging = Staging::create({scratch / "a", scratch / "b"}, {}, {}).value();
     ASSERT_TRUE(io::write_text(staging.path(0), "A", false));
     ASSERT_TRUE(io::write_text(staging.path(1), "B", false));
     EXPECT_FALSE(fs::exists(scratch / "a"));
@@ -34,7 +34,7 @@ TEST(Staging, NothingStaysWithoutCommitAndOldFilesSurvive) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "a", "old", false));
   {
-    auto staging = Staging::create({scratch / "a", scratch / "b"}, true, {}).value();
+    auto staging = Staging::create({scratch / "a", scratch / "b"}, {.force = true}, {}).value();
     ASSERT_TRUE(io::write_text(staging.path(0), "new", false));
   }
   EXPECT_EQ(io::read_text(scratch / "a").value(), "old");
@@ -44,17 +44,19 @@ TEST(Staging, NothingStaysWithoutCommitAndOldFilesSurvive) {
 TEST(Staging, RefusesWhatExistsAndWhatCannotBe) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "b", "old", false));
-  EXPECT_THAT(Staging::create({scratch / "a", scratch / "b"}, false, {}).error().message,
+  EXPECT_THAT(Staging::create({scratch / "a", scratch / "b"}, {}, {}).error().message,
               HasSubstr("b: exists already"));
-  EXPECT_THAT(Staging::create({scratch.path()}, true, {}).error().message, HasSubstr("is a folder"));
-  EXPECT_EQ(Staging::create({scratch / "no" / "a"}, true, {}).error().code, Code::io);
-  EXPECT_THAT(Staging::create({scratch / "a", scratch / "x" / ".." / "a"}, true, {}).error().message,
-              HasSubstr("would be written twice"));
+  EXPECT_THAT(Staging::create({scratch.path()}, {.force = true}, {}).error().message,
+              HasSubstr("is a folder"));
+  EXPECT_EQ(Staging::create({scratch / "no" / "a"}, {.force = true}, {}).error().code, Code::io);
+  EXPECT_THAT(
+      Staging::create({scratch / "a", scratch / "x" / ".." / "a"}, {.force = true}, {}).error().message,
+      HasSubstr("would be written twice"));
 }
 
 TEST(Staging, AFolderThatCannotBeWrittenIsFoundBeforeTheWork) {
   const testing_support::ScratchFolder scratch;
-  const auto staging = Staging::create({scratch / "a", scratch / "no" / "b"}, false, {});
+  const auto staging = Staging::create({scratch / "a", scratch / "no" / "b"}, {}, {});
   ASSERT_FALSE(staging);
   EXPECT_THAT(staging.error().message, HasSubstr("no/b: cannot be written"));
   EXPECT_TRUE(fs::is_empty(scratch.path())) << "the hidden folder beside a is gone again";
@@ -62,7 +64,7 @@ TEST(Staging, AFolderThatCannotBeWrittenIsFoundBeforeTheWork) {
 
 TEST(Staging, WithoutForceAFileThatCameInTheMeantimeWinsAndNoneOfOursAppears) {
   const testing_support::ScratchFolder scratch;
-  auto staging = Staging::create({scratch / "a", scratch / "b", scratch / "c"}, false, {}).value();
+  auto staging = Staging::create({scratch / "a", scratch / "b", scratch / "c"}, {}, {}).value();
   for (std::size_t i = 0; i < 3; ++i) ASSERT_TRUE(io::write_text(staging.path(i), "ours", false));
   ASSERT_TRUE(io::write_text(scratch / "b", "theirs", false));
   const auto failed = staging.commit();
@@ -78,7 +80,8 @@ TEST(Staging, WhatCannotAllBeReplacedIsNotReplacedInPart) {
   const testing_support::ScratchFolder scratch;
   for (const char* name : {"a", "b"}) ASSERT_TRUE(io::write_text(scratch / name, "old", false));
   {
-    auto staging = Staging::create({scratch / "a", scratch / "b", scratch / "c"}, true, {}).value();
+    auto staging =
+        Staging::create({scratch / "a", scratch / "b", scratch / "c"}, {.force = true}, {}).value();
     for (std::size_t i = 0; i < 3; ++i) ASSERT_TRUE(io::write_text(staging.path(i), "new", false));
     fs::create_directory(scratch / "c");
     fs::create_directory(scratch / "c" / "not empty");
@@ -93,7 +96,8 @@ TEST(Staging, AnInputIsNoTargetEvenWithForce) {
   ASSERT_TRUE(io::write_text(scratch / "in", "precious", false));
   fs::create_symlink("in", scratch / "link");
   for (const char* name : {"in", "link"}) {
-    const auto refused = Staging::create({scratch / "out", scratch / name}, true, {scratch / "in"});
+    const auto refused =
+        Staging::create({scratch / "out", scratch / name}, {.force = true}, {scratch / "in"});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, Code::usage);
   }
@@ -103,8 +107,8 @@ TEST(Staging, LinksAreFollowedWithForce) {
   const testing_support::ScratchFolder scratch;
   fs::create_directory(scratch / "sub");
   fs::create_symlink("sub/a", scratch / "a");
-  EXPECT_FALSE(Staging::create({scratch / "a"}, false, {}));
-  auto staging = Staging::create({scratch / "a"}, true, {}).value();
+  EXPECT_FALSE(Staging::create({scratch / "a"}, {}, {}));
+  auto staging = Staging::create({scratch / "a"}, {.force = true}, {}).value();
   ASSERT_TRUE(io::write_text(staging.path(0), "new", false));
   ASSERT_TRUE(staging.commit());
   EXPECT_TRUE(fs::is_symlink(scratch / "a"));
@@ -113,7 +117,7 @@ TEST(Staging, LinksAreFollowedWithForce) {
 
 TEST(Staging, AFailureNamesTheTargetNotTheHiddenFile) {
   const testing_support::ScratchFolder scratch;
-  const auto staging = Staging::create({scratch / "a", scratch / "b"}, false, {}).value();
+  const auto staging = Staging::create({scratch / "a", scratch / "b"}, {}, {}).value();
   const auto failed = staging.failure({Code::io, staging.path(1).string() + ": cannot be written"});
   EXPECT_EQ(failed.error().message, (scratch / "b").string() + ": cannot be written");
   EXPECT_EQ(failed.error().code, Code::io);
@@ -122,7 +126,7 @@ TEST(Staging, AFailureNamesTheTargetNotTheHiddenFile) {
 TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {
   const testing_support::ScratchFolder scratch;
   fs::create_directory(scratch / "sub");
-  auto staging = Staging::create({scratch / "a", scratch / "sub" / "b"}, false, {}).value();
+  auto staging = Staging::create({scratch / "a", scratch / "sub" / "b"}, {}, {}).value();
   EXPECT_EQ(staging.path(0).parent_path().parent_path(), scratch.path());
   EXPECT_EQ(staging.path(1).parent_path().parent_path(), scratch / "sub");
   ASSERT_TRUE(io::write_text(staging.path(1), "B", false));
@@ -133,7 +137,7 @@ TEST(Staging, TargetsInSeveralFoldersAreStagedBesideEach) {
 TEST(StagingInFolder, MakesTheFolderAndItStaysWithTheFiles) {
   const testing_support::ScratchFolder scratch;
   {
-    auto staging = Staging::create_in(scratch / "new/deeper", {"a", "b"}, false, {}).value();
+    auto staging = Staging::create_in(scratch / "new/deeper", {"a", "b"}, {}, {}).value();
     EXPECT_TRUE(fs::is_directory(scratch / "new/deeper"));
     ASSERT_TRUE(io::write_text(staging.path_of(scratch / "new/deeper/b"), "B", false));
     EXPECT_EQ(staging.written(), std::vector<fs::path>{scratch / "new/deeper/b"});
@@ -146,23 +150,23 @@ TEST(StagingInFolder, MakesTheFolderAndItStaysWithTheFiles) {
 TEST(StagingInFolder, WithoutFilesTheFolderGoesAgain) {
   const testing_support::ScratchFolder scratch;
   {
-    auto staging = Staging::create_in(scratch / "new/deeper", {"a"}, false, {}).value();
+    auto staging = Staging::create_in(scratch / "new/deeper", {"a"}, {}, {}).value();
     ASSERT_TRUE(io::write_text(staging.path(0), "A", false));
   }
   EXPECT_FALSE(fs::exists(scratch / "new"));
   fs::create_directory(scratch / "there");
-  ASSERT_TRUE(Staging::create_in(scratch / "there", {"a"}, false, {}));
+  ASSERT_TRUE(Staging::create_in(scratch / "there", {"a"}, {}, {}));
   EXPECT_TRUE(fs::exists(scratch / "there")) << "it was there before";
 }
 
 TEST(StagingInFolder, SaysWhichFolderCannotBeMade) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "file", "mine", false));
-  const auto refused = Staging::create_in(scratch / "file/new", {"a"}, false, {});
+  const auto refused = Staging::create_in(scratch / "file/new", {"a"}, {}, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::io);
   EXPECT_THAT(refused.error().message, HasSubstr("file/new: cannot be made"));
-  const auto taken = Staging::create_in(scratch / "file", {"a"}, false, {});
+  const auto taken = Staging::create_in(scratch / "file", {"a"}, {}, {});
   ASSERT_FALSE(taken) << "a file is no folder";
   EXPECT_EQ(taken.error().code, Code::io);
   EXPECT_EQ(io::read_text(scratch / "file").value(), "mine");
@@ -171,15 +175,15 @@ TEST(StagingInFolder, SaysWhichFolderCannotBeMade) {
 TEST(StagingErrors, AFolderOrAFileInTheWayIsNamed) {
   const testing_support::ScratchFolder scratch;
   fs::create_directory(scratch / "folder");
-  EXPECT_THAT(Staging::create({scratch / "folder"}, true, {}).error().message,
+  EXPECT_THAT(Staging::create({scratch / "folder"}, {.force = true}, {}).error().message,
               HasSubstr("is a folder; need a file"));
-  EXPECT_THAT(Staging::create({scratch / "none/a"}, false, {}).error().message,
+  EXPECT_THAT(Staging::create({scratch / "none/a"}, {}, {}).error().message,
               HasSubstr("none/a: cannot be written"));
   ASSERT_TRUE(io::write_text(scratch / "old", "old", false));
-  const auto exists = Staging::create({scratch / "new", scratch / "old"}, false, {});
+  const auto exists = Staging::create({scratch / "new", scratch / "old"}, {}, {});
   EXPECT_EQ(exists.error().code, Code::io);
   EXPECT_THAT(exists.error().message, HasSubstr("old: exists already; use --force"));
-  const auto twice = Staging::create({scratch / "a", scratch / "x/../a"}, false, {});
+  const auto twice = Staging::create({scratch / "a", scratch / "x/../a"}, {}, {});
   EXPECT_EQ(twice.error().code, Code::usage);
   EXPECT_THAT(twice.error().message, HasSubstr("would be written twice"));
   EXPECT_EQ(scratch.count_files(), 1);
@@ -187,10 +191,39 @@ TEST(StagingErrors, AFolderOrAFileInTheWayIsNamed) {
 
 TEST(StagingErrors, AFailureNamesTheTarget) {
   const testing_support::ScratchFolder scratch;
-  const auto staging = Staging::create({scratch / "a", scratch / "b"}, false, {}).value();
+  const auto staging = Staging::create({scratch / "a", scratch / "b"}, {}, {}).value();
   const Error error{Code::io, staging.path(1).string() + ": no space left"};
   EXPECT_EQ(staging.failure(error).error().message, (scratch / "b").string() + ": no space left");
   EXPECT_EQ(staging.failure({Code::io, "elsewhere: odd"}).error().message, "elsewhere: odd");
+}
+
+TEST(Staging, WhatTheCallerKeepsIsNoTargetUnderAnyName) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "in", "recorded", false));
+  fs::create_symlink("in", scratch / "link");
+  fs::create_hard_link(scratch / "in", scratch / "second");
+  for (const char* name : {"in", "link", "second"}) {
+    const auto refused =
+        Staging::create({scratch / name}, {.force = true, .kept = {"", "NAME=x", scratch / "in"}}, {});
+    ASSERT_FALSE(refused) << name;
+    EXPECT_EQ(refused.error().code, Code::usage);
+    EXPECT_THAT(refused.error().message, HasSubstr("is the file that is read as"));
+  }
+}
+
+TEST(Staging, AnInputThatIsKnownLaterIsNotReplaced) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "in", "recorded", false));
+  fs::create_symlink("in", scratch / "link");
+  auto staging = Staging::create({scratch / "new", scratch / "link"}, {.force = true}, {}).value();
+  ASSERT_TRUE(io::write_text(staging.path(0), "made", false));
+  ASSERT_TRUE(io::write_text(staging.path(1), "made", false));
+  staging.add_inputs(std::vector<data::InputFile>{{.role = "forces", .path = (scratch / "in").string()}});
+  const auto refused = staging.commit();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::usage);
+  EXPECT_EQ(io::read_text(scratch / "in").value(), "recorded");
+  EXPECT_FALSE(fs::exists(scratch / "new")) << "all of the set or none";
 }
 
 }  // namespace

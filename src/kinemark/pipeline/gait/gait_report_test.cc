@@ -37,7 +37,7 @@ TEST(GaitReport, WritesWhatItNames) {
   const testing_support::ScratchFolder scratch;
   const auto folder = scratch / "figures";
   const auto names = gait_report_files(*report, {"svg"});
-  auto staging = Staging::create_in(folder, names, false, {});
+  auto staging = Staging::create_in(folder, names, {}, {});
   ASSERT_TRUE(staging) << staging.error().message;
   const auto written =
       write_results(*staging, gait_report_results(*report, folder, {"svg"}), {}, "the figures");

@@ -43,8 +43,8 @@ Result<BandOutcome> run_band(const BandJob& job) {
   }
   outcome.groups = std::move(*groups);
   outcome.warnings = outcome.groups.warnings;
-  auto written = write_table_of_groups(job.output, job.inputs, job.force, band_csv(outcome),
-                                       band_json(outcome), "the bands");
+  auto written =
+      write_table_of_groups(job.output, job.inputs, job, band_csv(outcome), band_json(outcome), "the bands");
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return outcome;

@@ -45,10 +45,11 @@ Status check_table_name(const std::filesystem::path& output, std::string_view wh
 }
 
 Result<std::vector<std::filesystem::path>> write_table_of_groups(
-    const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs, bool force,
-    const std::string& csv, const nlohmann::ordered_json& json, std::string_view what) {
+    const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs,
+    const JobSettings& job, const std::string& csv, const nlohmann::ordered_json& json,
+    std::string_view what) {
   if (output.empty()) return std::vector<std::filesystem::path>{};
-  auto staging = Staging::create({output}, force, inputs);
+  auto staging = Staging::create({output}, job, inputs);
   if (!staging) return std::unexpected(staging.error());
   const auto file = ending_of(output) == ".csv" ? text_file(output, [&] { return csv; })
                                                 : json_file(output, [&] { return json; });

@@ -10,6 +10,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/measure.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/table_cell.h"
 
 namespace kinemark::pipeline {
@@ -30,8 +31,10 @@ struct PointMeans {
 [[nodiscard]] Status check_table_name(const std::filesystem::path& output, std::string_view what);
 
 /// Write a table of that name, if there is a name: the text where it ends in .csv, else the object.
+/// @param inputs, job  as for Staging::create()
 [[nodiscard]] Result<std::vector<std::filesystem::path>> write_table_of_groups(
-    const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs, bool force,
-    const std::string& csv, const nlohmann::ordered_json& json, std::string_view what);
+    const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs,
+    const JobSettings& job, const std::string& csv, const nlohmann::ordered_json& json,
+    std::string_view what);
 
 }  // namespace kinemark::pipeline

@@ -56,9 +56,9 @@ TEST(GroupsTables, TheEndingDecidesAndOthersAreRefused) {
   EXPECT_EQ(check_table_name("a.xlsx", "bands").error().message,
             "a.xlsx: bands are written as .csv or .json");
   const nlohmann::ordered_json json{{"x", 1}};
-  EXPECT_TRUE(write_table_of_groups({}, {}, false, "a\n", json, "the bands")->empty());
-  ASSERT_TRUE(write_table_of_groups(scratch / "o.csv", {}, false, "a,b\n", json, "the bands"));
-  ASSERT_TRUE(write_table_of_groups(scratch / "o.json", {}, false, "a,b\n", json, "the bands"));
+  EXPECT_TRUE(write_table_of_groups({}, {}, {}, "a\n", json, "the bands")->empty());
+  ASSERT_TRUE(write_table_of_groups(scratch / "o.csv", {}, {}, "a,b\n", json, "the bands"));
+  ASSERT_TRUE(write_table_of_groups(scratch / "o.json", {}, {}, "a,b\n", json, "the bands"));
   EXPECT_EQ(io::read_text(scratch / "o.csv").value(), "a,b\n");
   EXPECT_THAT(io::read_text(scratch / "o.json").value(), HasSubstr("\"x\": 1"));
 }
@@ -66,7 +66,7 @@ TEST(GroupsTables, TheEndingDecidesAndOthersAreRefused) {
 TEST(GroupsTables, NothingIsReplacedUnlessForcedAndNoInputEver) {
   const testing_support::ScratchFolder scratch;
   const auto write = [&](const char* text, bool force, const std::vector<std::filesystem::path>& inputs) {
-    return write_table_of_groups(scratch / "o.csv", inputs, force, text, {}, "the bands");
+    return write_table_of_groups(scratch / "o.csv", inputs, {.force = force}, text, {}, "the bands");
   };
   ASSERT_TRUE(write("first\n", false, {}));
   EXPECT_EQ(write("second\n", false, {}).error().code, Code::io);

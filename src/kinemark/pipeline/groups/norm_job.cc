@@ -155,8 +155,8 @@ Result<NormOutcome> run_norm(const NormJob& job) {
   outcome.warnings = groups->warnings;
   auto inputs = job.inputs;
   inputs.push_back(job.norm);
-  auto written = write_table_of_groups(job.output, inputs, job.force, norm_csv(outcome), norm_json(outcome),
-                                       "the comparison");
+  auto written =
+      write_table_of_groups(job.output, inputs, job, norm_csv(outcome), norm_json(outcome), "the comparison");
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return outcome;

@@ -155,8 +155,8 @@ Result<RetestOutcome> run_retest(const RetestJob& job) {
   if (outcome.measures.empty())
     return fail(Code::bad_input,
                 outcome.warnings.empty() ? "no measure was given" : outcome.warnings.front());
-  auto written = write_table_of_groups(job.output, job.inputs, job.force, retest_csv(outcome),
-                                       retest_json(outcome), "the tests");
+  auto written = write_table_of_groups(job.output, job.inputs, job, retest_csv(outcome), retest_json(outcome),
+                                       "the tests");
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
   return outcome;

@@ -82,7 +82,7 @@ Result<SpmOutcome> run_spm(const SpmJob& job) {
   outcome.groups = std::move(*groups);
   outcome.mapping = std::move(*mapping);
   outcome.warnings = outcome.groups.warnings;
-  auto written = write_table_of_groups(job.output, job.inputs, job.force, spm_csv(outcome), spm_json(outcome),
+  auto written = write_table_of_groups(job.output, job.inputs, job, spm_csv(outcome), spm_json(outcome),
                                        "the statistics");
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);

@@ -239,13 +239,12 @@ Status solve(const JointsJob& job, const data::Trajectories& markers, JointsOutc
 
 Result<Staging> stage(const JointsJob& job) {
   const auto& output = job.output;
-  if (output.empty()) return Staging::create({}, job.force, {});
+  if (output.empty()) return Staging::create({}, job, {});
   auto inputs = files_of(job.input, job);
   inputs.push_back(job.segments);
-  if (!into_folder(output))
-    return Staging::create({output, beside(output, "_skeleton.json")}, job.force, inputs);
-  return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"},
-                            job.force, inputs);
+  if (!into_folder(output)) return Staging::create({output, beside(output, "_skeleton.json")}, job, inputs);
+  return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"}, job,
+                            inputs);
 }
 
 std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
@@ -295,10 +294,11 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   if (auto s = lay_out(job, trial.markers, outcome); !s) return std::unexpected(s.error());
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
+  staging->add_inputs(std::vector{outcome.input});
   auto others = staging->targets();
   std::ranges::copy(files_of(job.input, job), std::back_inserter(others));
   others.push_back(job.segments);
-  auto page = PageFile::begin(job.report, others, job.force);
+  auto page = PageFile::begin(job.report, job, others);
   if (!page) return std::unexpected(page.error());
   // Solve and judge.
   if (auto s = solve(job, trial.markers, outcome); !s) return fail_at(name, s.error());

@@ -34,11 +34,11 @@ Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std
   auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
   out.norms_ = std::move(*norms);
-  auto page = PageFile::begin(job.report, others, job.force);
+  out.others_ = others;
+  std::ranges::move(files_of(job.gait), std::back_inserter(out.others_));
+  auto page = PageFile::begin(job.report, job, out.others_);
   if (!page) return std::unexpected(page.error());
   out.page_.emplace(std::move(*page));
-  out.others_ = others;
-  std::ranges::copy(job.gait.sheet.norms, std::back_inserter(out.others_));
   out.job_ = std::move(job);
   return out;
 }
@@ -60,6 +60,8 @@ Status GaitDrawing::find_walking(const Recording& recording) {
 Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& trial,
                           const std::vector<data::CycleCurves>& curves, const std::vector<SheetInput>& inputs,
                           GaitPageFacts facts, JobOutcome& outcome) {
+  for (const auto& input : facts.inputs) others_.emplace_back(input.path);
+  page_->add_inputs(facts.inputs);
   const auto name = path.filename().string();
   const auto recording = name_of_recording(path);
   const auto events = events_of(*gait_, trial.markers.time);
@@ -80,7 +82,7 @@ Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& 
     files.push_back(text_file(target, [&] { return curves_csv({{"", curves}}, recording); }));
   }
   if (!files.empty()) {
-    auto staging = Staging::create(targets, job_.force, others_);
+    auto staging = Staging::create(targets, job_, others_);
     if (!staging) return std::unexpected(staging.error());
     auto written = write_results(*staging, files, {}, "walking");
     if (!written) return std::unexpected(written.error());
@@ -90,8 +92,7 @@ Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& 
   const auto report = make_gait_report(name, inputs, *gait_, norms_, job_.gait.sheet.angle_angle);
   std::ranges::copy(report->sheet.remarks, std::back_inserter(outcome.warnings));
   if (!job_.figures.empty()) {
-    auto staging =
-        Staging::create_in(job_.figures, gait_report_files(*report, formats_), job_.force, others_);
+    auto staging = Staging::create_in(job_.figures, gait_report_files(*report, formats_), job_, others_);
     if (!staging) return std::unexpected(staging.error());
     auto written =
         write_results(*staging, gait_report_results(*report, job_.figures, formats_), {}, "the figures");

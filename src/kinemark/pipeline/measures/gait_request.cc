@@ -57,6 +57,13 @@ Status GaitRequest::check(bool drawn) const {
   return sheet.check();
 }
 
+std::vector<std::filesystem::path> files_of(const GaitRequest& request) {
+  auto files = request.sheet.norms;
+  files.insert(files.end(), request.markers.begin(), request.markers.end());
+  if (!request.angles.empty()) files.insert(files.end(), {request.angles, beside(request.angles, "_sd.sto")});
+  return files;
+}
+
 Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn) {
   if (auto s = request.check(drawn); !s) return std::unexpected(s.error());
   analysis::GaitOptions out;

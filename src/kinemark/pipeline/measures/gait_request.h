@@ -47,6 +47,10 @@ struct GaitOutputs {
   std::filesystem::path report;   ///< page, .html
 };
 
+/// The files that the request reads: roles of markers, angles with what lies
+/// beside them, norms. Names of no file may be among them.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const GaitRequest& request);
+
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.
 /// @param drawn  as GaitRequest::check()
 [[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);

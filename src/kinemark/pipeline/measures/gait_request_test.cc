@@ -94,5 +94,16 @@ TEST(GaitCurves, AreCutByTheCyclesOfTheirSide) {
   EXPECT_NE(gait_curves(trial, cycles, {}).error().message.find("--angles"), std::string::npos);
 }
 
+TEST(GaitRequestFiles, AreRolesAnglesWithTheirDeviationsAndNorms) {
+  GaitRequest request;
+  EXPECT_TRUE(files_of(request).empty());
+  request.markers = {"left_heel=LHEE", "roles.toml"};
+  request.angles = "day/q.mot";
+  request.sheet.norms = {"norm.csv"};
+  const auto files = files_of(request);
+  for (const char* name : {"roles.toml", "day/q.mot", "day/q_sd.sto", "norm.csv"})
+    EXPECT_NE(std::ranges::find(files, std::filesystem::path(name)), files.end()) << name;
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -156,8 +156,12 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
   for (const auto& path : {job.output, job.gait.write_events, job.gait.write_cycles})
     if (!path.empty()) targets.push_back(path);
   auto inputs = list->files;
-  inputs.push_back(job.participants_file);
-  auto staging = Staging::create(targets, job.force, inputs);
+  for (const auto& path : list->files) {
+    MeasuresJob one = job;
+    one.input = path;
+    std::ranges::move(files_of(one), std::back_inserter(inputs));
+  }
+  auto staging = Staging::create(targets, job, inputs);
   if (!staging) return std::unexpected(staging.error());
 
   for (const auto& path : list->files) out.trials.push_back({.input = path, .output = job.output});

@@ -62,7 +62,7 @@ Status write_figures(const MeasuresJob& job, const std::vector<std::string>& for
     std::ranges::move(gait_report_files(*gait, formats), std::back_inserter(names));
     std::ranges::move(gait_report_results(*gait, job.figures, formats), std::back_inserter(files));
   }
-  auto staging = Staging::create_in(job.figures, names, job.force, {job.input, job.edits});
+  auto staging = Staging::create_in(job.figures, names, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
   auto written = write_results(*staging, files, {}, "the figures");
   if (!written) return std::unexpected(written.error());
@@ -179,6 +179,14 @@ Status check_measures_output(const std::filesystem::path& output) {
   return fail(Code::usage, fmt::format("{}: measures are written as .csv, .json or .nwb", output.string()));
 }
 
+std::vector<std::filesystem::path> files_of(const MeasuresJob& job) {
+  auto files = files_of(job.input, job);
+  std::ranges::move(files_of(job.gait), std::back_inserter(files));
+  files.insert(files.end(), {job.participants_file, job.forces});
+  if (job.emg.maximum != "trial") files.emplace_back(job.emg.maximum);
+  return files;
+}
+
 Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
@@ -196,20 +204,19 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   for (const auto& path :
        {job.output, job.gait.write_events, job.gait.write_cycles, job.emg.write, job.emg.write_cycles})
     if (!path.empty()) targets.push_back(path);
-  auto read = job.gait.sheet.norms;
-  const auto norms = read_gait_norms(read);
+  const auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
-  const auto recording = files_of(job.input, job);
-  read.insert(read.end(), recording.begin(), recording.end());
-  for (const auto& path : {job.gait.angles, job.participants_file, job.forces}) read.push_back(path);
-  auto staging = Staging::create(targets, job.force, read);
+  const auto read = files_of(job);
+  auto staging = Staging::create(targets, job, read);
   if (!staging) return std::unexpected(staging.error());
-  auto others = recording;
-  others.insert(others.end(), {job.output, job.forces});
-  auto page = PageFile::begin(job.report, others, job.force);
+  auto others = read;
+  others.insert(others.end(), targets.begin(), targets.end());
+  auto page = PageFile::begin(job.report, job, others);
   if (!page) return std::unexpected(page.error());
   auto measured = measure_recording(job, std::move(*asked));
   if (!measured) return std::unexpected(measured.error());
+  staging->add_inputs(inputs_of(measured->outcome));
+  page->add_inputs(inputs_of(measured->outcome));
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
   const auto report = draw_walking(job, measured->recording, *norms, measured->outcome);

@@ -50,6 +50,10 @@ struct MeasuresOutcome : JobOutcome {
   std::vector<analysis::PathNoise> noises;  ///< of the markers whose paths are measured
 };
 
+/// The files that the job reads, as far as it names them. Names of no file may
+/// be among them.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const MeasuresJob& job);
+
 /// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
 /// asked for, where feet that step are found. Samples that the recorder made, that were filled or that
 /// screening rejects are not measured; nothing is written where nothing can be measured. Progress counts

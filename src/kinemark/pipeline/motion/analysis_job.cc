@@ -287,11 +287,10 @@ Result<AnalysisOutcome> run_analysis(const AnalysisJob& job) {
   auto names = results.names();
   names.push_back(plan->name + "_analysis.json");
   if (auto s = check_names(names); !s) return std::unexpected(s.error());
-  std::vector<fs::path> read_files;
-  for (const auto& input : out.inputs) read_files.emplace_back(input.path);
   if (auto s = check_folder(plan->output, "tables are"); !s) return std::unexpected(s.error());
-  auto staging = Staging::create_in(plan->output, names, job.force, read_files);
+  auto staging = Staging::create_in(plan->output, names, job, {job.setup, job.forces});
   if (!staging) return std::unexpected(staging.error());
+  staging->add_inputs(out.inputs);
   std::vector<ResultFile> files;
   SetDigest digest;
   digest.add("analyze").add(out.inputs).add(out.facts);

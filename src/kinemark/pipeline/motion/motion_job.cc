@@ -205,7 +205,7 @@ Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suff
   inputs.insert(inputs.end(), {job.model, job.forces, job.images.rig});
   for (const auto& camera : job.images.cameras) inputs.push_back(camera.points);
   inputs.insert(inputs.end(), also_read.begin(), also_read.end());
-  return Staging::create(std::move(targets), job.force, inputs);
+  return Staging::create(std::move(targets), job, inputs);
 }
 
 Status judge(report::IkRun run, const data::JointMotion& motion, const data::Trajectories* markers,
@@ -249,9 +249,7 @@ std::string name_set(const data::JointMotion& motion, const report::IkRun& run) 
 Status write(const MotionJob& job, Staging& staging, const std::vector<ResultFile>& files,
              std::string_view what, const data::JointMotion& motion, MotionOutcome& outcome) {
   // Some files are known to be inputs only now: those that others name.
-  std::vector<fs::path> read;
-  for (const auto& input : outcome.summary.run.inputs) read.emplace_back(input.path);
-  if (auto s = check_apart(staging.targets(), read); !s) return s;
+  staging.add_inputs(outcome.summary.run.inputs);
   const auto frames = outcome.summary.time.frames;
   const auto go_on = [&](std::int64_t, std::int64_t) {
     return !job.progress || job.progress(frames, frames);

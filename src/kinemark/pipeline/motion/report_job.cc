@@ -258,7 +258,7 @@ Result<ReportOutcome> run_report(const ReportJob& job) {
                                     .command_line = job.command_line,
                                     .geometry = job.geometry});
   if (!page) return std::unexpected(page.error());
-  if (auto s = check_apart({job.page}, page->read); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, {job.page}, page->read); !s) return std::unexpected(s.error());
   if (auto s = io::write_text(job.page, page->html, job.force); !s) return std::unexpected(s.error());
   ReportOutcome out;
   out.written = {job.page};

@@ -254,9 +254,9 @@ std::string_view method_name(CalibrateJob::Method method) {
 Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
   auto read = job.inputs;
   read.push_back(job.nominal);
-  if (auto s = check_apart({job.output}, read); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, {job.output}, read); !s) return std::unexpected(s.error());
   read.push_back(job.output);
-  auto page = PageFile::begin(job.report, read, job.force);
+  auto page = PageFile::begin(job.report, job, read);
   if (!page) return std::unexpected(page.error());
   const auto nominal = io::read_rig(job.nominal);
   if (!nominal) return std::unexpected(nominal.error());

@@ -20,8 +20,9 @@ std::string_view method_name(ReconstructJob::Method method) {
 }
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
-  if (auto s = check_apart({job.output}, {job.recording, job.rig}); !s) return std::unexpected(s.error());
-  auto page = PageFile::begin(job.report, {job.output, job.recording, job.rig}, job.force);
+  if (auto s = check_apart(job, {job.output}, {job.recording, job.rig}); !s)
+    return std::unexpected(s.error());
+  auto page = PageFile::begin(job.report, job, {job.output, job.recording, job.rig});
   if (!page) return std::unexpected(page.error());
   const auto rig = io::read_rig(job.rig);
   if (!rig) return std::unexpected(rig.error());

@@ -19,6 +19,7 @@
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/text.h"
+#include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/run/step_record.h"
 
 namespace kinemark::pipeline {
@@ -65,8 +66,13 @@ std::string sentence_of(const CommandEnd& end) {
 /// Runs the steps.
 class Runner {
  public:
-  Runner(const RunJob& job, fs::path base, std::vector<StepOutcome>& steps)
-      : job_(job), base_(std::move(base)), steps_(steps), state_(steps.size(), State::waiting) {}
+  /// @param read  files that no command may replace
+  Runner(const RunJob& job, fs::path base, std::vector<fs::path> read, std::vector<StepOutcome>& steps)
+      : job_(job),
+        base_(std::move(base)),
+        read_(std::move(read)),
+        steps_(steps),
+        state_(steps.size(), State::waiting) {}
 
   void run() {
     std::vector<std::jthread> workers;
@@ -148,6 +154,7 @@ class Runner {
     words.push_back("--force");
     words.push_back(
         fmt::format("--threads={}", std::max(1, thread_count(job_.threads) / thread_count(job_.jobs))));
+    for (const auto& path : read_) words.push_back("--reads=" + path.string());
     auto end = job_.start(words, base_);
     if (!end) return std::unexpected(end.error());
     out.said = sentence_of(*end);
@@ -167,6 +174,7 @@ class Runner {
 
   const RunJob& job_;
   fs::path base_;
+  std::vector<fs::path> read_;
   std::vector<StepOutcome>& steps_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -208,6 +216,25 @@ Status check_words(const RunJob& job, const RunStep& step) {
   return {};
 }
 
+/// The run file and every file that steps read and none of them makes, wherever the program stands; where one
+/// of the files that they write is among them, which.
+Result<std::vector<fs::path>> find_inputs(const RunJob& job, const fs::path& base,
+                                          const std::vector<RunStep>& steps) {
+  std::vector<fs::path> written, read{job.file};
+  for (const auto& step : steps) {
+    written.push_back((base / step.record).lexically_normal());
+    for (const auto& output : step.outputs) written.push_back((base / output).lexically_normal());
+  }
+  for (const auto& step : steps)
+    for (const auto& input : step.inputs)
+      if (auto path = (base / input).lexically_normal(); std::ranges::find(written, path) == written.end())
+        read.push_back(std::move(path));
+  if (auto s = check_apart(job, written, read); !s) return std::unexpected(s.error());
+  std::error_code ignored;
+  for (auto& path : read) path = fs::absolute(path, ignored);
+  return read;
+}
+
 }  // namespace
 
 int RunOutcome::exit_status() const {
@@ -230,10 +257,12 @@ Result<RunOutcome> run_study(const RunJob& job) {
     for (auto& step : *steps) step.words.insert(step.words.begin() + 1, fmt::format("--seed={}", job.seed));
   for (const auto& step : *steps)
     if (auto s = check_words(job, step); !s) return std::unexpected(s.error());
+  const fs::path base = "." / job.file.parent_path();
+  auto read = find_inputs(job, base, *steps);
+  if (!read) return std::unexpected(read.error());
   RunOutcome out;
   for (auto& step : *steps) out.steps.push_back({.step = std::move(step)});
   if (job.plan_only) return out;
-  const fs::path base = "." / job.file.parent_path();
   const fs::path folder = base / file->output;
   std::error_code error;
   fs::create_directories(folder, error);
@@ -242,7 +271,7 @@ Result<RunOutcome> run_study(const RunJob& job) {
                 fmt::format("{}: the folder cannot be made ({})", folder.string(), error.message()));
   const auto hold = Hold::take(folder);
   if (!hold) return std::unexpected(hold.error());
-  Runner(job, base, out.steps).run();
+  Runner(job, base, std::move(*read), out.steps).run();
   return out;
 }
 

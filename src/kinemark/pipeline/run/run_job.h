@@ -30,7 +30,8 @@ struct RunJob : JobSettings {
   bool plan_only = false;         ///< nothing runs, nothing is written
   /// Checks the words of a command without running it.
   std::function<Status(const std::vector<std::string>& words)> check;
-  /// Runs a command in a folder; Code::io where it cannot be started.
+  /// Runs a command in a folder; the words --reads=FILE among its name files that it must not replace;
+  /// Code::io where it cannot be started.
   std::function<Result<CommandEnd>(const std::vector<std::string>& words,
                                    const std::filesystem::path& folder)>
       start;
@@ -59,8 +60,9 @@ struct RunOutcome {
 /// since, is not replaced without `force`. What a killed run left is done again. Progress counts steps.
 ///
 /// Fails before anything is written: as read_run_file() and plan_steps(), Code::bad_input for a command that
-/// is none (naming the line), Code::usage for a subject that is not in the file; Code::io where the output
-/// folder cannot be made, or another run is at work in it.
+/// is none (naming the line), Code::usage for a subject that is not in the file and for a file that steps
+/// write where it is one that they read and none of them makes; Code::io where the output folder cannot be
+/// made, or another run is at work in it.
 [[nodiscard]] Result<RunOutcome> run_study(const RunJob& job);
 
 }  // namespace kinemark::pipeline

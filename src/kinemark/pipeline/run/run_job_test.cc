@@ -53,12 +53,15 @@ class RunStudy : public ::testing::Test {
   Result<CommandEnd> pretend(const std::vector<std::string>& words, const fs::path& folder) {
     const std::lock_guard lock(mutex_);
     ran_.push_back(words.front());
+    EXPECT_THAT(words, ::testing::Contains("--reads=" + (scratch_ / "study.toml").string()));
     const std::string output = output_of(words);
     if (!fails_at_.empty() && output.find(fails_at_) != std::string::npos)
       return CommandEnd{.exit_status = 3, .said = {"note: odd", "kinemark: it is broken"}};
     const fs::path made = folder / output;
     auto asked = words;
-    std::erase_if(asked, [](const std::string& word) { return word.starts_with("--threads="); });
+    std::erase_if(asked, [](const std::string& word) {
+      return word.starts_with("--threads=") || word.starts_with("--reads=");
+    });
     const bool is_page = words.front() == "report";
     for (const auto& file :
          {made, is_page ? made : made.parent_path() / (made.stem().string() + "_report.json")})
@@ -183,6 +186,22 @@ TEST_F(RunStudy, FilesOfOthersAreLeftAlone) {
   EXPECT_THAT(outcome.steps[7].said, HasSubstr("was changed since the run made it"));
   EXPECT_EQ(io::read_text(scratch_ / "results/B/model.osim").value(), "corrected by hand");
   EXPECT_EQ(run(true).value().exit_status(), 0);
+}
+
+TEST_F(RunStudy, NothingIsWrittenThatLeadsToARecording) {
+  ASSERT_TRUE(run());
+  for (const auto& entry : fs::directory_iterator(scratch_ / "results/A")) {
+    if (!entry.is_regular_file()) continue;
+    fs::remove(entry.path());
+    fs::create_symlink(scratch_ / "A.c3d", entry.path());
+    const auto refused = run(true);
+    ASSERT_FALSE(refused) << entry.path();
+    EXPECT_EQ(refused.error().code, Code::usage);
+    EXPECT_THAT(refused.error().message, HasSubstr("is the file that is read as"));
+    EXPECT_TRUE(ran_.empty());
+    EXPECT_EQ(io::read_text(scratch_ / "A.c3d").value(), "A.c3d");
+    fs::remove(entry.path());
+  }
 }
 
 TEST_F(RunStudy, OneSubjectAlone) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -263,7 +264,7 @@ class ScaleRun {
     const auto text = document_->format({.model = out_.model, .factors = factors(), .paths = out_.muscles});
     if (!text) return fail_at(job_.output.string(), text.error());
     out_.lost = text->lost;
-    auto staging = Staging::create(targets(), job_.force, inputs());
+    auto staging = Staging::create(targets(), job_, inputs());
     if (!staging) return std::unexpected(staging.error());
     std::vector<ResultFile> files{model_file(job_.output, text->text),
                                   json_file(report, [this] { return scale_json(job_, out_); })};
@@ -277,7 +278,7 @@ class ScaleRun {
 
   /// Checks that the targets can be written before any long computation.
   Status check_targets() const {
-    const auto staging = Staging::create(targets(), job_.force, inputs());
+    const auto staging = Staging::create(targets(), job_, inputs());
     if (!staging) return std::unexpected(staging.error());
     return {};
   }
@@ -312,10 +313,13 @@ class ScaleRun {
 
   /// Every file that is read.
   std::vector<fs::path> inputs() const {
-    std::vector<fs::path> files{job_.model, job_.setup, job_.static_trial, job_.markers, job_.joints};
+    std::vector<fs::path> files{job_.model, job_.setup, job_.joints, job_.joints / "skeleton.json"};
+    for (const auto& recording : {job_.static_trial, job_.markers})
+      std::ranges::move(files_of(recording, job_), std::back_inserter(files));
     if (!setup_) return files;
-    files.insert(files.end(), {setup_->marker_set_file, setup_->scale_marker_file, setup_->place_marker_file,
-                               setup_->coordinate_file});
+    files.insert(files.end(), {setup_->marker_set_file, setup_->coordinate_file});
+    for (const auto& recording : {setup_->scale_marker_file, setup_->place_marker_file})
+      std::ranges::move(files_of(recording, job_), std::back_inserter(files));
     files.insert(files.end(), setup_->parts.begin(), setup_->parts.end());
     return files;
   }

@@ -97,6 +97,19 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, error) && !error;
 }
 
+/// Every file that the job reads, but those that it finds beside and in others.
+std::vector<fs::path> files_of(const SegmentsJob& job) {
+  auto files = pipeline::files_of(job.input, job);
+  std::ranges::move(pipeline::files_of(job.gait), std::back_inserter(files));
+  files.insert(files.end(), {job.definition, job.static_trial, job.vsk, job.forces});
+  if (!job.static_trial.empty()) files.push_back(edits_of(job.static_trial));
+  for (const auto& text : job.trials) {
+    files.emplace_back(text.substr(text.find('=') + 1));
+    files.push_back(edits_of(files.back()));
+  }
+  return files;
+}
+
 Result<Files> read_files(const SegmentsJob& job, SegmentsOutcome& outcome) {
   Files out;
   auto recording = read_one(job, job.input, job, outcome);
@@ -256,9 +269,9 @@ Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& ou
                                  "centres.csv", "segments.c3d",  "segments.json"};
   if (!outcome.loads.series.empty())
     for (const auto* name : {"loads.sto", "loads_sd.sto", "loads.csv"}) names.emplace_back(name);
-  auto staging =
-      Staging::create_in(job.output, names, job.force, {job.input, job.static_trial, job.vsk, job.forces});
+  auto staging = Staging::create_in(job.output, names, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
+  staging->add_inputs(outcome.inputs);
   const auto& motion = outcome.motion;
   const SeriesList angles = series_of(motion), loads = series_of(outcome.loads);
   const data::Trial points = points_trial(motion, files.recording.trial);
@@ -343,7 +356,7 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   if (!definition) return std::unexpected(definition.error());
   std::optional<GaitDrawing> drawing;
   if (auto walking = drawing_of(job); walking.wanted()) {
-    auto begun = GaitDrawing::begin(std::move(walking), {job.input, job.static_trial, job.vsk});
+    auto begun = GaitDrawing::begin(std::move(walking), files_of(job));
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
   } else if (auto s = job.gait.check(); !s) {

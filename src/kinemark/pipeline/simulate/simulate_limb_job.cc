@@ -79,8 +79,8 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
     out.warnings.push_back(fmt::format("the recorder makes {} frames at {:.6g} Hz of them",
                                        recorded->frames(), recorded->time.rate_hz));
 
-  auto staging = Staging::create_in(job.folder, {"markers.c3d", "markers.trc", "truth.csv", "segments.toml"},
-                                    job.force, {});
+  auto staging =
+      Staging::create_in(job.folder, {"markers.c3d", "markers.trc", "truth.csv", "segments.toml"}, job, {});
   if (!staging) return std::unexpected(staging.error());
   data::Trial stream, truth;
   stream.source = truth.source = "simulated";

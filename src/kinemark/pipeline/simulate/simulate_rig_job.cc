@@ -284,7 +284,7 @@ Result<SimulateRigOutcome> run_simulate_rig(SimulateRigJob job) {
   if (auto s = add_calibration(job, *rig, files); !s) return std::unexpected(s.error());
   std::vector<std::string> names;
   for (const auto& file : files) names.push_back(file.target.filename().string());
-  auto staging = Staging::create_in(folder, names, job.force, {job.markers});
+  auto staging = Staging::create_in(folder, names, job, {job.markers});
   if (!staging) return std::unexpected(staging.error());
   auto written = write_results(*staging, files, job.progress, "the simulation",
                                name_set(*recorded, rig_true, rig_nominal));

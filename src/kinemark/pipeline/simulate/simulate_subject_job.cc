@@ -24,9 +24,8 @@ Result<SimulateSubjectOutcome> run_simulate_subject(const SimulateSubjectJob& jo
   const auto subject = simulation::simulate_subject(*model, options);
   if (!subject) return std::unexpected(subject.error());
 
-  auto staging =
-      Staging::create_in(job.folder, {"markers.c3d", "markers.trc", "model.osim", "truth.mot", "truth.trc"},
-                         job.force, {job.model});
+  auto staging = Staging::create_in(
+      job.folder, {"markers.c3d", "markers.trc", "model.osim", "truth.mot", "truth.trc"}, job, {job.model});
   if (!staging) return std::unexpected(staging.error());
   data::Trial recorded, truth;
   recorded.source = truth.source = "simulated";
