@@ -80,8 +80,7 @@ Result<std::shared_ptr<server::Tls>> read_tls(const ServeArguments& arguments) {
 Result<server::Keys> make_keys(const ServeArguments& arguments, const server::Tls* tls, std::uint16_t port) {
   server::Keys keys{
       .hosts = server::own_hosts(arguments.bind, port, tls != nullptr ? &tls->names() : nullptr),
-      .tls = tls != nullptr,
-      .cookie = fmt::format("kinemark_{}", port)};
+      .tls = tls != nullptr};
   if (keys.hosts.empty())
     return fail(
         Code::usage,
@@ -105,8 +104,9 @@ struct LiveParts {
 Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, const ServeArguments& arguments) {
   auto source = pipeline::open_live_source(arguments.given.front().string(), arguments.model, common.seed);
   if (!source) return std::unexpected(source.error());
-  if (auto s = pipeline::check_apart({arguments.record}, {source->file, arguments.model}); !s)
+  if (auto s = pipeline::check_apart({arguments.record}, {source->file}); !s)
     return std::unexpected(s.error());
+  if (auto s = pipeline::check_apart({arguments.record}, common.kept); !s) return std::unexpected(s.error());
   auto nonce = server::new_secret();
   if (!nonce) return std::unexpected(nonce.error());
   auto parts = std::make_unique<LiveParts>();
@@ -163,11 +163,14 @@ int serve(const CommonOptions& common, ServeArguments& arguments) {
   if (opens && !server::open_browser(address(keys->opening)))
     say(common, "note: no browser could be opened; open the address by hand");
   if (live) return serve_live(**http, std::move(*keys), **source, std::move(*feed));
+  const auto root = keys->root();
   server::TrialService service(
       {.given = arguments.given,
        .keys = std::move(*keys),
-       .make_page = [folders = arguments.asked.geometry](
-                        const std::filesystem::path& path) { return server::make_trial_page(path, folders); },
+       .make_page =
+           [folders = arguments.asked.geometry, root](const std::filesystem::path& path) {
+             return server::make_trial_page(path, root, folders);
+           },
        .describe = server::describe_trial,
        .edits = {.time_now = pipeline::time_of_edit},
        .angles = {.model = arguments.model,

@@ -27,27 +27,7 @@ bool only_reads(const Request& request) {
   return (request.method == "GET" || request.method == "HEAD") && !request.upgrade;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
-
 }  // namespace
-
-std::optional<std::string_view> cookie_value(std::string_view header, std::string_view name) {
-  std::optional<std::string_view> value;
-  while (!header.empty()) {
-    const auto end = std::min(header.find(';'), header.size());
-    const auto pair = trimmed(header.substr(0, end));
-    header.remove_prefix(std::min(end + 1, header.size()));
-    const auto equals = pair.find('=');
-    if (equals == std::string_view::npos || pair.substr(0, equals) != name) continue;
-    if (value) return std::nullopt;
-    value = pair.substr(equals + 1);
-  }
-  return value;
-}
 
 Response sentence_page(int status, std::string_view sentence) {
   Response response{.status = status};
@@ -84,14 +64,17 @@ bool Entrance::takes_token(std::string_view given) {
   return true;
 }
 
-bool Entrance::knows_session(const Request& request) const {
+bool Entrance::take_session(Request& request) const {
   if (request.authorization.starts_with(kBearer))
     return same_secret(std::string_view(request.authorization).substr(kBearer.size()), keys_.token);
-  const auto value = cookie_value(request.cookie, keys_.cookie);
-  return value && same_secret(*value, keys_.session);
+  const auto end = request.target.find('/', 1);
+  if (!request.target.starts_with('/') || end == std::string::npos) return false;
+  if (!same_secret(std::string_view(request.target).substr(1, end - 1), keys_.session)) return false;
+  request.target.erase(0, end);
+  return true;
 }
 
-std::optional<Response> Entrance::ask(const Request& request) {
+std::optional<Response> Entrance::ask(Request& request) {
   if (!request.host || std::ranges::find(keys_.hosts, lower(*request.host)) == keys_.hosts.end())
     return sentence_page(421, fmt::format("This server is {} and answers to no other name.", keys_.hosts[0]));
   if (!only_reads(request) &&
@@ -101,12 +84,10 @@ std::optional<Response> Entrance::ask(const Request& request) {
   if (request.method == "GET" && !request.upgrade && request.target.starts_with(kTokenQuery) &&
       takes_token(std::string_view(request.target).substr(kTokenQuery.size()))) {
     Response response{.status = 303, .admitted = true};
-    response.headers = {{"Location", "/"},
-                        {"Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}", keys_.cookie,
-                                                   keys_.session, keys_.tls ? "; Secure" : "")}};
+    response.headers = {{"Location", keys_.root()}};
     return response;
   }
-  if (!knows_session(request)) {
+  if (!take_session(request)) {
     auto response = sentence_page(401, "Open the address that 'kinemark serve' printed; it holds the token.");
     response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"kinemark\"");
     return response;

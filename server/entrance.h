@@ -3,7 +3,9 @@
 //
 // Who is let in. Three things are asked, in this order: that the browser means this server (a foreign name
 // that resolves to 127.0.0.1 is a page of others), that what changes something comes from a page of ours, and
-// that who asks was shown the address which the program printed.
+// that who asks was shown the address which the program printed. The last is shown by where the pages are:
+// all of them lie below a path that nobody else knows. Browsers send cookies to every port of a machine, and
+// with them whatever program listens there could read and edit; a path goes to nobody by itself.
 #pragma once
 
 #include <mutex>
@@ -21,9 +23,11 @@ struct Keys {
   std::vector<std::string> hosts;  ///< as own_hosts()
   std::string token;               ///< in the printed URL, for as long as the server runs
   std::string opening;             ///< in the URL of the browser that is opened: once; empty: none
-  std::string session;             ///< value of the cookie that a token is exchanged for
-  bool tls = false;                ///< browsers come by https, and the cookie is for that alone
-  std::string cookie;              ///< name of the cookie; cookies know no port, so it holds the port
+  std::string session;             ///< path that a token is exchanged for: pages are at "/SESSION/..."
+  bool tls = false;                ///< browsers come by https
+
+  /// Where pages of the browser begin: "/SESSION/".
+  [[nodiscard]] std::string root() const { return "/" + session + "/"; }
 };
 
 /// Asks every request. Threads may ask at once.
@@ -31,20 +35,18 @@ class Entrance {
  public:
   explicit Entrance(Keys keys);
 
-  /// The refusal (421, 403, 401, 405), or the way from a token to the cookie (303); nothing for who is let
-  /// in.
-  [[nodiscard]] std::optional<Response> ask(const Request& request);
+  /// The refusal (421, 403, 401, 405), or the way from a token to the session (303); nothing for who is let
+  /// in: `request.target` is then without the session, "/trial/1".
+  [[nodiscard]] std::optional<Response> ask(Request& request);
 
  private:
   [[nodiscard]] bool takes_token(std::string_view given);
-  [[nodiscard]] bool knows_session(const Request& request) const;
+  /// Whether who asks knows a secret; the session is taken off the target.
+  [[nodiscard]] bool take_session(Request& request) const;
 
   Keys keys_;
   std::mutex mutex_;  ///< of `opening`
 };
-
-/// The value of a cookie in a `Cookie` header; nothing where it is absent or there twice.
-[[nodiscard]] std::optional<std::string_view> cookie_value(std::string_view header, std::string_view name);
 
 /// A short page with one sentence.
 [[nodiscard]] Response sentence_page(int status, std::string_view sentence);

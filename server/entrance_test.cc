@@ -19,25 +19,20 @@ constexpr const char* kHost = "127.0.0.1:8123";
 constexpr const char* kOrigin = "http://127.0.0.1:8123";
 
 Keys keys() {
-  return {.hosts = {kHost, "localhost:8123"},
-          .token = kToken,
-          .opening = kOpening,
-          .session = kSession,
-          .cookie = "kinemark_8123"};
+  return {.hosts = {kHost, "localhost:8123"}, .token = kToken, .opening = kOpening, .session = kSession};
 }
 
 class AskEntrance : public ::testing::Test {
  protected:
-  /// Of somebody who has the cookie.
+  /// Of a page below the session.
   static Request known(const std::string& target = "/") {
-    return {
-        .method = "GET", .target = target, .host = kHost, .cookie = std::string("kinemark_8123=") + kSession};
+    return {.method = "GET", .target = std::string("/") + kSession + target, .host = kHost};
   }
   static Request unknown(const std::string& target = "/") {
     return {.method = "GET", .target = target, .host = kHost};
   }
   /// Status of the refusal; 0: let in.
-  int status(const Request& request) {
+  int status(Request request) {
     const auto response = entrance_.ask(request);
     return response ? response->status : 0;
   }
@@ -46,20 +41,15 @@ class AskEntrance : public ::testing::Test {
 
 std::string header(const Response& response, const std::string& name);
 
-TEST(EntranceOverTls, TakesPagesOfHttpsAloneAndTheCookieIsForThat) {
+TEST(EntranceOverTls, TakesPagesOfHttpsAlone) {
   auto secured = keys();
   secured.tls = true;
   Entrance entrance(secured);
-  Request request{.method = "POST", .host = kHost, .cookie = std::string("kinemark_8123=") + kSession};
+  Request request{.method = "POST", .target = std::string("/") + kSession + "/x", .host = kHost};
   request.origin = std::string("http://") + kHost;
   EXPECT_EQ(entrance.ask(request)->status, 403);
   request.origin = std::string("https://") + kHost;
   EXPECT_FALSE(entrance.ask(request));
-  const auto response =
-      entrance.ask({.method = "GET", .target = std::string("/?token=") + kToken, .host = kHost}).value();
-  EXPECT_EQ(response.status, 303);
-  EXPECT_EQ(header(response, "Set-Cookie"),
-            std::string("kinemark_8123=") + kSession + "; Path=/; HttpOnly; SameSite=Strict; Secure");
 }
 
 std::string header(const Response& response, const std::string& name) {
@@ -68,13 +58,14 @@ std::string header(const Response& response, const std::string& name) {
   return "";
 }
 
-TEST_F(AskEntrance, LetsInWhoHasTheCookie) {
-  EXPECT_EQ(status(known()), 0);
+TEST_F(AskEntrance, LetsInWhoAsksBelowTheSession) {
   auto request = known("/trial/1");
-  request.cookie = "a=b; kinemark_8123=" + std::string(kSession) + "; c=d";
-  EXPECT_EQ(status(request), 0);
   request.host = "LocalHost:8123";
-  EXPECT_EQ(status(request), 0);
+  EXPECT_FALSE(entrance_.ask(request));
+  EXPECT_EQ(request.target, "/trial/1") << "the session is taken off";
+  request = known();
+  EXPECT_FALSE(entrance_.ask(request));
+  EXPECT_EQ(request.target, "/");
 }
 
 TEST_F(AskEntrance, AForeignHostIsMisdirectedWhateverItHas) {
@@ -120,7 +111,8 @@ TEST_F(AskEntrance, AWebSocketNeedsOurOrigin) {
     request.method = method;
     EXPECT_EQ(status(request), 405) << method;
   }
-  request.cookie.clear();
+  request.method = "GET";
+  request.target = "/trial/1";
   EXPECT_EQ(status(request), 401);
 }
 
@@ -136,29 +128,28 @@ TEST_F(AskEntrance, WithoutTheSecretNothingIsShown) {
   EXPECT_EQ(status(unknown()), 401);
   EXPECT_EQ(status(unknown("/style.css")), 401);
   EXPECT_EQ(status(unknown("/nothing")), 401) << "what there is is not shown either";
-  for (const char* cookie : {"kinemark_8123=", "kinemark_8124=33333333333333333333333333333333",
-                             "kinemark_8123=11111111111111111111111111111111", "kinemark_8123",
-                             "xkinemark_8123=33333333333333333333333333333333",
-                             "kinemark_8123=33333333333333333333333333333333; kinemark_8123=x"}) {
-    auto request = unknown();
-    request.cookie = cookie;
-    EXPECT_EQ(status(request), 401) << cookie;
-  }
-  const auto response = entrance_.ask(unknown()).value();
+  const std::string session = kSession;
+  for (const std::string& target :
+       {std::string("//"), "/" + session, "/" + session.substr(1) + "/", "/" + session + "3/", session + "/",
+        "//" + session + "/", std::string("/") + kToken + "/", std::string("/") + kOpening + "/",
+        "/?" + session + "/", "/trial/1/" + session + "/", std::string(), std::string("*"),
+        "http://" + std::string(kHost) + "/" + session + "/"})
+    EXPECT_EQ(status(unknown(target)), 401) << target;
+  auto request = unknown();
+  const auto response = entrance_.ask(request).value();
   EXPECT_FALSE(response.admitted);
   EXPECT_THAT(header(response, "WWW-Authenticate"), HasSubstr("Bearer"));
   EXPECT_THAT(*response.body, HasSubstr("kinemark serve"));
 }
 
-TEST_F(AskEntrance, TheTokenIsExchangedForACookieAndLeavesTheAddress) {
+TEST_F(AskEntrance, TheTokenIsExchangedForTheSessionAndLeavesTheAddress) {
   for (int i = 0; i < 2; ++i) {
-    const auto response = entrance_.ask(unknown(std::string("/?token=") + kToken)).value();
+    auto request = unknown(std::string("/?token=") + kToken);
+    const auto response = entrance_.ask(request).value();
     EXPECT_EQ(response.status, 303);
     EXPECT_TRUE(response.admitted);
-    EXPECT_EQ(header(response, "Location"), "/");
-    EXPECT_EQ(header(response, "Set-Cookie"),
-              std::string("kinemark_8123=") + kSession + "; Path=/; HttpOnly; SameSite=Strict");
-    EXPECT_THAT(header(response, "Set-Cookie"), Not(HasSubstr(kToken)));
+    EXPECT_EQ(header(response, "Location"), std::string("/") + kSession + "/");
+    EXPECT_EQ(header(response, "Set-Cookie"), "") << "a cookie goes to every port of the machine";
   }
 }
 
@@ -195,17 +186,6 @@ TEST_F(AskEntrance, AProgramSendsTheTokenItself) {
     request.authorization = wrong;
     EXPECT_EQ(status(request), 401) << wrong;
   }
-}
-
-TEST(CookieValue, IsThatOfTheWholeName) {
-  EXPECT_EQ(cookie_value("a=1; b=2;c=3", "b"), "2");
-  EXPECT_EQ(cookie_value("a=1; b=2;c=3", "c"), "3");
-  EXPECT_EQ(cookie_value("a=1=2", "a"), "1=2");
-  EXPECT_EQ(cookie_value("a=", "a"), "");
-  EXPECT_EQ(cookie_value("aa=1", "a"), std::nullopt);
-  EXPECT_EQ(cookie_value("a", "a"), std::nullopt);
-  EXPECT_EQ(cookie_value(";;;", "a"), std::nullopt);
-  EXPECT_EQ(cookie_value("a=1;a=1", "a"), std::nullopt) << "which of them is ours?";
 }
 
 TEST(SentencePage, IsText) {

@@ -51,7 +51,7 @@ std::string_view view(boost::core::string_view text) { return {text.data(), text
 std::optional<std::string> joined(const http::fields& fields, http::field name) {
   std::optional<std::string> value;
   for (auto [at, end] = fields.equal_range(name); at != end; ++at) {
-    if (value) value->append(name == http::field::cookie ? "; " : ", ");
+    if (value) value->append(", ");
     if (!value) value.emplace();
     value->append(view(at->value()));
   }
@@ -64,7 +64,6 @@ Request request_of(http::request<http::string_body>&& message) {
       .target = std::string(view(message.target())),
       .host = joined(message, http::field::host),
       .origin = joined(message, http::field::origin),
-      .cookie = joined(message, http::field::cookie).value_or(""),
       .authorization = joined(message, http::field::authorization).value_or(""),
       .upgrade = beast::websocket::is_upgrade(message) || message.find(http::field::upgrade) != message.end(),
       .type = joined(message, http::field::content_type).value_or(""),

@@ -7,7 +7,7 @@ async function renew() {
   const shown = document.getElementById("trials");
   if (!shown?.hasAttribute("data-reading")) return;
   try {
-    const answer = await fetch("/", { cache: "no-store" });
+    const answer = await fetch("./", { cache: "no-store" });
     if (!answer.ok) throw new Error(String(answer.status));
     const page = new DOMParser().parseFromString(await answer.text(), "text/html");
     const next = page.getElementById("trials");

@@ -41,8 +41,8 @@ std::string verdict_text(const TrialRow& row) {
   return "";
 }
 
-std::string table_row(const TrialRow& row, bool shows_folder) {
-  std::string text = fmt::format("<tr><th scope=\"row\"><a href=\"/trial/{}\">{}</a>", row.number,
+std::string table_row(const TrialRow& row, bool shows_folder, std::string_view root) {
+  std::string text = fmt::format("<tr><th scope=\"row\"><a href=\"{}trial/{}\">{}</a>", root, row.number,
                                  html_text(row.name.empty() ? "(no name)" : row.name));
   if (shows_folder) text += fmt::format("<small>{}</small>", html_text(row.folder));
   text += fmt::format("</th><td>{}</td>", verdict_text(row)) + cell(row.kind, false) +
@@ -76,34 +76,36 @@ constexpr std::string_view kHeads =
 
 }  // namespace
 
-std::string page_head(std::string_view title, bool is_list) {
+std::string page_head(std::string_view title, bool is_list, std::string_view root) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{} - kinemark</title>\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"/style.css\">\n"
-      "<link rel=\"stylesheet\" href=\"/list.css\">\n{}</head>\n<body>\n<div id=\"page\">\n",
-      html_text(title), is_list ? "<script type=\"module\" src=\"/list.js\"></script>\n" : "");
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{0} - kinemark</title>\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<link rel=\"stylesheet\" href=\"{1}style.css\">\n"
+      "<link rel=\"stylesheet\" href=\"{1}list.css\">\n{2}</head>\n<body>\n<div id=\"page\">\n",
+      html_text(title), root,
+      is_list ? fmt::format("<script type=\"module\" src=\"{}list.js\"></script>\n", root) : "");
 }
 
 std::string page_foot() {
   return fmt::format("<footer>kinemark {}</footer>\n</div>\n</body>\n</html>\n", kVersion);
 }
 
-std::string error_page(std::string_view title, std::string_view sentence) {
-  return page_head(title, false) +
+std::string error_page(std::string_view title, std::string_view sentence, std::string_view root) {
+  return page_head(title, false, root) +
          fmt::format(
              "<header><p class=\"brand\"><b>kinemark</b></p><h1>{}</h1><p class=\"model\">"
-             "<a href=\"/\">All trials</a></p></header>\n<main><p class=\"broken\">{}</p></main>\n",
-             html_text(title), html_text(printable_sentence(sentence))) +
+             "<a href=\"{}\">All trials</a></p></header>\n<main><p class=\"broken\">{}</p></main>\n",
+             html_text(title), root, html_text(printable_sentence(sentence))) +
          page_foot();
 }
 
-std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::string>& notes) {
+std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::string>& notes,
+                      std::string_view root) {
   std::set<std::string_view> folders;
   for (const auto& row : rows) folders.insert(row.folder);
   const bool reads = std::ranges::find(rows, RowState::reading, &TrialRow::state) != rows.end();
-  std::string text = page_head("Trials", true);
+  std::string text = page_head("Trials", true, root);
   text += "<header><p class=\"brand\"><b>kinemark</b> trials</p><h1>Trials</h1>";
   if (folders.size() == 1 && !folders.begin()->empty())
     text += fmt::format("<p class=\"model\">{}</p>", html_text(*folders.begin()));
@@ -116,7 +118,7 @@ std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::
     text += "<div class=\"table\" role=\"region\" aria-label=\"Trials\" tabindex=\"0\">\n<table>\n";
     text += kHeads;
     text += "<tbody>\n";
-    for (const auto& row : rows) text += table_row(row, folders.size() > 1);
+    for (const auto& row : rows) text += table_row(row, folders.size() > 1, root);
     text += "</tbody>\n</table>\n</div>\n";
   }
   return text + "</section>\n</main>\n" + page_foot();

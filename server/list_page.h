@@ -16,15 +16,17 @@ inline constexpr std::string_view kOwnPolicy =
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// What every page of ours begins with, up to the content of <div id="page">, and what it ends with.
-[[nodiscard]] std::string page_head(std::string_view title, bool is_list);
+[[nodiscard]] std::string page_head(std::string_view title, bool is_list, std::string_view root);
 /// The end of such a page.
 [[nodiscard]] std::string page_foot();
 
 /// A page with one sentence on what is wrong, and the way back to the list.
-[[nodiscard]] std::string error_page(std::string_view title, std::string_view sentence);
+[[nodiscard]] std::string error_page(std::string_view title, std::string_view sentence,
+                                     std::string_view root);
 
 /// The page "trials": a line for each. All names are text.
 /// @param notes  sentences above the table
-[[nodiscard]] std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::string>& notes);
+[[nodiscard]] std::string list_page(const std::vector<TrialRow>& rows, const std::vector<std::string>& notes,
+                                    std::string_view root);
 
 }  // namespace kinemark::server

@@ -26,9 +26,9 @@ TrialRow row(std::uint32_t number, const std::string& name) {
 }
 
 TEST(ListPage, HasALineForEachTrialWithALinkToItsPage) {
-  const auto page = list_page({row(1, "a.c3d"), row(7, "b.trc")}, {});
-  EXPECT_THAT(page, HasSubstr("<a href=\"/trial/1\">a.c3d</a>"));
-  EXPECT_THAT(page, HasSubstr("<a href=\"/trial/7\">b.trc</a>"));
+  const auto page = list_page({row(1, "a.c3d"), row(7, "b.trc")}, {}, "/s/");
+  EXPECT_THAT(page, HasSubstr("<a href=\"/s/trial/1\">a.c3d</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"/s/trial/7\">b.trc</a>"));
   for (const char* cell : {">40<", ">1000<", ">240<", ">4.17<", ">98.8 %<", ">markers<"})
     EXPECT_THAT(page, HasSubstr(cell));
   EXPECT_THAT(page, HasSubstr("2 trials"));
@@ -40,7 +40,7 @@ TEST(ListPage, NamesAreText) {
   auto hostile = row(1, kHostile);
   hostile.folder = hostile.kind = hostile.said = kHostile;
   auto other = row(2, "b");
-  const auto page = list_page({hostile, other}, {kHostile});
+  const auto page = list_page({hostile, other}, {kHostile}, "/s/");
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_THAT(page, Not(HasSubstr("onerror=\"")));
   EXPECT_THAT(page, HasSubstr("&lt;/script&gt;&lt;img src=x onerror=&quot;alert"));
@@ -54,7 +54,7 @@ TEST(ListPage, VerdictsAreWords) {
   attention.verdict = "attention";
   broken.state = RowState::unreadable;
   broken.said = "c: is empty";
-  const auto page = list_page({good, attention, broken}, {});
+  const auto page = list_page({good, attention, broken}, {}, "/s/");
   EXPECT_THAT(page, HasSubstr(">Good<"));
   EXPECT_THAT(page, HasSubstr(">Needs attention<"));
   EXPECT_THAT(page, HasSubstr(">not readable<"));
@@ -67,14 +67,14 @@ TEST(ListPage, OnlyAllOfThemIsAHundredPercent) {
   nearly.measured = 0.99999;
   whole.measured = 1.0;
   none.measured = 0.0;
-  const auto page = list_page({nearly, whole, none}, {});
+  const auto page = list_page({nearly, whole, none}, {}, "/s/");
   EXPECT_THAT(page, HasSubstr(">99.9 %<"));
   EXPECT_THAT(page, HasSubstr(">100 %<"));
   EXPECT_THAT(page, HasSubstr(">0.0 %<"));
 }
 
 TEST(ListPage, WhatIsBeingReadIsSaidAndAskedAgain) {
-  const auto page = list_page({{.number = 1, .name = "a"}, row(2, "b")}, {});
+  const auto page = list_page({{.number = 1, .name = "a"}, row(2, "b")}, {}, "/s/");
   EXPECT_THAT(page, HasSubstr("<main id=\"trials\" data-reading>"));
   EXPECT_THAT(page, HasSubstr("1 being read"));
   EXPECT_THAT(page, HasSubstr(">being read<"));
@@ -83,24 +83,24 @@ TEST(ListPage, WhatIsBeingReadIsSaidAndAskedAgain) {
 TEST(ListPage, FoldersAreShownWhereThereAreSeveral) {
   auto other = row(2, "a.c3d");
   other.folder = "second";
-  const auto page = list_page({row(1, "a.c3d"), other}, {});
+  const auto page = list_page({row(1, "a.c3d"), other}, {}, "/s/");
   EXPECT_THAT(page, HasSubstr("<small>study</small>"));
   EXPECT_THAT(page, HasSubstr("<small>second</small>"));
-  EXPECT_THAT(list_page({row(1, "a.c3d")}, {}), Not(HasSubstr("<small>")));
+  EXPECT_THAT(list_page({row(1, "a.c3d")}, {}, "/s/"), Not(HasSubstr("<small>")));
 }
 
 TEST(ListPage, WithoutATrialSaysWhy) {
-  const auto page = list_page({}, {"study: the folder holds no file"});
+  const auto page = list_page({}, {"study: the folder holds no file"}, "/s/");
   EXPECT_THAT(page, HasSubstr("0 trials"));
   EXPECT_THAT(page, HasSubstr("study: the folder holds no file"));
   EXPECT_THAT(page, Not(HasSubstr("<table>")));
 }
 
 TEST(ErrorPage, HasOneSentenceAndTheWayBack) {
-  const auto page = error_page(kHostile, std::string(kHostile) + " is gone");
+  const auto page = error_page(kHostile, std::string(kHostile) + " is gone", "/s/");
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_THAT(page, HasSubstr("is gone"));
-  EXPECT_THAT(page, HasSubstr("<a href=\"/\">All trials</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"/s/\">All trials</a>"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
 
@@ -108,7 +108,7 @@ TEST(OwnPolicy, LetsNoScriptInThePageRun) {
   EXPECT_THAT(std::string(kOwnPolicy), HasSubstr("script-src 'self'"));
   EXPECT_THAT(std::string(kOwnPolicy), Not(HasSubstr("unsafe")));
   // And none stands there.
-  const auto page = list_page({row(1, "a")}, {});
+  const auto page = list_page({row(1, "a")}, {}, "/s/");
   EXPECT_THAT(page, Not(HasSubstr("<style")));
   EXPECT_THAT(page, Not(HasSubstr(" style=")));
   EXPECT_THAT(page, Not(HasSubstr(" onclick=")));

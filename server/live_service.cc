@@ -13,8 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Response sentence(int status, std::string_view title, std::string_view what) {
-  Response response{.status = status, .body = std::make_shared<const std::string>(error_page(title, what))};
+Response sentence(int status, std::string_view title, std::string_view what, std::string_view root) {
+  Response response{.status = status,
+                    .body = std::make_shared<const std::string>(error_page(title, what, root))};
   response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
   return response;
 }
@@ -39,13 +40,14 @@ std::string live_state_json(const LiveState& state) {
 }
 
 LiveService::LiveService(Keys keys, std::string page, std::string_view nonce, std::unique_ptr<LiveFeed> feed)
-    : entrance_(std::move(keys)),
+    : root_(keys.root()),
+      entrance_(std::move(keys)),
       page_(shielded(std::move(page), nonce, /*asks=*/true)),
       feed_(std::move(feed)) {
   feed_->start();
 }
 
-void LiveService::handle(const Request& request, const Reply& reply) {
+void LiveService::handle(Request request, const Reply& reply) {
   auto response = entrance_.ask(request);
   if (!response) {
     response = answer(request);
@@ -62,13 +64,13 @@ Response LiveService::answer(const Request& request) {
   if (!request.upgrade && request.target == "/api/live")
     return {.type = "application/json",
             .body = std::make_shared<const std::string>(live_state_json(feed_->state()))};
-  return sentence(404, "Not found", "There is no such page; / shows the live source.");
+  return sentence(404, "Not found", "There is no such page; / shows the live source.", root_);
 }
 
 Response LiveService::open_socket() {
   auto viewer = feed_->add_viewer();
   if (!viewer) {
-    auto response = sentence(503, "Busy", "Too many view this source at once; close another page.");
+    auto response = sentence(503, "Busy", "Too many view this source at once; close another page.", root_);
     response.headers.emplace_back("Retry-After", "1");
     return response;
   }

@@ -21,12 +21,13 @@ class LiveService {
   LiveService(Keys keys, std::string page, std::string_view nonce, std::unique_ptr<LiveFeed> feed);
 
   /// Answer a request, at once.
-  void handle(const Request& request, const Reply& reply);
+  void handle(Request request, const Reply& reply);
 
  private:
   [[nodiscard]] Response answer(const Request& request);
   [[nodiscard]] Response open_socket();
 
+  std::string root_;
   Entrance entrance_;
   Page page_;
   std::unique_ptr<LiveFeed> feed_;

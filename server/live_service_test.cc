@@ -27,7 +27,7 @@ class LiveServiceThread : public ::testing::Test {
                     .value();
     feed_ = feed.get();
     service_ = std::make_unique<LiveService>(
-        Keys{.hosts = {"127.0.0.1:1", "localhost:1"}, .token = "t", .session = "s", .cookie = "c"},
+        Keys{.hosts = {"127.0.0.1:1", "localhost:1"}, .token = "t", .session = "s"},
         "<meta content=\"default-src 'none'; x\"><style>a</style><script type=\"module\">b</script>", "0123",
         std::move(feed));
   }
@@ -38,14 +38,13 @@ class LiveServiceThread : public ::testing::Test {
     return answer.value();
   }
   Response get(const std::string& target) {
-    return ask({.method = "GET", .target = target, .host = "127.0.0.1:1", .cookie = "c=s"});
+    return ask({.method = "GET", .target = "/s" + target, .host = "127.0.0.1:1"});
   }
   static Request upgrade() {
     return {.method = "GET",
-            .target = "/live/socket",
+            .target = "/s/live/socket",
             .host = "127.0.0.1:1",
             .origin = "http://127.0.0.1:1",
-            .cookie = "c=s",
             .upgrade = true};
   }
   static std::string header(const Response& response, const std::string& name) {
@@ -85,11 +84,11 @@ TEST_F(LiveServiceThread, EverythingElseIsNotThere) {
     EXPECT_EQ(response.socket, nullptr);
   }
   auto request = upgrade();
-  request.target = "/";
+  request.target = "/s/";
   EXPECT_EQ(ask(request).status, 404);
 }
 
-TEST_F(LiveServiceThread, ASocketIsForPagesOfThisServerWithTheCookie) {
+TEST_F(LiveServiceThread, ASocketIsForPagesOfThisServerBelowItsSession) {
   auto request = upgrade();
   request.origin = "http://evil.example";
   EXPECT_EQ(ask(request).status, 403);
@@ -97,10 +96,10 @@ TEST_F(LiveServiceThread, ASocketIsForPagesOfThisServerWithTheCookie) {
   request.origin = std::nullopt;
   EXPECT_EQ(ask(request).status, 403);
   request = upgrade();
-  request.cookie = "";
+  request.target = "/live/socket";
   EXPECT_EQ(ask(request).status, 401);
   request = upgrade();
-  request.cookie = "c=wrong";
+  request.target = "/wrong/live/socket";
   EXPECT_EQ(ask(request).status, 401);
   request = upgrade();
   request.host = "evil.example";

@@ -22,7 +22,6 @@ struct Request {
   std::string target;                 ///< as sent: "/trial/1?x"
   std::optional<std::string> host;    ///< of the header
   std::optional<std::string> origin;  ///< of the header
-  std::string cookie;                 ///< of the header; empty without
   std::string authorization;          ///< of the header; empty without
   bool upgrade = false;               ///< asks for a WebSocket
   std::string type;                   ///< of the body, as the header says; empty without

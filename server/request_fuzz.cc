@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view kToken = "11111111111111111111111111111111";
 constexpr std::string_view kSession = "33333333333333333333333333333333";
 
-/// Lines: method, target, host, origin ("-": none), cookie, authorization; the rest is the body where it
-/// begins as an object, else it stands for asking for a WebSocket.
+/// Lines: method, target, host, origin ("-": none), one that stands for nothing, authorization; the rest is
+/// the body where it begins as an object, else it stands for asking for a WebSocket.
 kinemark::server::Request parse(std::string_view text) {
   std::vector<std::string> lines;
   for (int i = 0; i < 6; ++i) {
@@ -34,7 +34,6 @@ kinemark::server::Request parse(std::string_view text) {
   kinemark::server::Request request{.method = lines[0],
                                     .target = lines[1],
                                     .host = lines[2],
-                                    .cookie = lines[4],
                                     .authorization = lines[5],
                                     .upgrade = !text.empty() && text.front() != '{',
                                     .body = std::string(text)};
@@ -50,13 +49,14 @@ bool holds(const std::string& text, std::string_view secret) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemark::server;
-  const Request request = parse({reinterpret_cast<const char*>(data), size});
+  Request request = parse({reinterpret_cast<const char*>(data), size});
   Entrance entrance({.hosts = {"127.0.0.1:8123", "localhost:8123"},
                      .token = std::string(kToken),
-                     .session = std::string(kSession),
-                     .cookie = "kinemark_8123"});
+                     .session = std::string(kSession)});
+  const std::string target = request.target;
   const auto response = entrance.ask(request);
-  const bool has_secret = holds(request.cookie, kSession) || holds(request.authorization, kToken);
+  const bool has_secret =
+      target.starts_with("/" + std::string(kSession) + "/") || holds(request.authorization, kToken);
   if (!response && !has_secret) std::abort();
   if (!response && request.method != "GET" && request.method != "HEAD" && request.method != "POST")
     std::abort();

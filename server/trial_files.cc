@@ -52,20 +52,41 @@ bool is_companion(const fs::path& file, const std::vector<fs::path>& all) {
   });
 }
 
+/// What lies beside a trial and is read with it.
+constexpr std::array<const char*, 4> kBeside = {"_report.json", "_sd.sto", "_marker_errors.sto",
+                                                "_edits.jsonl"};
+
+}  // namespace
+
+bool leads_out(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  if (fs::symlink_status(file, error).type() != fs::file_type::symlink) return false;
+  const auto top = fs::canonical(folder, error), end = fs::weakly_canonical(file, error);
+  return error || std::mismatch(top.begin(), top.end(), end.begin(), end.end()).first != top.end();
+}
+
+namespace {
+
+/// The trial itself or something beside it that is read, and written, with it is a link out of the folder.
+bool any_leads_out(const fs::path& folder, const fs::path& trial) {
+  return leads_out(folder, trial) || std::ranges::any_of(kBeside, [&](const char* suffix) {
+           return leads_out(folder, pipeline::beside(trial, suffix));
+         });
+}
+
 }  // namespace
 
 Stamps stamps_of(const fs::path& trial) {
   Stamps stamps{stamp_of(trial)};
-  for (const char* suffix : {"_report.json", "_sd.sto", "_marker_errors.sto", "_edits.jsonl"})
-    stamps.push_back(stamp_of(pipeline::beside(trial, suffix)));
+  for (const char* suffix : kBeside) stamps.push_back(stamp_of(pipeline::beside(trial, suffix)));
   return stamps;
 }
 
 TrialFiles::TrialFiles(std::vector<fs::path> given) : given_(std::move(given)) {}
 
-std::uint32_t TrialFiles::number_of(const fs::path& path) {
+std::uint32_t TrialFiles::number_of(const fs::path& path, const fs::path& folder) {
   const auto [at, is_new] = numbers_.try_emplace(path, static_cast<std::uint32_t>(known_.size() + 1));
-  if (is_new) known_.push_back(path);
+  if (is_new) known_.push_back({path, folder});
   return at->second;
 }
 
@@ -79,8 +100,15 @@ TrialListing TrialFiles::list() {
     }
     const bool is_folder = found->files.size() != 1 || found->files.front() != given;
     const std::scoped_lock lock(mutex_);
-    for (const auto& file : found->files)
-      if (!is_folder || !is_companion(file, found->files)) listing.trials.push_back({number_of(file), file});
+    for (const auto& file : found->files) {
+      if (is_folder && is_companion(file, found->files)) continue;
+      if (is_folder && any_leads_out(given, file))
+        listing.notes.push_back(fmt::format(
+            "{}: a link leads out of the folder; what it leads to is not shown unless it is given itself",
+            file.filename().string()));
+      else
+        listing.trials.push_back({number_of(file, is_folder ? given : fs::path()), file});
+    }
   }
   // A file may be given besides its folder.
   std::vector<std::uint32_t> seen;
@@ -95,7 +123,9 @@ TrialListing TrialFiles::list() {
 std::optional<fs::path> TrialFiles::path_of(std::uint32_t number) const {
   const std::scoped_lock lock(mutex_);
   if (number == 0 || number > known_.size()) return std::nullopt;
-  return known_[number - 1];
+  const auto& known = known_[number - 1];
+  if (!known.folder.empty() && any_leads_out(known.folder, known.path)) return std::nullopt;
+  return known.path;
 }
 
 Status check_given(const std::vector<fs::path>& given) {

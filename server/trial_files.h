@@ -52,19 +52,29 @@ class TrialFiles {
   explicit TrialFiles(std::vector<std::filesystem::path> given);  ///< opens nothing
 
   /// Look again: every file given, and those in the folders whose endings are known, without body models and
-  /// without what belongs to another file there ("Q_sd.sto" beside "Q.mot").
+  /// without what belongs to another file there ("Q_sd.sto" beside "Q.mot"). A link that leads out of its
+  /// folder, and a file beside which such a link stands for one of its own, is a note.
   [[nodiscard]] TrialListing list();
-  /// The path of a number that list() gave out; the file may have gone.
+  /// The path of a number that list() gave out; the file may have gone. None where it is a link out of its
+  /// folder by now.
   [[nodiscard]] std::optional<std::filesystem::path> path_of(std::uint32_t number) const;
 
  private:
-  [[nodiscard]] std::uint32_t number_of(const std::filesystem::path& path);
+  /// A file that has a number, and the folder that it must not leave; empty: it was given itself.
+  struct Known {
+    std::filesystem::path path, folder;
+  };
+  [[nodiscard]] std::uint32_t number_of(const std::filesystem::path& path,
+                                        const std::filesystem::path& folder);
 
   std::vector<std::filesystem::path> given_;
   mutable std::mutex mutex_;  ///< of what follows
-  std::vector<std::filesystem::path> known_;
+  std::vector<Known> known_;
   std::map<std::filesystem::path, std::uint32_t> numbers_;
 };
+
+/// Whether a file is a symbolic link to something outside of a folder, or to nothing that can be found.
+[[nodiscard]] bool leads_out(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// One sentence (Code::io) on the first of the paths that is not there; as for list(), a folder without
 /// trials is an error when it is all there is.

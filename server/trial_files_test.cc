@@ -75,6 +75,32 @@ TEST_F(FilesOfTrials, WhatBelongsToAnotherFileIsNoTrialOfItsOwn) {
       << "who gives it wants it";
 }
 
+TEST_F(FilesOfTrials, ALinkOutOfTheFolderIsANoteAndNoTrial) {
+  namespace fs = std::filesystem;
+  fs::create_directory(scratch_ / "private");
+  ASSERT_TRUE(io::write_text(scratch_ / "private/diary.trc", "dear diary", true));
+  write("a.trc");
+  write("b.trc");
+  fs::create_symlink("../private/diary.trc", folder_ / "out.trc");
+  fs::create_symlink(scratch_ / "private/none.trc", folder_ / "lost.trc");
+  fs::create_symlink("a.trc", folder_ / "within.trc");
+  fs::create_symlink("../private/diary.trc", folder_ / "b_edits.jsonl");
+  TrialFiles files({folder_});
+  const auto listing = files.list();
+  EXPECT_THAT(names(listing), ElementsAre("a.trc", "within.trc"));
+  EXPECT_THAT(listing.notes,
+              ::testing::Contains(::testing::HasSubstr("out.trc: a link leads out of the folder")));
+  EXPECT_THAT(listing.notes,
+              ::testing::Contains(::testing::HasSubstr("b.trc: a link leads out of the folder")));
+  for (const auto& note : listing.notes) EXPECT_THAT(note, ::testing::Not(::testing::HasSubstr("diary")));
+  // One that becomes a link after it was listed.
+  fs::remove(folder_ / "a.trc");
+  fs::create_symlink("../private/diary.trc", folder_ / "a.trc");
+  EXPECT_FALSE(files.path_of(1));
+  EXPECT_THAT(names(TrialFiles({folder_ / "out.trc"}).list()), ElementsAre("out.trc"))
+      << "it was given itself";
+}
+
 TEST_F(FilesOfTrials, AFileGivenTwiceIsOneTrial) {
   write("a.trc");
   write("b.trc");

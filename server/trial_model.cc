@@ -11,6 +11,7 @@
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "server/trial_files.h"
 
 namespace kinemark::server {
 namespace {
@@ -22,7 +23,8 @@ std::vector<fs::path> models_in(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
        at.increment(error))
-    if (pipeline::ending_of(at->path()) == ".osim" && at->is_regular_file(error))
+    if (pipeline::ending_of(at->path()) == ".osim" && at->is_regular_file(error) &&
+        !leads_out(folder.empty() ? "." : folder, at->path()))
       models.push_back(folder / at->path().filename());
   std::ranges::sort(models);
   return models;

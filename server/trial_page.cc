@@ -78,15 +78,15 @@ Result<Page> report_page(Result<std::string> html, bool asks) {
 
 }  // namespace
 
-std::string facts_page(const pipeline::InfoOutcome& info) {
+std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root) {
   // Through text, so that what is no UTF-8 is none in the page either.
   const auto json = Json::parse(pipeline::json_text(pipeline::info_json(info)));
   const auto name = printable(info.file.filename().string(), kTextLetters);
-  std::string text = page_head(name, false);
+  std::string text = page_head(name, false, root);
   text += fmt::format(
       "<header><p class=\"brand\"><b>kinemark</b> {}</p><h1>{}</h1>"
-      "<p class=\"model\"><a href=\"/\">All trials</a></p></header>\n<main>\n",
-      html_text(value_text(json["kind"])), html_text(name));
+      "<p class=\"model\"><a href=\"{}\">All trials</a></p></header>\n<main>\n",
+      html_text(value_text(json["kind"])), html_text(name), root);
   text += warnings_section(info.warnings);
   text +=
       "<section>\n<h2>What it holds</h2>\n<div class=\"table\" role=\"region\" aria-label=\"What it holds\" "
@@ -122,7 +122,7 @@ Page shielded(std::string html, std::string_view nonce, bool asks) {
                                 nonce, asks ? kAsks : "")};
 }
 
-Result<Page> make_trial_page(const std::filesystem::path& path,
+Result<Page> make_trial_page(const std::filesystem::path& path, std::string_view root,
                              const std::vector<std::filesystem::path>& geometry) {
   if (is_solved(path)) {
     pipeline::MarkersPageOptions options;
@@ -136,7 +136,7 @@ Result<Page> make_trial_page(const std::filesystem::path& path,
   if (!info) return std::unexpected(info.error());
   if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts))
     return report_page(pipeline::edited_page(path), true);
-  return Page{std::make_shared<const std::string>(facts_page(*info)), std::string(kOwnPolicy)};
+  return Page{std::make_shared<const std::string>(facts_page(*info, root)), std::string(kOwnPolicy)};
 }
 
 }  // namespace kinemark::server

@@ -15,12 +15,13 @@ namespace kinemark::server {
 
 /// The page of a trial: the report of a solved one, of markers their recording, which can be edited there,
 /// else what the file holds. O(file). Fails as the readers of its files.
+/// @param root      where pages begin, Keys::root()
 /// @param geometry  further folders of models' meshes
-[[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path,
+[[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path, std::string_view root,
                                            const std::vector<std::filesystem::path>& geometry = {});
 
 /// What 'kinemark info' knows of a file, as a page. All names are text.
-[[nodiscard]] std::string facts_page(const pipeline::InfoOutcome& info);
+[[nodiscard]] std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root);
 
 /// A self-contained report page with a policy under which its own style sheet and script run and nothing
 /// else. The first style sheet and the last script are its own: data stand before the script.

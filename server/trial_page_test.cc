@@ -20,14 +20,14 @@ using ::testing::Not;
 class PageOfTrial : public pipeline::testing::RecordedTest<IkJob> {};
 
 TEST_F(PageOfTrial, OfMarkersIsTheirReportWithANonce) {
-  const auto page = make_trial_page(at("in/markers.c3d")).value();
+  const auto page = make_trial_page(at("in/markers.c3d"), "/s/").value();
   EXPECT_THAT(page.policy, HasSubstr("script-src 'nonce-"));
   EXPECT_THAT(*page.html, HasSubstr("kinemark.markers_report"));
   EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
 }
 
 TEST_F(PageOfTrial, OfMarkersMayAskThisServerAndNobodyElse) {
-  const auto page = make_trial_page(at("in/markers.c3d")).value();
+  const auto page = make_trial_page(at("in/markers.c3d"), "/s/").value();
   EXPECT_THAT(page.policy, HasSubstr("default-src 'none'; connect-src 'self'; script-src 'nonce-"));
   EXPECT_THAT(*page.html, HasSubstr("content=\"default-src 'none'; connect-src 'self'; script-src 'sha256-"));
   EXPECT_THAT(*page.html, HasSubstr("\"editing\":{\"journal\":\"markers_edits.jsonl\""));
@@ -38,7 +38,7 @@ TEST_F(PageOfTrial, OfMarkersMayAskThisServerAndNobodyElse) {
 
 TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
   ASSERT_TRUE(pipeline::run_ik(job("Q.mot")));
-  const auto page = make_trial_page(at("Q.mot")).value();
+  const auto page = make_trial_page(at("Q.mot"), "/s/").value();
   const auto plain = pipeline::page_of(at("Q.mot")).value();
   EXPECT_THAT(*page.html, HasSubstr("<script nonce=\""));
   EXPECT_THAT(*page.html, HasSubstr("<style nonce=\""));
@@ -46,26 +46,26 @@ TEST_F(PageOfTrial, OfASolvedTrialIsItsReportWithANonce) {
             plain.size() + 2 * std::string(R"( nonce="00112233445566778899aabbccddeeff")").size());
   EXPECT_THAT(page.policy, Not(HasSubstr("unsafe")));
   EXPECT_THAT(page.policy, Not(HasSubstr("connect-src")));
-  EXPECT_NE(page.policy, make_trial_page(at("Q.mot"))->policy) << "another nonce for another page";
+  EXPECT_NE(page.policy, make_trial_page(at("Q.mot"), "/s/")->policy) << "another nonce for another page";
 }
 
 TEST_F(PageOfTrial, OfASolvedTrialWhoseFilesAreOfTwoRunsIsASentence) {
   ASSERT_TRUE(pipeline::run_ik(job("P.mot")));
   std::filesystem::remove(at("P_marker_errors.sto"));
-  const auto page = make_trial_page(at("P.mot"));
+  const auto page = make_trial_page(at("P.mot"), "/s/");
   ASSERT_FALSE(page);
   EXPECT_THAT(page.error().message, HasSubstr("P_marker_errors.sto"));
 }
 
 TEST_F(PageOfTrial, OfOtherFilesShowsWhatTheyHold) {
-  EXPECT_EQ(make_trial_page(at("in/truth.mot"))->policy, kOwnPolicy);
-  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html, HasSubstr("<h1>truth.mot</h1>"));
-  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html, Not(HasSubstr(at("in").string())))
+  EXPECT_EQ(make_trial_page(at("in/truth.mot"), "/s/")->policy, kOwnPolicy);
+  EXPECT_THAT(*make_trial_page(at("in/truth.mot"), "/s/")->html, HasSubstr("<h1>truth.mot</h1>"));
+  EXPECT_THAT(*make_trial_page(at("in/truth.mot"), "/s/")->html, Not(HasSubstr(at("in").string())))
       << "where it lies is nobody's business";
-  EXPECT_THAT(*make_trial_page(at("in/truth.mot"))->html,
+  EXPECT_THAT(*make_trial_page(at("in/truth.mot"), "/s/")->html,
               HasSubstr("<th scope=\"row\">rows</th><td>30</td>"));
-  EXPECT_THAT(*make_trial_page(at("in/model.osim"))->html, HasSubstr("mass, kg"));
-  EXPECT_EQ(make_trial_page(at("absent.trc")).error().code, Code::io);
+  EXPECT_THAT(*make_trial_page(at("in/model.osim"), "/s/")->html, HasSubstr("mass, kg"));
+  EXPECT_EQ(make_trial_page(at("absent.trc"), "/s/").error().code, Code::io);
 }
 
 TEST(FactsPage, NamesAreText) {
@@ -77,7 +77,7 @@ TEST(FactsPage, NamesAreText) {
   info.file = "/secret/place/<u>.c3d";
   info.facts = facts;
   info.warnings = {"the label <img> is odd"};
-  const auto page = facts_page(info);
+  const auto page = facts_page(info, "/s/");
   for (const char* never : {"<img", "<b>&", "<i>", "<u>", "/secret", "\x1b", "\xff", "<script"})
     EXPECT_THAT(page, Not(HasSubstr(never)));
   EXPECT_THAT(page, HasSubstr("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;"));

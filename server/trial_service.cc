@@ -40,19 +40,6 @@ void send_page(const Page& page, const Reply& reply) {
   send({.body = page.html, .headers = {{"Content-Security-Policy", page.policy}}}, reply);
 }
 
-/// What is wrong, in a page that looks like the others.
-void send_sentence(int status, std::string_view title, std::string_view sentence, const Reply& reply) {
-  Response response{.status = status};
-  response.body = std::make_shared<const std::string>(error_page(title, sentence));
-  response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
-  if (status == 503) response.headers.emplace_back("Retry-After", "1");
-  send(std::move(response), reply);
-}
-
-void send_busy(const Reply& reply) {
-  send_sentence(503, "Busy", "Too much is being asked at once; reload the page in a moment.", reply);
-}
-
 std::string name_of(const fs::path& path) { return printable(path.filename().string(), 200); }
 
 bool is_gone(const Stamps& stamps) { return !stamps.front(); }
@@ -98,7 +85,7 @@ TrialService::TrialService(ServiceOptions options)
       row_worker_(kMostRows),
       page_worker_(kMostRequests) {}
 
-void TrialService::handle(const Request& request, const Reply& reply) {
+void TrialService::handle(Request request, const Reply& reply) {
   if (auto response = entrance_.ask(request)) {
     add_safe_headers(*response);
     reply(std::move(*response));
@@ -145,13 +132,27 @@ void TrialService::handle(const Request& request, const Reply& reply) {
   send_sentence(404, "Not found", "There is no such page; the list shows every trial.", reply);
 }
 
+void TrialService::send_sentence(int status, std::string_view title, std::string_view sentence,
+                                 const Reply& reply) const {
+  Response response{.status = status};
+  response.body = std::make_shared<const std::string>(error_page(title, sentence, options_.keys.root()));
+  response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
+  if (status == 503) response.headers.emplace_back("Retry-After", "1");
+  send(std::move(response), reply);
+}
+
+void TrialService::send_busy(const Reply& reply) const {
+  send_sentence(503, "Busy", "Too much is being asked at once; reload the page in a moment.", reply);
+}
+
 void TrialService::send_list(bool as_json, const Reply& reply) {
   const auto listing = files_.list();
   std::vector<TrialRow> rows;
   for (const auto& trial : listing.trials) rows.push_back(row_of(trial));
   if (!as_json)
     return send_page(
-        {std::make_shared<const std::string>(list_page(rows, listing.notes)), std::string(kOwnPolicy)},
+        {std::make_shared<const std::string>(list_page(rows, listing.notes, options_.keys.root())),
+         std::string(kOwnPolicy)},
         reply);
   nlohmann::ordered_json json{{"trials", nlohmann::ordered_json::array()}, {"notes", listing.notes}};
   for (const auto& row : rows) json["trials"].push_back(row_json(row));

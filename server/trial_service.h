@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
@@ -43,9 +44,12 @@ class TrialService {
 
   /// Answer a request. Returns at once; `reply` may be called before that, or later from another thread, or
   /// never where the service ends first.
-  void handle(const Request& request, const Reply& reply);
+  void handle(Request request, const Reply& reply);
 
  private:
+  /// What is wrong, in a page that looks like the others.
+  void send_sentence(int status, std::string_view title, std::string_view sentence, const Reply& reply) const;
+  void send_busy(const Reply& reply) const;
   void send_list(bool as_json, const Reply& reply);
   void send_trial(std::uint32_t number, const Reply& reply);
   void send_edits(const Request& request, const Route& route, const Reply& reply);

@@ -32,7 +32,7 @@ class TrialServiceThread : public ::testing::Test {
   void start() {
     service_ = std::make_unique<TrialService>(
         ServiceOptions{.given = {folder_},
-                       .keys = {.hosts = {"127.0.0.1:1"}, .token = "t", .session = "s", .cookie = "c"},
+                       .keys = {.hosts = {"127.0.0.1:1"}, .token = "t", .session = "s"},
                        .make_page = [this](const std::filesystem::path& path) { return make(path); },
                        .describe = [this](const std::filesystem::path& path) { return describe_(path); }});
   }
@@ -51,7 +51,7 @@ class TrialServiceThread : public ::testing::Test {
   std::future<Response> ask(const std::string& target, const std::string& method = "GET") {
     auto promise = std::make_shared<std::promise<Response>>();
     auto future = promise->get_future();
-    service_->handle({.method = method, .target = target, .host = "127.0.0.1:1", .cookie = "c=s"},
+    service_->handle({.method = method, .target = "/s" + target, .host = "127.0.0.1:1"},
                      [promise](Response response) { promise->set_value(std::move(response)); });
     return future;
   }
@@ -94,6 +94,37 @@ TEST_F(TrialServiceThread, AStrangerLearnsNothing) {
   EXPECT_EQ(header(response, "X-Content-Type-Options"), "nosniff");
 }
 
+TEST_F(TrialServiceThread, APageOnAnotherPortReadsNothingAndWritesNothing) {
+  write("a_edits.jsonl", "");
+  (void)read_trials();
+  const int made = made_;
+  // What a browser adds to its requests, whichever page they are of: host and origin. Addresses it does not
+  // know.
+  for (const char* target :
+       {"/", "/trial/1", "/api/trials", "/api/trial/1/edits", "/api/trial/1/data", "/style.css",
+        "/trial/1/angles/now", "//trial/1", "/s", "/S/trial/1", "/t/trial/1"})
+    for (const char* method : {"GET", "POST"})
+      for (const auto& origin :
+           {std::optional<std::string>(), std::optional<std::string>("http://127.0.0.1:2"),
+            std::optional<std::string>("http://127.0.0.1:1")}) {
+        std::promise<Response> promise;
+        service_->handle({.method = method,
+                          .target = target,
+                          .host = "127.0.0.1:1",
+                          .origin = origin,
+                          .type = "application/json",
+                          .body = "{\"expected\": 0, \"edit\": {\"do\": \"crop\", \"first\": 1}}"},
+                         [&](Response response) { promise.set_value(std::move(response)); });
+        const auto response = promise.get_future().get();
+        EXPECT_TRUE(response.status == 401 || response.status == 403) << method << " " << target;
+        EXPECT_FALSE(response.admitted);
+        EXPECT_THAT(*response.body, Not(HasSubstr("a.trc")));
+        for (const auto& [name, value] : response.headers) EXPECT_NE(name, "Access-Control-Allow-Origin");
+      }
+  EXPECT_EQ(io::read_text(folder_ / "a_edits.jsonl").value(), "");
+  EXPECT_EQ(made_, made);
+}
+
 TEST_F(TrialServiceThread, TheListFillsInAndSeesWhatChanges) {
   auto list = read_trials();
   ASSERT_EQ(list.size(), 2U);
@@ -107,7 +138,7 @@ TEST_F(TrialServiceThread, TheListFillsInAndSeesWhatChanges) {
   EXPECT_EQ(list[2]["number"], 3);
   const auto page = get("/");
   EXPECT_EQ(page.status, 200);
-  EXPECT_THAT(*page.body, HasSubstr("/trial/3"));
+  EXPECT_THAT(*page.body, HasSubstr("href=\"/s/trial/3\""));
   EXPECT_EQ(header(page, "Content-Security-Policy"), kOwnPolicy);
   EXPECT_EQ(header(page, "Cache-Control"), "no-store");
 }
@@ -237,10 +268,9 @@ TEST_F(TrialServiceThread, OnlyEditsAreChanged) {
   const auto post = [&](const std::string& target) {
     std::promise<Response> promise;
     service_->handle({.method = "POST",
-                      .target = target,
+                      .target = "/s" + target,
                       .host = "127.0.0.1:1",
                       .origin = "http://127.0.0.1:1",
-                      .cookie = "c=s",
                       .type = "application/json",
                       .body = "{}"},
                      [&](Response response) { promise.set_value(std::move(response)); });

@@ -6,7 +6,7 @@
     serve.py            attack a server of its own, on a simulated recording
     serve.py sockets    attack the WebSocket of a live source
     serve.py tls        attack a server with a certificate, which openssl makes
-    serve.py --attack TABLE KIND PORT COOKIE   what the attackers run, in processes of their own, until they are ended
+    serve.py --attack TABLE KIND PORT SESSION   what the attackers run, in processes of their own, until they are ended
 
 Loopback only. Prints rows "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
@@ -104,12 +104,12 @@ ATTACKS = {
 UPGRADE = "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
 
 
-def upgrade(port, more=""):
-    return request(port, "GET /live/socket HTTP/1.1", UPGRADE + more)
+def upgrade(port, more="", session=""):
+    return request(port, f"GET {session}/live/socket HTTP/1.1", UPGRADE + more)
 
 
-def known(port, cookie):
-    return upgrade(port, f"Origin: http://127.0.0.1:{port}\r\nCookie: {cookie}\r\n")
+def known(port, session):
+    return upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n", session)
 
 
 def hold_asked(port, count, asked):
@@ -132,12 +132,12 @@ def hold_asked(port, count, asked):
         time.sleep(0.05)
 
 
-def flood_socket(port, cookie, message):
+def flood_socket(port, session, message):
     """A WebSocket that is let in and then sends this, over and over."""
     while True:
         with contextlib.suppress(OSError):
             with socket.create_connection(("127.0.0.1", port), timeout=5) as connection:
-                connection.sendall(known(port, cookie))
+                connection.sendall(known(port, session))
                 connection.recv(1024)
                 while True:
                     connection.sendall(message)
@@ -152,12 +152,12 @@ def frame(kind, size):
 SOCKET_ATTACKS = {
     "1,000 WebSockets without a token": lambda port, _: hold_asked(port, 500, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
     "WebSockets without a token, one after the other": lambda port, _: flood(port, upgrade(port, f"Origin: http://127.0.0.1:{port}\r\n")),
-    "WebSockets from a foreign Origin": lambda port, cookie: flood(port, upgrade(port, f"Origin: http://evil.example\r\nCookie: {cookie}\r\n")),
+    "WebSockets from a foreign Origin": lambda port, session: flood(port, upgrade(port, "Origin: http://evil.example\r\n", session)),
     "300 upgrades that send a letter at a time": lambda port, _: hold(port, 300, True, upgrade(port)[:-2] + b"X-"),
     "1,000 connections that say nothing": lambda port, _: hold(port, 1000, drip=False),
-    "messages of 10 MB over WebSockets": lambda port, cookie: flood_socket(port, cookie, frame(2, 10_000_000)),
-    "pings without end": lambda port, cookie: flood_socket(port, cookie, frame(9, 100) * 1000),
-    "4 viewers that never read": lambda port, cookie: hold_asked(port, 4, known(port, cookie)),
+    "messages of 10 MB over WebSockets": lambda port, session: flood_socket(port, session, frame(2, 10_000_000)),
+    "pings without end": lambda port, session: flood_socket(port, session, frame(9, 100) * 1000),
+    "4 viewers that never read": lambda port, session: hold_asked(port, 4, known(port, session)),
 }
 
 
@@ -183,8 +183,8 @@ TABLES = {"pages": ATTACKS, "sockets": SOCKET_ATTACKS, "tls": TLS_ATTACKS}
 
 
 @contextlib.contextmanager
-def attackers(table, kind, port, count=2, cookie=""):
-    running = [subprocess.Popen([sys.executable, __file__, "--attack", table, kind, str(port), cookie]) for _ in range(count)]
+def attackers(table, kind, port, count=2, session=""):
+    running = [subprocess.Popen([sys.executable, __file__, "--attack", table, kind, str(port), session]) for _ in range(count)]
     time.sleep(1.0)  # they are to be at it
     try:
         yield
@@ -258,7 +258,7 @@ def check_long_trial(program, scratch):
     with Server(program, long, "--no-open", cwd=scratch) as server:
         server.request("/")
         with server.connect() as waiting:
-            waiting.sendall(request(server.port, "GET /trial/1 HTTP/1.1", f"Cookie: {server.exchanged()}\r\n"))
+            waiting.sendall(request(server.port, f"GET {server.exchanged()}/trial/1 HTTP/1.1"))
             times, reading = [], 0
             for _ in range(REQUESTS):
                 status, ms = timed(server, "/")
@@ -412,6 +412,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--attack"]:
-        table, kind, port, cookie = *sys.argv[2:4], int(sys.argv[4]), sys.argv[5]
-        TABLES[table][kind](port, *([cookie] if table == "sockets" else []))
+        table, kind, port, session = *sys.argv[2:4], int(sys.argv[4]), sys.argv[5]
+        TABLES[table][kind](port, *([session] if table == "sockets" else []))
     sys.exit(main())

@@ -24,7 +24,7 @@ class Viewer:
         asked = {"Host": server.name, "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": KEY}
         asked["Origin"] = server.origin
         if known:
-            asked["Cookie"] = server.exchanged()
+            target = server.exchanged() + target
         asked.update({name.replace("_", "-"): value for name, value in headers.items()})
         lines = [f"GET {target} HTTP/1.1", *(f"{name}: {value}" for name, value in asked.items() if value is not None)]
         self.connection = server.connect()

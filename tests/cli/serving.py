@@ -55,7 +55,7 @@ class Server:
         self.host, self.port, self.token = found[2], int(found[3]), found[4]
         self.name = f"{self.host}:{self.port}"
         self.origin = f"{found[1]}://{self.name}"
-        self.cookie = None
+        self.session = None
 
     def __enter__(self):
         return self
@@ -85,10 +85,11 @@ class Server:
             return parse(receive_all(connection))
 
     def request(self, target="/", method="GET", body=b"", known=True, **headers):
-        """One request on a connection of its own. Headers: Host="...", None leaves one out; Content_Length is a name too."""
+        """One request on a connection of its own, below the session unless not `known`. Headers: Host="...", None leaves
+        one out; Content_Length is a name too."""
         all_headers = {"Host": self.name, "Connection": "close"}
         if known:
-            all_headers["Cookie"] = self.exchanged()
+            target = self.exchanged() + target
         if body:
             all_headers["Content-Length"] = str(len(body))
         all_headers.update({name.replace("_", "-"): value for name, value in headers.items()})
@@ -109,10 +110,10 @@ class Server:
         return status, json.loads(text)
 
     def exchanged(self):
-        """The cookie that the token is exchanged for, once."""
-        if self.cookie is None:
+        """The path that the token is exchanged for, "/SESSION", once."""
+        if self.session is None:
             status, headers, _ = self.request(f"/?token={self.token}", known=False)
             if status != 303:
                 raise AssertionError(f"the token was answered with {status}")
-            self.cookie = headers["Set-Cookie"].partition(";")[0]
-        return self.cookie
+            self.session = headers["Location"].rstrip("/")
+        return self.session

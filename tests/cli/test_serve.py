@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """`kinemark serve`: who is let in, what they see, and what nobody gets. Loopback only; times are a matter of acceptance."""
 
+import http.cookiejar
+import http.server
 import json
 import os
 import re
 import signal
 import socket
+import threading
 import time
+import urllib.request
 from pathlib import Path
 
 from serving import Server, parse, receive_all
@@ -72,8 +76,8 @@ class Shown(ServeTest):
         self.assertEqual(solved["verdict"], report["verdict"])
         status, headers, page = server.request("/")
         self.assertEqual(status, 200)
-        self.assertIn('<a href="/trial/1">a walk.c3d</a>', page)
-        self.assertIn('<a href="/trial/2">q.mot</a>', page)
+        self.assertIn(f'<a href="{server.exchanged()}/trial/1">a walk.c3d</a>', page)
+        self.assertIn(f'<a href="{server.exchanged()}/trial/2">q.mot</a>', page)
 
     def test_pages_of_trials(self):
         server = self.serve(self.study / "q.mot", self.study / "a walk.c3d")
@@ -144,9 +148,9 @@ class Shown(ServeTest):
 
     def test_kept_connections_and_head(self):
         server = self.serve(self.study)
-        cookie = server.exchanged()
+        session = server.exchanged()
         with server.connect() as connection:
-            ask = f"GET /style.css HTTP/1.1\r\nHost: {server.name}\r\nCookie: {cookie}\r\n\r\n".encode()
+            ask = f"GET {session}/style.css HTTP/1.1\r\nHost: {server.name}\r\n\r\n".encode()
             connection.sendall(ask * 3 + ask.replace(b"\r\n\r\n", b"\r\nConnection: close\r\n\r\n"))
             everything = receive_all(connection)
         self.assertEqual(everything.count(b"HTTP/1.1 200 OK"), 4)
@@ -181,7 +185,7 @@ class Refused(ServeTest):
         self.assertEqual(self.status(Host=f"LOCALHOST:{self.server.port}"), 200)
 
     def test_two_hosts_are_400(self):
-        ask = f"GET / HTTP/1.1\r\nHost: {self.server.name}\r\nHost: evil.example\r\nCookie: {self.server.exchanged()}\r\n\r\n"
+        ask = f"GET {self.server.exchanged()}/ HTTP/1.1\r\nHost: {self.server.name}\r\nHost: evil.example\r\n\r\n"
         self.assertEqual(self.server.raw(ask.encode())[0], 400)
 
     def test_without_the_token_is_401(self):
@@ -191,14 +195,58 @@ class Refused(ServeTest):
             self.assertEqual(status, 401, target)
             self.assertNotIn("walk", body)
             self.assertNotIn("Set-Cookie", headers)
-        for cookie in ("", f"kinemark_{self.server.port}={self.server.token}", f"kinemark_{self.server.port}=" + "0" * 32):
-            self.assertEqual(self.status(known=False, Cookie=cookie), 401, cookie)
+        for path in (f"/{self.server.token}/", "/" + "0" * 32 + "/", self.server.exchanged()):
+            self.assertEqual(self.status(path, known=False), 401, path)
 
-    def test_the_cookie_is_for_this_site_alone_and_is_not_the_token(self):
+    def test_the_token_is_exchanged_for_a_path_that_is_not_the_token(self):
         _, headers, _ = self.server.request(f"/?token={self.server.token}", known=False)
-        self.assertEqual(headers["Location"], "/")
-        self.assertRegex(headers["Set-Cookie"], rf"^kinemark_{self.server.port}=[0-9a-f]{{32}}; Path=/; HttpOnly; SameSite=Strict$")
-        self.assertNotIn(self.server.token, headers["Set-Cookie"])
+        self.assertRegex(headers["Location"], r"^/[0-9a-f]{32}/$")
+        self.assertNotIn(self.server.token, headers["Location"])
+        self.assertNotIn("Set-Cookie", headers)
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+
+    def test_a_page_on_another_port_reads_nothing_and_writes_nothing(self):
+        """A program on another port, and what it gets from the browser that has our pages open: nothing that lets it in."""
+        got = {}
+
+        class Other(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                got.update(self.headers)
+                self.send_response(200)
+                self.end_headers()
+
+            def log_message(self, *_):
+                pass
+
+        before = listing(self.study)
+        opened = http.cookiejar.CookieJar()
+        browser = urllib.request.build_opener(urllib.request.ProxyHandler({}), urllib.request.HTTPCookieProcessor(opened))
+        ours = browser.open(f"{self.server.origin}/?token={self.server.token}")
+        self.assertIn("Trials", ours.read().decode())
+        with http.server.HTTPServer(("127.0.0.1", 0), Other) as other:
+            thread = threading.Thread(target=other.handle_request)
+            thread.start()
+            browser.open(f"http://127.0.0.1:{other.server_port}/").read()
+            thread.join()
+            theirs = f"http://127.0.0.1:{other.server_port}"
+        self.assertEqual(list(opened), [], "no cookie, which would go to every port")
+        stolen = {name: value for name, value in got.items() if name not in ("Host", "Connection")}
+        for value in stolen.values():
+            self.assertNotIn(self.server.token, value)
+            self.assertNotIn(self.server.exchanged().strip("/"), value)
+        edit = b'{"expected": 0, "edit": {"do": "crop", "first": 1}}'
+        for origin in (theirs, self.server.origin, None):
+            for target in ("/", "/trial/1", "/api/trials", "/api/trial/1/edits", "/api/trial/1/data", "/live/socket"):
+                status, headers, body = self.server.request(target, known=False, Origin=origin, **stolen)
+                self.assertEqual(status, 401, (target, origin))
+                self.assertNotIn("Access-Control-Allow-Origin", headers)
+                self.assertNotIn("walk", body)
+                status, _, _ = self.server.request(target, "POST", edit, known=False, Origin=origin, Content_Type="application/json", **stolen)
+                self.assertIn(status, (401, 403), (target, origin))
+        # Even one that knows the path is not let in to write from a page of its own.
+        for target in ("/api/trial/1/edits", "/api/trial/1/angles"):
+            self.assertEqual(self.status(target, "POST", edit, Origin=theirs, Content_Type="application/json"), 403)
+        self.assertEqual(listing(self.study), before)
 
     def test_programs_send_the_token_themselves(self):
         self.assertEqual(self.status("/api/trials", known=False, Authorization=f"Bearer {self.server.token}"), 200)
@@ -214,10 +262,10 @@ class Refused(ServeTest):
                         "Sec_WebSocket_Version": "13"}  # fmt: skip
         for origin in (None, "null", "http://evil.example"):
             with self.server.connect() as connection:
-                lines = {"Host": self.server.name, "Cookie": self.server.exchanged(), **socket_asked}
+                lines = {"Host": self.server.name, **socket_asked}
                 if origin:
                     lines["Origin"] = origin
-                text = "GET /trial/1 HTTP/1.1\r\n" + "".join(f"{k.replace('_', '-')}: {v}\r\n" for k, v in lines.items()) + "\r\n"
+                text = f"GET {self.server.exchanged()}/trial/1 HTTP/1.1\r\n" + "".join(f"{k.replace('_', '-')}: {v}\r\n" for k, v in lines.items()) + "\r\n"
                 connection.sendall(text.encode())
                 self.assertTrue(connection.recv(65536).startswith(b"HTTP/1.1 403"), origin)
 
@@ -226,9 +274,29 @@ class Refused(ServeTest):
                        "/trial/../../etc/passwd", "/trial/1/..", "/trial/0", "/trial/-1", "/trial/01", "/trial/1e0", "/trial/%31",
                        "/trial/99999999999999999999", "/a%20walk.c3d", "/q.mot", "/trial/a%20walk.c3d", "/style.css/", "/./style.css",
                        "/style.css%00", "/style.css?x", "*", "/\\..\\..\\etc\\passwd", "file:///etc/passwd"):  # fmt: skip
-            status, _, body = self.server.request(target)
-            self.assertEqual(status, 404, target)
-            self.assertNotIn("root:", body)
+            bearer = {"known": False, "Authorization": f"Bearer {self.server.token}"}
+            for options in ({}, bearer) if target.startswith("/") else (bearer,):
+                status, _, body = self.server.request(target, **options)
+                self.assertEqual(status, 404, target)
+                self.assertNotIn("root:", body)
+
+    def test_links_out_of_the_folder_and_files_of_other_kinds_show_nothing(self):
+        day = self.folder / "day"
+        day.mkdir()
+        secret = self.write("secret.txt", "root:x:0:0:topsecret\nalice,hunter2,3\n")
+        for ending in ("trc", "csv", "tsv", "mot", "sto", "v3d", "c3d", "nwb", "mcap"):
+            (day / f"link.{ending}").symlink_to(secret)
+            (day / f"copy.{ending}").write_bytes(secret.read_bytes())
+        (day / "walk.c3d").write_bytes(self.c3d.read_bytes())
+        (day / "walk_edits.jsonl").symlink_to(secret)
+        server = self.serve(day)
+        seen = [server.request("/")[2], json.dumps(self.trials(server))]
+        seen += [server.request(f"/trial/{n}")[2] + server.request(f"/api/trial/{n}/edits")[2] for n in range(1, 25)]
+        self.assertIn("link.trc: a link leads out of the folder", seen[0])
+        for text in seen:
+            for word in ("topsecret", "hunter2", "alice", "root:"):
+                self.assertNotIn(word, text)
+        self.assertEqual(secret.read_text(), "root:x:0:0:topsecret\nalice,hunter2,3\n")
 
     def test_what_is_too_long_is_refused(self):
         self.assertEqual(self.status(X="a" * 20_000), 431)
@@ -392,7 +460,7 @@ class Started(ServeTest):
         self.assertEqual(listing(self.folder), before)
         again = self.serve(self.folder, "--port", server.port)
         self.assertEqual(again.request("/")[0], 200)
-        self.assertEqual(again.request("/", known=False, Cookie=server.cookie)[0], 401, "of another run")
+        self.assertEqual(again.request(server.session + "/", known=False)[0], 401, "of another run")
 
     def desktop(self, *options):
         """(the server, what the browser got) in a session with a display."""

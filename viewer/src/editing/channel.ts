@@ -16,7 +16,7 @@ const closed = "This page is no longer let in. Open the address that 'kinemark s
 
 /** Requests about the edits of one trial. */
 export class Channel {
-  /** @param base "/api/trial/3" */
+  /** @param base as baseOf(): where the server answers about the trial */
   constructor(
     readonly base: string,
     readonly ask: typeof fetch = (...all) => fetch(...all),
@@ -38,12 +38,12 @@ export class Channel {
   }
 
   /** Where the report of a solution is. */
-  anglesPage = (which: AnglesOf): string => `${this.base.replace(/^\/api/, "")}/angles/${which}`;
+  anglesPage = (which: AnglesOf): string => `${this.base.replace("/api/", "/")}/angles/${which}`;
 
   /** Its text. */
   async anglesHtml(which: AnglesOf): Promise<{ html: string } | { refused: string }> {
     try {
-      const answer = await this.ask(this.anglesPage(which), { credentials: "same-origin", cache: "no-store", redirect: "error" });
+      const answer = await this.ask(this.anglesPage(which), { credentials: "omit", cache: "no-store", redirect: "error" });
       if (answer.status === 401 || answer.status === 421) return { refused: closed };
       return answer.ok ? { html: await answer.text() } : { refused: `These angles are no longer there (status ${answer.status}); solve them again.` };
     } catch {
@@ -54,7 +54,7 @@ export class Channel {
   async #request<T>(what: string, init: RequestInit): Promise<Answer<T>> {
     let answer: Response;
     try {
-      answer = await this.ask(`${this.base}/${what}`, { ...init, credentials: "same-origin", cache: "no-store", redirect: "error" });
+      answer = await this.ask(`${this.base}/${what}`, { ...init, credentials: "omit", cache: "no-store", redirect: "error" });
     } catch {
       return { value: null, state: null, refused: lost };
     }
@@ -70,7 +70,11 @@ export class Channel {
   }
 }
 
-/** Where a page asks about its trial: "/trial/3" becomes "/api/trial/3"; null of any other address. */
+/**
+ * Where a page asks about its trial: "/SESSION/trial/3" becomes "/SESSION/api/trial/3"; null of any other address. The session, which
+ * lets in, is in the path alone: cookies would go to every port of this machine.
+ */
 export function baseOf(path: string): string | null {
-  return /^\/trial\/[1-9]\d*$/.test(path) ? `/api${path}` : null;
+  const [, session, trial] = /^(\/[0-9a-f]{32})(\/trial\/[1-9]\d*)$/.exec(path) ?? [];
+  return trial === undefined ? null : `${session}/api${trial}`;
 }

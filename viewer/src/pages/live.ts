@@ -91,7 +91,7 @@ export function livePage({ summary }: LivePageData, around = browser): Content {
     requestAnimationFrame(draw);
   };
 
-  const stream = new LiveStream(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live/socket`, {
+  const stream = new LiveStream(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}${location.pathname}live/socket`, {
     markers: (message) => {
       shown.push(message);
       if (!built && stream.frames >= secondsBeforePicture * summary.rate_hz) build();

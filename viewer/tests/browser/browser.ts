@@ -26,7 +26,7 @@ export function open(file: string, colorScheme: "light" | "dark" = "light", webG
 /**
  * Open an address likewise, and wait until its page is ready.
  * @param may   what the page may ask for; anything else is a complaint
- * @param then  where to go once the address was opened, which need not be a page of ours
+ * @param then  where to go once the address was opened, from where that led; it need not be a page of ours
  */
 export async function openAddress(url: string, may: (asked: string) => boolean, colorScheme: "light" | "dark" = "light", webGl = true, then = url): Promise<Opened> {
   const profile = mkdtempSync(join(tmpdir(), "kinemark-viewer-"));
@@ -67,7 +67,7 @@ export async function openAddress(url: string, may: (asked: string) => boolean, 
     });
   }
   await page.goto(url);
-  if (then !== url) await page.goto(then);
+  if (then !== url) await page.goto(new URL(then, page.url()).href);
   await page.waitForFunction(() => document.documentElement.dataset["ready"] !== undefined);
   await settle(page);
   return {

@@ -4,7 +4,10 @@
 // npm run test:edits -- FILE... the same of C3D files with three markers that are whole, of which copies are edited
 // KINEMARK_PROGRAM names the program, KINEMARK_SCREENSHOTS a folder for pictures.
 import assert from "node:assert/strict";
+import { once } from "node:events";
 import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -223,12 +226,48 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     await said(page, /Somebody else has edited/);
     await other.close();
   },
+  "a page on another port reads nothing and writes nothing": async ({ page, served, journal }) => {
+    const got: string[] = [];
+    const other = createServer((request, response) => {
+      got.push(JSON.stringify(request.headers));
+      response.setHeader("Content-Type", "text/html").end("<p>A page of another program</p>");
+    }).listen(0, "127.0.0.1");
+    await once(other, "listening");
+    const before = readFileSync(journal);
+    const theirs = await page.context().newPage();
+    await theirs.goto(`http://127.0.0.1:${(other.address() as AddressInfo).port}/`);
+    const answers = await theirs.evaluate(async (origin) => {
+      const said: string[] = [];
+      const edit = '{"expected":0,"edit":{"do":"crop","first":1}}';
+      for (const path of ["/", "/trial/1", "/api/trials", "/api/trial/1/data", "/api/trial/1/edits"])
+        for (const method of ["GET", "POST"]) {
+          const body = method === "POST" ? { body: edit } : {};
+          said.push(await fetch(origin + path, { method, credentials: "include", ...body }).then((answer) => answer.text(), () => "nothing"));
+        }
+      said.push(
+        await new Promise((done) => {
+          const socket = new WebSocket(`${origin.replace("http", "ws")}/live/socket`);
+          socket.onopen = () => done("open");
+          socket.onerror = () => done("nothing");
+        }),
+      );
+      return said;
+    }, served.origin);
+    assert.deepEqual([...new Set(answers)], ["nothing"]);
+    const session = new URL(page.url()).pathname.split("/")[1]!;
+    assert.match(session, /^[0-9a-f]{32}$/);
+    assert.ok(got.length > 0 && got.every((headers) => !/cookie/i.test(headers) && !headers.includes(session)), got.join());
+    assert.deepEqual(await page.context().cookies(), []);
+    assert.deepEqual(readFileSync(journal), before);
+    await theirs.close();
+    other.close();
+  },
   "without a body model the page says so": async ({ page, served, model }) => {
     if (model === null) return;
     renameSync(model, `${model}.away`);
     await solved(page, /No body model is known for/);
     assert.equal(await page.locator("#solved").getByRole("button", { name: "Solve" }).isDisabled(), true);
-    const refused = await page.evaluate(async () => (await fetch("/api/trial/1/angles", { method: "POST", headers: { "Content-Type": "application/json" }, body: '{"do":"solve"}' })).status);
+    const refused = await page.evaluate(async () => (await fetch("../api/trial/1/angles", { method: "POST", headers: { "Content-Type": "application/json" }, body: '{"do":"solve"}' })).status);
     assert.equal(refused, 422);
     assert.equal((await fetch(`${served.origin}/api/trial/1/angles`)).status, 401, "strangers are told nothing");
     renameSync(`${model}.away`, model);
@@ -250,7 +289,7 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     await page.waitForFunction(() => document.querySelectorAll(".solved-curves .u-over").length >= 2);
     assert.match((await page.locator(".solved-curves").textContent()) ?? "", /Dashed over it: the solution as recorded, angles [\d.]+ deg apart RMS/);
     assert.notEqual((await ink(page, ".solved-curves canvas")).hash, 0);
-    const told = await page.evaluate(async () => (await (await fetch("/api/trial/1/angles")).json()) as { solutions: { now: { set: string; digest: string } } });
+    const told = await page.evaluate(async () => (await (await fetch("../api/trial/1/angles")).json()) as { solutions: { now: { set: string; digest: string } } });
     const out = join(recording, "..", "command.mot");
     kinemark("ik", "--model", model, "--markers", recording, "--edits", "beside", "--output", out, "--force", "--quiet");
     const report = JSON.parse(readFileSync(out.replace(".mot", "_report.json"), "utf8")) as { kinemark_set: string };
@@ -319,7 +358,7 @@ async function tryOn(recording: string, given: string): Promise<number> {
   const model = lies !== given && existsSync(lies) ? join(recording, "..", "subject.osim") : null;
   if (model !== null) copyFileSync(lies, model);
   const served = await serve(recording);
-  const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, `${served.origin}/trial/1`);
+  const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, "trial/1");
   // What is cut and swapped has to be there: whole markers, as the page itself tells.
   const { summary } = await opened.page.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as MarkersPageData);
   const whole = summary.markers.filter((m) => m.labelled && m.states.measured === summary.frames).map((m) => m.name);

@@ -90,7 +90,7 @@ describe("the channel", () => {
     const asked: [string, RequestInit | undefined][] = [];
     const answer = await answering(200, '{"edits":[]}', asked).post(4, { do: "undo", count: 1 });
     expect(asked[0]![0]).toBe("/api/trial/3/edits");
-    expect(asked[0]![1]).toMatchObject({ method: "POST", headers: { "Content-Type": "application/json" }, credentials: "same-origin" });
+    expect(asked[0]![1]).toMatchObject({ method: "POST", headers: { "Content-Type": "application/json" }, credentials: "omit" });
     expect(JSON.parse(String(asked[0]![1]!.body))).toEqual({ expected: 4, edit: { do: "undo", count: 1 } });
     expect(answer).toEqual({ value: { edits: [] }, state: null, refused: null });
   });
@@ -105,7 +105,9 @@ describe("the channel", () => {
     expect((await answering(200, "no JSON").state()).value).toBeNull();
   });
   test("asks about the trial of the address, and of no other", () => {
-    expect(baseOf("/trial/12")).toBe("/api/trial/12");
-    for (const path of ["/", "/trial/", "/trial/0", "/trial/1/x", "/x/trial/1", "/tmp/walk.html", "/trial/1/../2"]) expect(baseOf(path)).toBeNull();
+    const session = "/0123456789abcdef0123456789abcdef";
+    expect(baseOf(`${session}/trial/12`)).toBe(`${session}/api/trial/12`);
+    expect(new Channel(`${session}/api/trial/12`).anglesPage("now")).toBe(`${session}/trial/12/angles/now`);
+    for (const path of ["/", "/trial/1", `${session}/`, `${session}/trial/`, `${session}/trial/0`, `${session}/trial/1/x`, "/x/trial/1", "/tmp/walk.html", "/trial/1/../2"]) expect(baseOf(path)).toBeNull();
   });
 });

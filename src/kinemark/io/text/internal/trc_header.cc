@@ -152,8 +152,7 @@ Result<TrcHeader> parse_trc_header(Lines& lines) {
   if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a TRC file");
   const auto first = split(line);
   if (first.empty() || lower(first[0]) != "pathfiletype")
-    return fail(Code::bad_input, fmt::format("line 1: begins with '{}'; a TRC file begins with PathFileType",
-                                             first.empty() ? "" : excerpt(first[0])));
+    return fail(Code::bad_input, "line 1: is no head of a TRC file; a TRC file begins with PathFileType");
   if (auto status = read_values(lines, header); !status) return std::unexpected(status.error());
   if (auto status = read_names(lines, header); !status) return std::unexpected(status.error());
 
