@@ -1,230 +1,135 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
-
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "cli/analyze_kinds.h"
 #include "cli/command.h"
+#include "cli/command_tree.h"
 #include "cli/console.h"
+#include "cli/dynamics_options.h"
+#include "cli/emg_options.h"
+#include "cli/gait_options.h"
 #include "cli/many_inputs.h"
 #include "cli/measures_options.h"
-#include "cli/motion_measures_options.h"
+#include "cli/recording_options.h"
 #include "cli/segments_options.h"
-#include "kinemark/io/number.h"
-#include "kinemark/pipeline/files/outcome_json.h"
-#include "kinemark/pipeline/motion/analysis_job.h"
+#include "cli/word_list.h"
 
 namespace kinemark::cli {
 namespace {
 
+/// Options that the help shows; those of one kind of analysis alone are shown by its own command.
+constexpr std::string_view kShown =
+    "IN list rate edits select drop rename frames start end up rotate doubtful model forces output figures "
+    "report help";
+
 struct AnalyzeArguments {
-  std::vector<std::filesystem::path> inputs;
-  pipeline::AnalysisJob job;
   MeasuresArguments measures;
-  MotionMeasuresArguments motion;
+  DynamicsArguments dynamics;
   pipeline::SegmentsJob segments;
-  std::vector<std::string> points;
-  bool no_error_bars = false;
 };
 
 /// A motion is a table, and only a motion has a model or a setup; all else is markers.
-bool is_of_markers(const AnalyzeArguments& arguments) {
-  const auto& job = arguments.job;
-  if (arguments.measures.list) return true;
-  const auto ending = pipeline::ending_of(job.motion);
-  return !job.motion.empty() && job.model.empty() && job.setup.empty() && ending != ".mot" &&
-         ending != ".sto";
-}
-
-/// Tables of the motion go into a folder; without one, or into one file, go measures.
-bool is_measured(const AnalyzeArguments& arguments) {
-  const auto& job = arguments.job;
-  const auto ending = pipeline::ending_of(job.output);
-  if (!job.setup.empty() || !job.bodies.empty() || !arguments.points.empty()) return false;
-  return job.output.empty() || ending == ".csv" || ending == ".json" || ending == ".nwb" ||
-         !arguments.measures.job.measures.empty();
-}
-
-/// NAME=BODY:X,Y,Z
-Result<pipeline::AnalysisPoint> parse_point(const std::string& text) {
-  const auto wrong =
-      fail(Code::usage, fmt::format("'{}' is not NAME=BODY:X,Y,Z with X, Y, Z in metres", text));
-  const auto equals = text.find('='), colon = text.rfind(':');
-  if (equals == std::string::npos || colon == std::string::npos || equals == 0 || colon <= equals + 1)
-    return wrong;
-  pipeline::AnalysisPoint point{.name = text.substr(0, equals),
-                                .body = text.substr(equals + 1, colon - equals - 1)};
-  std::size_t begin = colon + 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto end = axis < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos) return wrong;
-    const auto value = io::parse_number(text.substr(begin, end - begin));
-    if (!value || !std::isfinite(*value)) return wrong;
-    point.x_in_body[axis] = *value;
-    begin = end + 1;
-  }
-  return point;
-}
-
-void print_outcome(const CommonOptions& common, const pipeline::AnalysisOutcome& outcome) {
-  for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
-  say(common, fmt::format("{} rows at {:g} Hz from {:g} s.", outcome.time.frames, outcome.time.rate_hz,
-                          outcome.time.t0_s));
-  say_written(common, outcome);
-  if (!common.json) return;
-  auto json = pipeline::outcome_json(outcome);
-  json["rows"] = outcome.time.frames;
-  json["rate_hz"] = outcome.time.rate_hz;
-  json["facts"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : outcome.facts) json["facts"][name] = value;
-  print_result(json.dump(2) + "\n");
+bool is_of_markers(const DynamicsArguments& motion) {
+  const auto& job = motion.job;
+  return !job.motion.empty() && job.model.empty() && job.setup.empty() && !is_motion_file(job.motion);
 }
 
 AnalyzeKind kind_of(const AnalyzeArguments& arguments) {
   if (arguments.measures.list) return AnalyzeKind::list;
-  if (are_many(arguments.inputs)) return AnalyzeKind::several;
+  if (are_many(arguments.measures.inputs)) return AnalyzeKind::several;
   if (!arguments.segments.definition.empty()) return AnalyzeKind::segments;
-  if (is_of_markers(arguments)) return AnalyzeKind::markers;
-  return is_measured(arguments) ? AnalyzeKind::motion : AnalyzeKind::tables;
-}
-
-Status check_no_motion(const std::vector<std::filesystem::path>& inputs) {
-  for (const auto& input : inputs)
-    if (const auto ending = pipeline::ending_of(input); ending == ".mot" || ending == ".sto")
-      return fail(Code::usage,
-                  fmt::format("{}: is a motion; several recordings are of markers", input.string()));
-  return {};
-}
-
-int run_several(const CommonOptions& common, AnalyzeArguments& arguments) {
-  if (auto s = check_no_motion(arguments.inputs); !s) return report_error(s.error());
-  return run_many_measures_command(common, arguments.measures, arguments.inputs);
-}
-
-int run_segments(const CommonOptions& common, AnalyzeArguments& arguments) {
-  arguments.segments.input = arguments.job.motion;
-  arguments.segments.output = arguments.measures.job.output;
-  return run_segments_command(common, arguments.segments, arguments.measures);
-}
-
-int run_tables(const CommonOptions& common, const AnalyzeArguments& arguments) {
-  auto job = arguments.job;
-  for (const auto& text : arguments.points) {
-    auto point = parse_point(text);
-    if (!point) return report_error(point.error());
-    job.points.push_back(std::move(*point));
-  }
-  return run_job(common, "files", job, pipeline::run_analysis, print_outcome);
+  if (is_of_markers(arguments.dynamics)) return AnalyzeKind::markers;
+  return is_measured(arguments.dynamics, arguments.measures.job.measures) ? AnalyzeKind::motion
+                                                                          : AnalyzeKind::tables;
 }
 
 /// What the command line gives once, where each job has it.
 void share(AnalyzeArguments& arguments) {
-  auto& job = arguments.job;
-  if (!arguments.inputs.empty()) job.motion = arguments.measures.job.input = arguments.inputs.front();
-  arguments.measures.job.output = job.output;
-  arguments.measures.job.forces = arguments.segments.forces = job.forces;
-  const auto& times = arguments.measures.job.selection;
-  if (std::isfinite(times.first_time_s)) job.first_time_s = times.first_time_s;
-  if (std::isfinite(times.last_time_s)) job.last_time_s = times.last_time_s;
-  job.error_bars = !arguments.no_error_bars;
+  auto& measures = arguments.measures.job;
+  auto& motion = arguments.dynamics.job;
+  auto& segments = arguments.segments;
+  const auto& inputs = arguments.measures.inputs;
+  if (!inputs.empty()) motion.motion = segments.input = inputs.front();
+  motion.output = segments.output = measures.output;
+  motion.forces = segments.forces = measures.forces;
+  const auto& times = measures.selection;
+  if (std::isfinite(times.first_time_s)) motion.first_time_s = times.first_time_s;
+  if (std::isfinite(times.last_time_s)) motion.last_time_s = times.last_time_s;
+}
+
+/// A sentence, where the command did its work; its exit status.
+int said(const CommonOptions& common, const char* sentence, int status) {
+  if (status <= 1) say(common, sentence);
+  return status;
 }
 
 int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
   share(arguments);
+  const auto& inputs = arguments.measures.inputs;
   const auto kind = kind_of(arguments);
-  const auto input = arguments.inputs.empty() ? std::string("the motion of the setup")
-                                              : arguments.inputs.front().filename().string();
+  const auto input =
+      inputs.empty() ? std::string("the motion of the setup") : inputs.front().filename().string();
   if (auto s = check_heeded(command, kind, input); !s) return report_error(s.error());
   switch (kind) {
     case AnalyzeKind::list:
     case AnalyzeKind::markers:
-      return run_measures_command(common, arguments.measures);
     case AnalyzeKind::several:
-      return run_several(common, arguments);
+      return run_measures_command(common, command, arguments.measures);
     case AnalyzeKind::segments:
-      return run_segments(common, arguments);
+      return said(common, "This is 'kinemark segments'.",
+                  run_segments_command(common, arguments.segments, arguments.measures));
     case AnalyzeKind::motion:
-      return run_motion_measures_command(common, arguments.job, arguments.measures.job, arguments.motion);
     case AnalyzeKind::tables:
-      return run_tables(common, arguments);
+      return said(common, "This is 'kinemark dynamics'.",
+                  run_dynamics_command(common, arguments.dynamics, arguments.measures.job));
   }
   return report_error({.code = Code::usage, .message = "nothing to analyse"});
 }
 
-void add_options(CLI::App& command, AnalyzeArguments& a) {
-  auto& job = a.job;
-  command.add_option(
-      "IN", a.inputs,
-      "Markers, whose paths are measured: a recording, several, or a folder of them; or a motion: .mot "
-      "or .sto of coordinates, with Q_sd.sto beside it if there is one");
-  command.add_option("-m,--model", job.model, "Body model, .osim; torques need masses")->group("Input");
-  command
-      .add_option(
-          "--forces", job.forces,
-          "Forces on the body, for torques, steps and moments, instead of a recording's own plates: .c3d "
-          "or .mat with force plates, .mot or .sto with columns such as ground_force_vx, or OpenSim "
-          "ExternalLoads .xml")
-      ->group("Input");
-  command
-      .add_option("--setup", job.setup,
-                  "OpenSim AnalyzeTool or InverseDynamicsTool setup; other options take precedence")
-      ->group("Input");
+void add_options(CLI::App& command, AnalyzeArguments& arguments) {
+  auto& job = arguments.measures.job;
+  command.add_option("IN", arguments.measures.inputs,
+                     "A recording of markers, several, or a folder of them; or a motion, .mot or .sto");
+  add_recording_options(command, job, pipeline::Doubtful::drop);
+  add_dynamics_options(command, arguments.dynamics);
+  add_forces_option(command, job.forces);
+  add_segments_options(command, arguments.segments, "--segments");
+  add_feet_options(command, job.gait, true);
+  add_angles_option(command, job.gait);
+  add_sheet_options(command, job.gait);
+  add_emg_options(command, job.emg, kSharedEmgNames);
+  add_measures_options(command, arguments.measures);
+  add_noise_option(command, arguments.measures.noise_mm);
   command
       .add_option("-o,--output", job.output,
-                  "Folder for the results; for measures a table, .csv, .json or .nwb")
+                  "Table of the measures, .csv, .json or .nwb; of a motion also a folder for its tables")
       ->type_name("PATH")
       ->group("Output");
-  command.add_flag("--no-error-bars", a.no_error_bars, "Skip standard deviations")->group("Output");
-  command.add_option("--bodies", job.bodies, "Bodies to follow, center_of_mass among them; all when absent")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group("What");
-  command
-      .add_option("--point", a.points,
-                  "Point of a body to follow, in metres: heel=calcn_r:0.01,0.02,0.03. Repeatable.")
-      ->type_name("NAME=BODY:X,Y,Z")
-      ->allow_extra_args(false)
-      ->group("What");
-  command.add_flag("--torques", job.torques, "Inverse dynamics too (N m, N); --forces implies it")
-      ->group("What");
-  command
-      .add_option(
-          "--cutoff", job.cutoff_hz,
-          "Low-pass of the coordinates beforehand, as OpenSim's, Hz; 0: none, each is smoothed by itself")
-      ->capture_default_str()
-      ->group("Rates");
+  add_cycle_options(command, job.gait);
+  add_drawing_options(command, job, "paths, angles over the gait cycle");
+  add_several_options(command, arguments.measures);
+  for (CLI::Option* option : command.get_options())
+    if (!has_word(kShown, option->get_lnames().empty() ? option->get_name() : option->get_lnames().front()))
+      option->group(kExplainedElsewhere);
 }
 
 }  // namespace
 
 void add_analyze(CLI::App& app, const CommonOptions& common, Run& run) {
-  auto* command = app.add_subcommand(
-      "analyze",
-      "Measures of markers' paths with intervals; what bodies do along a motion: positions, rates, torques");
+  auto* command =
+      app.add_subcommand("analyze", "All that a recording or a motion shows, and which command shows it");
   command->footer(
-      "Of a recording of markers: shape, timing and smoothness of each path, freed of the bias of noise, "
-      "with 95 % "
-      "intervals\n(docs/stages/measures.md); --list tells what there is. Of several recordings, or of a "
-      "folder of them, in one "
-      "table\n(docs/stages/many-recordings.md).\nWith --segments: joint centres and "
-      "angles by a definition "
-      "(docs/stages/segments.md).\nOf a motion with --model: ranges, peaks, power and work of joints, "
-      "mass centre, stability, angular momentum (docs/stages/motion-measures.md).\nWith a folder: writes "
-      "into "
-      "it, with OpenSim's names and labels: NAME_Kinematics_q, _u, _dudt.sto, "
-      "NAME_BodyKinematics_pos,\n_vel, _acc_global.sto (mass centres, body-fixed X-Y-Z angles), "
-      "NAME_PointKinematics_POINT_pos, _vel, _acc.sto,\nNAME_inverse_dynamics.sto, beside each its standard "
-      "deviations (_sd.sto), and NAME_analysis.json. Degrees, metres, seconds, N m.");
+      "For those who do not know which command it is. Walking and force plates are measured by 'gait', paths "
+      "of "
+      "markers by\n'measure', electromyograms by 'emg', angles of segments by 'segments', motions of a body "
+      "model by "
+      "'dynamics'.\nTheir options are taken here too (docs/stages/analyze.md).");
   const auto arguments = std::make_shared<AnalyzeArguments>();
   add_options(*command, *arguments);
-  add_measures_options(*command, arguments->measures);
-  add_motion_measures_options(*command, arguments->motion);
-  add_segments_options(*command, arguments->segments);
   command->callback([&common, command, arguments, &run] {
     run = [&common, command, arguments] { return run_command(common, *command, *arguments); };
   });

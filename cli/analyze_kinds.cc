@@ -32,7 +32,7 @@ struct Heeded {
 };
 
 constexpr std::array kHeeded = {
-    Heeded{"IN start end output", kRecordings | kMotions},
+    Heeded{"IN MOTION start end output", kRecordings | kMotions},
     Heeded{"list", kList},
     Heeded{"rate edits drop rename frames up rotate doubtful noise", kRecordings},
     Heeded{"select refits level", kRecordings | kMotion},
@@ -41,14 +41,14 @@ constexpr std::array kHeeded = {
     Heeded{"forces", kDrawn | kTables},
     Heeded{"bodies point", kTables},
     Heeded{"couple normalize", kMotion},
-    Heeded{"segments static vsk subject trial", kSegments},
+    Heeded{"segments definition static vsk subject trial", kSegments},
     Heeded{"events gait-marker write-events write-cycles", kDrawn | kSeveral},
     Heeded{"figures figure-formats report norm angle-angle", kDrawn | kSeveral},
     Heeded{"angles", kMarkers | kSeveral},
-    Heeded{
-        "emg emg-high-pass emg-low-pass emg-envelope emg-rms emg-max write-emg write-emg-cycles participants "
-        "jobs",
-        kMarkers | kSeveral},
+    Heeded{"channels high-pass low-pass envelope rms max write-envelopes emg emg-high-pass emg-low-pass "
+           "emg-envelope emg-rms emg-max write-emg write-emg-cycles participants "
+           "jobs",
+           kMarkers | kSeveral},
 };
 
 /// "walk.c3d is {}"

@@ -139,7 +139,7 @@ void add_clean(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_flag("--without-unfiltered", arguments->without_unfiltered,
                     "Do not keep the samples from before the filter beside the smoothed ones");
   command->add_flag("!--keep-exchanges", job.exchange_back,
-                    "Leave markers that carry each other's label as they are; told all the same");
+                    "Leave markers that carry each other's label as they are; reported all the same");
   command->add_flag("--derivatives", job.derivatives,
                     "Write velocity, acceleration and jerk with their SDs too");
   add_recording_options(*command, job, pipeline::Doubtful::keep);

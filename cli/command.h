@@ -41,6 +41,11 @@ void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run
 void add_simulate_rig(CLI::App& simulate, const CommonOptions& common, Run& run);
 void add_ik(CLI::App& app, const CommonOptions& common, Run& run);
 void add_analyze(CLI::App& app, const CommonOptions& common, Run& run);
+void add_measure(CLI::App& app, const CommonOptions& common, Run& run);
+void add_gait(CLI::App& app, const CommonOptions& common, Run& run);
+void add_emg(CLI::App& app, const CommonOptions& common, Run& run);
+void add_segments(CLI::App& app, const CommonOptions& common, Run& run);
+void add_dynamics(CLI::App& app, const CommonOptions& common, Run& run);
 void add_groups(CLI::App& app, const CommonOptions& common, Run& run);
 void add_track(CLI::App& app, const CommonOptions& common, Run& run);
 void add_joints(CLI::App& app, const CommonOptions& common, Run& run);

@@ -18,7 +18,7 @@ OptionText text_of(const CLI::Option& option) {
 
 void add_options(const CLI::App& app, CommandText& text) {
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // hidden
+    if (option->get_group().empty() || option->get_group() == kExplainedElsewhere) continue;
     if (option->get_positional()) {
       const bool needed = option->get_required();
       text.usage += fmt::format("{}{}{}{}", text.usage.empty() ? "" : " ", needed ? "" : "[",
@@ -49,6 +49,12 @@ void append(const CommandText& text, std::vector<const CommandText*>& list) {
 }
 
 }  // namespace
+
+void hide_for_help(CLI::App& app) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
+    if (option->get_group() == kExplainedElsewhere) option->group("");
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) hide_for_help(*command);
+}
 
 CommandText command_tree(const CLI::App& app) { return text_of(app, {}); }
 

@@ -11,6 +11,13 @@
 
 namespace kinemark::cli {
 
+/// The group of options that a command takes and does not show: another command explains them.
+inline constexpr const char* kExplainedElsewhere = "Explained elsewhere";
+
+/// These options hidden from the help that CLI11 prints, in all commands. To be called when it is printed:
+/// what is hidden before has no name in its messages.
+void hide_for_help(CLI::App& app);
+
 struct OptionText {
   std::vector<std::string> names;  ///< as typed: "-m", "--model"
   std::string value;               ///< what it takes, "FILE"; empty: nothing

@@ -4,16 +4,19 @@
 
 namespace kinemark::cli {
 
-void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
-  const char* what = "Walking";
-  command
-      .add_option("--events", request.events,
-                  "Whose events: of feet best (plates, else markers), plates, kinematics, file; movement: of "
-                  "each marker's own "
-                  "movement")
+namespace {
+
+constexpr const char* kWalking = "Walking";
+
+}  // namespace
+
+void add_feet_options(CLI::App& command, pipeline::GaitRequest& request, bool movements) {
+  std::string text = "Whose events of feet: best (plates, else markers), plates, kinematics, file";
+  if (movements) text += "; or movement: of each marker's own movement";
+  command.add_option("--events", request.events, text)
       ->type_name("WHOSE")
       ->capture_default_str()
-      ->group(what);
+      ->group(kWalking);
   command
       .add_option(
           "--gait-marker", request.markers,
@@ -21,26 +24,33 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
           ".toml of such lines. Repeatable.")
       ->type_name("ROLE=NAME")
       ->allow_extra_args(false)
-      ->group(what);
+      ->group(kWalking);
+}
+
+void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request) {
   command
       .add_option("--write-events", request.write_events,
-                  "Foot strikes and leavings, or starts and ends of movements and cycles where no foot "
-                  "steps: .csv, or "
-                  ".c3d, the recording with these events")
+                  "Foot strikes and foot offs, or starts and ends of movements and cycles where no foot "
+                  "steps: .csv, or .c3d, the recording with these events")
       ->type_name("FILE")
-      ->group(what);
+      ->group("Output");
   command
       .add_option("--write-cycles", request.write_cycles,
                   "Angles over each stride and their mean, 0 to 100 %, .csv: of the recording's own, or of "
-                  "--angles; where no foot "
-                  "steps, places and speeds over each repetition")
+                  "--angles; where no foot steps, places and speeds over each repetition")
       ->type_name("FILE")
-      ->group(what);
+      ->group("Output");
+}
+
+void add_angles_option(CLI::App& command, pipeline::GaitRequest& request) {
   command
       .add_option("--angles", request.angles,
                   "Motion whose coordinates are cut into cycles, .mot or .sto; Q_sd.sto beside it counts too")
       ->type_name("FILE")
-      ->group(what);
+      ->group(kWalking);
+}
+
+void add_sheet_options(CLI::App& command, pipeline::GaitRequest& request) {
   command
       .add_option(
           "--norm", request.sheet.norms,
@@ -48,7 +58,7 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
           "measures. Repeatable.")
       ->type_name("FILE")
       ->allow_extra_args(false)
-      ->group(what);
+      ->group(kWalking);
   command
       .add_option(
           "--angle-angle", request.sheet.angle_angle,
@@ -56,7 +66,7 @@ void add_gait_options(CLI::App& command, pipeline::GaitRequest& request) {
           "and knee, knee and ankle when absent")
       ->type_name("A:B")
       ->allow_extra_args(false)
-      ->group(what);
+      ->group(kWalking);
 }
 
 }  // namespace kinemark::cli

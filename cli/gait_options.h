@@ -8,7 +8,14 @@
 
 namespace kinemark::cli {
 
-/// The options of `analyze` that belong to walking, in a group of their own.
-void add_gait_options(CLI::App& command, pipeline::GaitRequest& request);
+/// Whose events of feet, and which markers are on them.
+/// @param movements  whether events may be those of the markers' own movements instead
+void add_feet_options(CLI::App& command, pipeline::GaitRequest& request, bool movements = false);
+/// Files of events and cycles.
+void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request);
+/// The motion whose coordinates are cut into cycles.
+void add_angles_option(CLI::App& command, pipeline::GaitRequest& request);
+/// Norms, and pairs of curves.
+void add_sheet_options(CLI::App& command, pipeline::GaitRequest& request);
 
 }  // namespace kinemark::cli

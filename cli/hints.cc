@@ -19,12 +19,12 @@ namespace kinemark::cli {
 namespace {
 
 /// What users of OpenSim, Nexus, QTM and Visual3D call what our commands do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 44> kHabits = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 51> kHabits = {{
     {"inversekinematics", "ik"},
     {"inverse-kinematics", "ik"},
-    {"inverse-dynamics", "ik --torques"},
-    {"inversedynamics", "ik --torques"},
-    {"id", "ik --torques"},
+    {"inverse-dynamics", "dynamics --torques"},
+    {"inversedynamics", "dynamics --torques"},
+    {"id", "dynamics --torques"},
     {"run-tool", "ik --setup"},
     {"opensim-cmd", "ik --setup"},
     {"solve", "ik"},
@@ -64,6 +64,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 44> kHabits 
     {"browse", "serve"},
     {"workbench", "serve"},
     {"live", "track"},
+    {"measures", "measure"},
+    {"events", "gait"},
+    {"steps", "gait"},
+    {"plates", "gait"},
+    {"angles", "segments --definition pig"},
+    {"pig", "segments --definition pig"},
+    {"bodykinematics", "dynamics"},
 }};
 
 /// Options that other words say by now.

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/measures_options.h"
 
+#include <fmt/core.h>
+
+#include "cli/analyze_kinds.h"
 #include "cli/console.h"
-#include "cli/emg_options.h"
-#include "cli/gait_options.h"
-#include "cli/recording_options.h"
+#include "cli/dynamics_options.h"
+#include "cli/many_inputs.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/measures/many_measures_job.h"
@@ -38,23 +40,61 @@ int print_many(const CommonOptions& common, const pipeline::ManyMeasuresOutcome&
   return outcome.exit_status();
 }
 
+Status check_no_motion(const std::vector<std::filesystem::path>& inputs) {
+  for (const auto& input : inputs)
+    if (is_motion_file(input))
+      return fail(Code::usage,
+                  fmt::format("{} is a motion, no recording of markers; 'kinemark dynamics' measures it",
+                              input.string()));
+  return {};
+}
+
+int run_one(const CommonOptions& common, MeasuresArguments& arguments) {
+  if (auto s = check_no_motion(arguments.inputs); !s) return report_error(s.error());
+  auto& job = arguments.job;
+  job.input = arguments.inputs.front();
+  job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  return run_job(common, "markers", job, pipeline::run_measures,
+                 [&job](const CommonOptions& options, const pipeline::MeasuresOutcome& outcome) {
+                   const auto commands = pipeline::commands_for(outcome);
+                   if (job.of == pipeline::MeasuresOf::everything && !commands.empty())
+                     say(options, fmt::format("This is {}.", commands));
+                   print_measures(options, outcome);
+                 });
+}
+
+int run_many(const CommonOptions& common, MeasuresArguments& arguments) {
+  if (auto s = check_no_motion(arguments.inputs); !s) return report_error(s.error());
+  pipeline::ManyMeasuresJob job;
+  static_cast<pipeline::MeasuresJob&>(job) = arguments.job;
+  job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.inputs = arguments.inputs;
+  job.jobs = arguments.jobs;
+  if (job.output.empty() && !job.gait.writes() && !common.json)
+    return report_error(
+        {.code = Code::usage,
+         .message = "several recordings need a table for their measures: -o FILE.csv, .json or .nwb (or "
+                    "--json, --write-events, --write-cycles)"});
+  settle(common, "recordings", job);
+  const auto outcome = pipeline::run_many_measures(job);
+  if (!outcome) return report_error(outcome.error());
+  return print_many(common, *outcome);
+}
+
 }  // namespace
 
 void add_measures_options(CLI::App& command, MeasuresArguments& a) {
   auto& job = a.job;
-  add_recording_options(command, job, pipeline::Doubtful::drop);
-  const char* what = "Measures of markers";
-  const auto list = [&](const char* name, auto& value, const char* type, const char* text) {
-    command.add_option(name, value, text)
-        ->type_name(type)
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->group(what);
-  };
+  const char* what = "Measures";
   command.add_flag("--list", a.list, "What measures there are: formula, unit and source of each")
       ->group(what);
-  list("--measures", job.measures, "NAME",
-       "Which, with commas between; all that apply to each movement when absent");
+  command
+      .add_option("--measures", job.measures,
+                  "Which, with commas between; all that apply to each movement when absent")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(what);
   command
       .add_option("--region", job.regions,
                   "A span to measure: reach=120-300 in frames, reach=1.2s-3s. Repeatable.")
@@ -66,39 +106,59 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->type_name("LABEL")
       ->allow_extra_args(false)
       ->group(what);
-  command.add_option("--noise", a.noise_mm, "Marker noise per axis; 0: found from the data")
-      ->type_name("MM")
-      ->capture_default_str()
-      ->group(what);
-  command.add_option("--refits", job.refits, "Simulated recordings behind each interval; 0: no intervals")
+  add_interval_options(command, job);
+}
+
+void add_interval_options(CLI::App& command, pipeline::MeasureChoice& choice) {
+  command.add_option("--refits", choice.refits, "Simulated recordings behind each interval; 0: no intervals")
       ->type_name("N")
       ->capture_default_str()
-      ->group(what);
-  command.add_option("--level", job.level, "Coverage of the intervals, 0.5 to 1")
+      ->group("Measures");
+  command.add_option("--level", choice.level, "Coverage of the intervals, 0.5 to 1")
       ->type_name("SHARE")
       ->capture_default_str()
-      ->group(what);
+      ->group("Measures");
+}
+
+void add_noise_option(CLI::App& command, double& noise_mm) {
+  command.add_option("--noise", noise_mm, "Marker noise per axis; 0: found from the data")
+      ->type_name("MM")
+      ->capture_default_str()
+      ->group("Measures");
+}
+
+void add_forces_option(CLI::App& command, std::filesystem::path& forces) {
   command
-      .add_option("--figures", job.figures,
-                  "Folder for figures: of each path in its plane, its speed and acceleration, its cycles; of "
-                  "walking, angles "
-                  "over the gait cycle")
-      ->type_name("FOLDER")
-      ->group("Output");
+      .add_option(
+          "--forces", forces,
+          "Forces on the body, for torques, steps and moments, instead of a recording's own plates: .c3d "
+          "or .mat with force plates, .mot or .sto with columns such as ground_force_vx, or OpenSim "
+          "ExternalLoads .xml")
+      ->group("Input");
+}
+
+void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures) {
+  auto* folder = command.add_option("--figures", outputs.figures, "Folder for figures: " + figures)
+                     ->type_name("FOLDER")
+                     ->group("Output");
   command
-      .add_option("--figure-formats", job.figure_formats,
+      .add_option("--figure-formats", outputs.figure_formats,
                   "svg, png or both with a comma between; what this program can write when absent")
       ->type_name("NAME")
+      ->needs(folder)
       ->group("Output");
   command
-      .add_option("--report", job.report,
+      .add_option("--report", outputs.report,
                   "Page to write as well, .html: figures and tables; of walking alone, a gait report")
       ->type_name("FILE")
       ->group("Output");
+}
+
+void add_several_options(CLI::App& command, MeasuresArguments& a) {
   const char* several = "Several recordings";
   command
       .add_option(
-          "--participants", job.participants_file,
+          "--participants", a.job.participants_file,
           "Table whose columns are joined to the rows, by participant_id or by file: participants.tsv")
       ->type_name("FILE")
       ->group(several);
@@ -107,37 +167,20 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str()
       ->group(several);
-  add_gait_options(command, job.gait);
-  add_emg_options(command, job.emg);
 }
 
-int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments) {
-  if (arguments.list) {
-    print_result(common.json ? pipeline::json_text(pipeline::measure_list_json()) + "\n"
-                             : pipeline::measure_list());
-    return 0;
-  }
-  auto& job = arguments.job;
-  job.noise_sd_m = 1e-3 * arguments.noise_mm;
-  return run_job(common, "markers", job, pipeline::run_measures, print_measures);
-}
-
-int run_many_measures_command(const CommonOptions& common, MeasuresArguments& arguments,
-                              const std::vector<std::filesystem::path>& inputs) {
-  pipeline::ManyMeasuresJob job;
-  static_cast<pipeline::MeasuresJob&>(job) = arguments.job;
-  job.noise_sd_m = 1e-3 * arguments.noise_mm;
-  job.inputs = inputs;
-  job.jobs = arguments.jobs;
-  if (job.output.empty() && !job.gait.writes() && !common.json)
-    return report_error(
-        {.code = Code::usage,
-         .message = "several recordings need a table for their measures: -o FILE.csv, .json or .nwb (or "
-                    "--json, --write-events, --write-cycles)"});
-  settle(common, "recordings", job);
-  const auto outcome = pipeline::run_many_measures(job);
-  if (!outcome) return report_error(outcome.error());
-  return print_many(common, *outcome);
+int run_measures_command(const CommonOptions& common, const CLI::App& command, MeasuresArguments& arguments) {
+  const auto& inputs = arguments.inputs;
+  if (inputs.empty() && !arguments.list)
+    return report_error({.code = Code::usage, .message = "IN is required: a recording of markers"});
+  const bool many = are_many(inputs);
+  const auto kind = arguments.list ? AnalyzeKind::list : many ? AnalyzeKind::several : AnalyzeKind::markers;
+  if (auto s = check_heeded(command, kind, inputs.empty() ? "" : inputs.front().filename().string()); !s)
+    return report_error(s.error());
+  if (!arguments.list) return many ? run_many(common, arguments) : run_one(common, arguments);
+  print_result(common.json ? pipeline::json_text(pipeline::measure_list_json()) + "\n"
+                           : pipeline::measure_list());
+  return 0;
 }
 
 }  // namespace kinemark::cli

@@ -12,22 +12,32 @@
 
 namespace kinemark::cli {
 
-/// What `analyze` takes for a recording of markers.
+/// What commands take that measure a recording of markers.
 struct MeasuresArguments {
+  std::vector<std::filesystem::path> inputs;
   pipeline::MeasuresJob job;
   double noise_mm = 0.0;
-  bool list = false;  ///< tell what measures there are
+  bool list = false;  ///< print what measures there are
   int jobs = 1;       ///< of several recordings
 };
 
-/// The options that belong to markers alone, in groups of their own.
+/// Which measures, over which spans, with which intervals; --list.
 void add_measures_options(CLI::App& command, MeasuresArguments& arguments);
+/// --refits and --level.
+void add_interval_options(CLI::App& command, pipeline::MeasureChoice& choice);
+/// --noise of markers.
+void add_noise_option(CLI::App& command, double& noise_mm);
+/// The forces on the body from another file than the recording.
+void add_forces_option(CLI::App& command, std::filesystem::path& forces);
+/// Figures and page.
+/// @param figures  what is drawn
+void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures);
+/// What several recordings in one table have.
+void add_several_options(CLI::App& command, MeasuresArguments& arguments);
 
-/// Measure, or list; the exit status. The table goes to standard output.
-[[nodiscard]] int run_measures_command(const CommonOptions& common, MeasuresArguments& arguments);
-
-/// Measure several recordings, folders among them, into one table; the exit status, the worst of theirs.
-[[nodiscard]] int run_many_measures_command(const CommonOptions& common, MeasuresArguments& arguments,
-                                            const std::vector<std::filesystem::path>& inputs);
+/// Measure one recording or several, folders among them, or list measures; the exit status. Refuses options
+/// that are not heeded of what is given, and motions. A table that goes nowhere else goes to standard output.
+[[nodiscard]] int run_measures_command(const CommonOptions& common, const CLI::App& command,
+                                       MeasuresArguments& arguments);
 
 }  // namespace kinemark::cli

@@ -19,7 +19,8 @@ struct Values {
 };
 
 constexpr std::array kValues = {
-    Values{"FILE IN INPUT OUT output model markers static setup tasks forces rig nominal data report figures "
+    Values{"FILE IN MOTION INPUT OUT output model markers static setup tasks forces rig nominal data report "
+           "figures "
            "segments skeleton edits joints record certificate key",
            "FILE"},
     Values{"out man-pages geometry", "FOLDER"},

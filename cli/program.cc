@@ -72,6 +72,11 @@ void add_everything(CLI::App& app, CommonOptions& common, Run& run) {
   add_ik(app, common, run);
   add_track(app, common, run);
   add_analyze(app, common, run);
+  add_measure(app, common, run);
+  add_gait(app, common, run);
+  add_emg(app, common, run);
+  add_segments(app, common, run);
+  add_dynamics(app, common, run);
   add_groups(app, common, run);
   add_report(app, common, run);
   add_serve(app, common, run);

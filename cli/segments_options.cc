@@ -37,14 +37,12 @@ void print_segments(const CommonOptions& common, const pipeline::SegmentsOutcome
 
 }  // namespace
 
-void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
-  auto* segments =
-      command
-          .add_option(
-              "--segments", job.definition,
-              "Segment frames, joint centres and angles instead, by a definition: pig (Plug-in Gait), "
-              "isb-shoulder, or a .toml")
-          ->type_name("NAME|FILE");
+void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job, const std::string& definition) {
+  auto* segments = command
+                       .add_option(definition, job.definition,
+                                   "Whose segment frames, joint centres and angles: pig (Plug-in Gait), "
+                                   "isb-shoulder, or a .toml")
+                       ->type_name("NAME|FILE");
   auto* still = command
                     .add_option("--static", job.static_trial,
                                 "Static trial of the subject; the recording itself: it is its own")
@@ -64,7 +62,7 @@ void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job) {
                                 "A trial in which landmarks of the definition were shown. Repeatable.")
                     ->type_name("NAME=FILE")
                     ->allow_extra_args(false);
-  for (auto* option : {segments, still, vsk, subject, trial}) option->group("Segments of markers");
+  for (auto* option : {segments, still, vsk, subject, trial}) option->group("Segments");
   for (auto* option : {still, vsk, subject, trial}) option->needs(segments);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "cli/command.h"
 #include "cli/measures_options.h"
@@ -10,8 +11,9 @@
 
 namespace kinemark::cli {
 
-/// The options of `analyze --segments`, in a group of their own.
-void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job);
+/// The options of segments, in a group of their own.
+/// @param definition  name of the option that gives the definition: "--definition"
+void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job, const std::string& definition);
 
 /// Compute; the exit status. What segments share with measures (noise, rate, markers) is in `measures`.
 [[nodiscard]] int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job,

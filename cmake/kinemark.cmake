@@ -10,6 +10,8 @@ add_library(kinemark_flags INTERFACE)
 target_include_directories(kinemark_flags INTERFACE ${CMAKE_CURRENT_LIST_DIR}/../src)
 # Same bits everywhere: no contraction to fused multiply-add, no fast-math, baseline instruction set.
 target_compile_options(kinemark_flags INTERFACE -ffp-contract=off)
+# Programs name sources by their place in the project, not in the folder of whoever built them.
+target_compile_options(kinemark_flags INTERFACE -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(KINEMARK_DEVELOPER)
   # Only GCC tells a hidden local from a hidden member, which our constructors have.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -35,6 +35,7 @@ ALLOWED = {
     **{folder: ("core", "math", "data") for folder in LAYER_3},
     "stages": ("core", "math", "data", *LAYER_3),
     "pipeline": ("core", "math", "data", *LAYER_3, "stages"),
+    "front header": ("core", "math", "data", *LAYER_3, "stages", "pipeline"),
     # The founding papers beside ours: they stand beside the library and join stages as they need.
     "studies": ("core", "math", "data", *LAYER_3, "stages", "pipeline"),
     # Front ends: no algorithm lives there, so they reach stages through pipeline/ only.
@@ -43,6 +44,7 @@ ALLOWED = {
 }
 # Folders in steps: their subfolders, lowest first. Files beside the subfolders may include all of them.
 STEPS = {"src/kinemark/stages/skeleton/articulated": ("chain", "frame", "geometry", "recording")}
+FRONT_HEADER = "src/kinemark/kinemark.h"  # for those who use the library; nothing of ours includes it
 FRONT_ENDS = ("cli", "python")
 SUFFIXES = {".h", ".cc"}
 
@@ -53,6 +55,8 @@ COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 def folder_of(path):
     """'core', 'io', 'stages/motion', 'front end', ... of a path relative to the root; None: not ours."""
     parts = PurePosixPath(path).parts
+    if path == FRONT_HEADER:
+        return "front header"
     if parts[0] in FRONT_ENDS:
         return "front end"
     if parts[0] == "server":

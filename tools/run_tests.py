@@ -278,8 +278,9 @@ def consumer(log):
             log.must("cmake", "--build", folder, "--parallel", log.jobs)
             counts.passed += 1
         log.must(build / "consumer" / compiler / "consumer" / "consumer")
+        log.must("ctest", "--test-dir", build / "consumer" / compiler / "consumer", "--no-tests=error")
         log.must("ctest", "--test-dir", build / "consumer" / compiler / "examples", "--no-tests=error")
-        counts.passed += 2
+        counts.passed += 3
     return counts
 
 

@@ -97,8 +97,8 @@ def judge(name, groups, options, test):
     same = len(theirs.clusters) == len(ours["stretches"])
     if possible >= FEW or same:
         worst = max((abs(a - b) for a, b in pairs), default=0.0)
-        good &= row(same and worst <= 0.005, f"{name}: probability of each stretch", "as many, 0.005",
-                    f"{len(ours['stretches'])} and {len(theirs.clusters)}, {worst:.4f}")
+        good &= row(same and worst <= 0.005, f"{name}: probability of each span", "as many, 0.005",
+                    f"{len(ours['spans'])} and {len(theirs.clusters)}, {worst:.4f}")
     return good
 
 

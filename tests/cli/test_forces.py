@@ -43,6 +43,9 @@ class Forces(CommandTest):
             self.assertAlmostEqual(one[2], other[2], delta=0.005)
         self.assertTrue(any("forces are those of grf.mot" in w for w in beside["warnings"]))
         self.assertFalse(any("forces are those of" in w for w in first["warnings"]))
+        self.good("analyze", "walk.trc", "--forces", "grf.mot", "--measures", "gait,plates", "--refits", "0", "--report", "page.html")
+        run = json.loads(report_data((self.folder / "page.html").read_text()))
+        self.assertIn("grf.mot", json.dumps(run["run"]["inputs"] if "run" in run and "inputs" in run["run"] else run))
         peaks = [max(m["value"] for m in one["measures"] if m["measure"] == "peak_force") for one in (first, beside)
                  if any(m["measure"] == "peak_force" for m in one["measures"])]
         if len(peaks) == 2:

@@ -27,7 +27,7 @@ SLIPS = (
     # Habits from OpenSim.
     (("run-tool", "setup.xml"), "'kinemark ik --setup' does that"),
     (("InverseKinematics", "setup.xml"), "'kinemark ik' does that"),
-    (("inverse_dynamics", "setup.xml"), "'kinemark ik --torques' does that"),
+    (("inverse_dynamics", "setup.xml"), "'kinemark dynamics --torques' does that"),
     (("ScaleTool", "setup.xml"), "'kinemark scale' does that"),
     (("ik", "-setup", "s.xml"), "write '--setup'"),
     (("ik", "-model", "m.osim", "-markers", "t.trc"), "write '--model'"),

@@ -9,7 +9,7 @@ import shutil
 from support import CommandTest, read_csv, report_data, table
 
 OPTIONS = ("--rate", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
-COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "analyze", "report")
+COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "measure", "analyze", "report")
 NOT_SENSIBLE = {  # a value of each option, and what is said of it, whatever the command
     "--rate": ("-1", 2, "--rate is -1 Hz; need a number above 0"),
     "--edits": ("absent.jsonl", 4, "absent.jsonl"),
@@ -43,6 +43,7 @@ class RecordingOptionsTest(CommandTest):
             "joints": ["joints", "walk.c3d", "-o", "centres", "--force"],
             "scale": ["scale", "-m", self.model, "-t", "walk.c3d", "-o", "scaled.osim", "--force", "--max-frames", 10],
             "analyze": ["analyze", "walk.c3d", "--measures", "path_length", "--refits", 0, "-o", "out.csv", "--force"],
+            "measure": ["measure", "walk.c3d", "--measures", "path_length", "--refits", 0, "-o", "out.csv", "--force"],
             "report": ["report", "walk.c3d", "-o", "page.html", "--force"],
         }[command]
 
@@ -53,7 +54,7 @@ class RecordingOptionsTest(CommandTest):
         if command == "info":
             found = json.loads(ran.out)
             found.pop("warnings", None)
-        elif command in ("convert", "clean", "analyze"):
+        elif command in ("convert", "clean", "measure", "analyze"):
             found = read_csv(self.folder / "out.csv")
         elif command in ("ik", "track"):
             found = table(self.folder / "q.mot")
@@ -104,7 +105,7 @@ class RecordingOptionsTest(CommandTest):
         for command in COMMANDS:
             whole = self.numbers(command)[0]
             for option, value in given.items():
-                if option == "--rotate" and command in ("info", "analyze", "scale", "joints"):
+                if option == "--rotate" and command in ("info", "measure", "analyze", "scale", "joints"):
                     continue  # lengths and sizes do not change: the note alone says it
                 with self.subTest(command=command, option=option):
                     part, _ = self.numbers(command, option, value)
@@ -116,7 +117,7 @@ class RecordingOptionsTest(CommandTest):
         rate = json.loads(self.good("info", "walk.c3d", "--json").out)["rate_hz"]
         times = ("--start", (first - self.first) / rate, "--end", (last - self.first) / rate)
         begin = json.loads(self.good("info", "walk.c3d", "--json").out)
-        for command in ("convert", "analyze", "joints", "ik"):
+        for command in ("convert", "measure", "analyze", "joints", "ik"):
             with self.subTest(command=command):
                 t0 = (begin["first_frame"] - 1) / rate
                 by_time = self.numbers(command, times[0], f"{times[1] + t0:.9f}", times[2], f"{times[3] + t0:.9f}")[0]
@@ -133,7 +134,7 @@ class RecordingOptionsTest(CommandTest):
     def test_a_part_by_options_is_a_part_by_file(self):
         frames = f"{self.first + 12}-{self.first + 42}"
         self.good("convert", "walk.c3d", "part.c3d", "--frames", frames, "--drop", self.labels[0], "--quiet")
-        for command in ("clean", "joints", "analyze"):
+        for command in ("clean", "joints", "measure", "analyze"):
             with self.subTest(command=command):
                 by_option = self.numbers(command, "--frames", frames, "--drop", self.labels[0])[0]
                 shutil.copy(self.folder / "walk.c3d", self.folder / "kept.c3d")

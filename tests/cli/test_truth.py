@@ -136,7 +136,7 @@ class CleanedTruth(CommandTest):
         truth, filled = self.rows(self.folder / "truth.csv"), self.rows(self.folder / "filled.csv")
         ratios = []
         for gap in json.loads((self.folder / "filled_report.json").read_text())["gaps"]:
-            frames = range(gap["first_frame"] + 1, gap["last_frame"] + 2)
+            frames = range(gap["first_frame"], gap["last_frame"] + 1)
             if not gap["filled"] or gap["at_edge"] or len(frames) > 10:
                 continue
             for frame in frames:

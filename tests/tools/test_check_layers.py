@@ -221,6 +221,13 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("has no layer", self.only_problem("src/kinemark/misc/a.cc", ""))
         self.assertIn("lies in no layer", self.only_problem("src/kinemark/a.cc", ""))
 
+    def test_the_front_header_stands_before_all_layers_and_in_none(self):
+        front = {"src/kinemark/kinemark.h": '#include "kinemark/core/a.h"\n#include "kinemark/pipeline/b.h"\n',
+                 "src/kinemark/core/a.h": "", "src/kinemark/pipeline/b.h": ""}
+        self.assertEqual(self.problems(**front), [])
+        front["src/kinemark/pipeline/c.cc"] = '#include "kinemark/kinemark.h"\n'
+        self.assertIn("may not include front header", self.problems(**front)[0])
+
     def test_reads_include_lines_as_the_compiler_does(self):
         text = '/*\n#include "kinemark/pipeline/run.h"\n*/\n// #include "kinemark/pipeline/run.h"\n'
         self.assertEqual(self.problems(**{"src/kinemark/core/a.cc": text}), [])

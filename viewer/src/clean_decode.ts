@@ -36,7 +36,7 @@ export interface CleanTrial {
 
 /** The series must have been inflated, see inflateAll(). */
 export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
-  if (summary.schema !== "kinemark.clean_report" || summary.schema_version !== 1) {
+  if (summary.schema !== "kinemark.clean_report" || summary.schema_version !== 2) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
   if (series.markers.length !== summary.markers.length) {

@@ -35,7 +35,7 @@ export interface Trial {
 
 /** The series must have been inflated, see inflateAll(). */
 export function decode({ summary, series }: PageData): Trial {
-  if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 1) {
+  if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 2) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
   const n = series.points;

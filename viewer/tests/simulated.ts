@@ -50,7 +50,7 @@ export function simulated(frames = 400): PageData {
   return {
     summary: {
       schema: "kinemark.ik_report",
-      schema_version: 1,
+      schema_version: 2,
       trial: `walk ${hostile}`,
       model: "arm",
       method: "least squares",

@@ -103,7 +103,7 @@ export function simulatedClean(frames = 400): CleanPageData {
   return {
     summary: {
       schema: "kinemark.clean_report",
-      schema_version: 1,
+      schema_version: 2,
       trial: `reach ${hostile}`,
       gap_method: "auto",
       filter_method: "kalman",

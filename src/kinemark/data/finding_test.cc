@@ -211,7 +211,7 @@ TEST(Finding, OutliersOfOneMarkerAreOneSentence) {
   EXPECT_EQ(
       sentences[0],
       "marker 'A' was left out in 16 frames (3 to 4, 9 to 10, 20 to 21, 31 to 32, 40 to 41, 55 to 56 and 2 "
-      "more stretches): up to 80.0 mm from where the model and the frames beside have it");
+      "more spans): up to 80.0 mm from where the model and the frames beside have it");
   EXPECT_EQ(sentences[2],
             "marker 'B' was left out in frame 7 (0.07 s): 40.0 mm from where the model and the frames beside "
             "have it");

@@ -60,7 +60,7 @@ std::string stretches_of(std::span<const std::int64_t> frames, const TimeBase& t
     i = end;
   }
   if (stretches > kStretchesNamed)
-    text += fmt::format(" and {} more stretch{}", stretches - kStretchesNamed,
+    text += fmt::format(" and {} more span{}", stretches - kStretchesNamed,
                         stretches == kStretchesNamed + 1 ? "" : "es");
   return text;
 }

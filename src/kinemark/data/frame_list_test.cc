@@ -45,7 +45,7 @@ TEST(FrameList, AFewOutOfStepAreNearlyAPatternAndManyAreNone) {
   Frames mixed;
   for (std::int64_t f = 0, step = 2; f < 60; f += step, step = step == 2 ? 3 : 2) mixed.push_back(f);
   EXPECT_THAT(words(mixed), HasSubstr("frames 0, 2, 5"));
-  EXPECT_THAT(words(mixed), HasSubstr("more stretches"));
+  EXPECT_THAT(words(mixed), HasSubstr("more spans"));
 }
 
 TEST(FrameList, StretchesAreNamedUpToSix) {
@@ -53,7 +53,7 @@ TEST(FrameList, StretchesAreNamedUpToSix) {
   for (const std::int64_t f : {3, 9, 20, 31, 40, 55}) frames.insert(frames.end(), {f, f + 1});
   EXPECT_EQ(words(frames), "frames 3 to 4, 9 to 10, 20 to 21, 31 to 32, 40 to 41, 55 to 56");
   frames.push_back(70);
-  EXPECT_THAT(words(frames), HasSubstr("55 to 56 and 1 more stretch"));
+  EXPECT_THAT(words(frames), HasSubstr("55 to 56 and 1 more span"));
 }
 
 TEST(FrameList, TextAndFramesAreTheSame) {

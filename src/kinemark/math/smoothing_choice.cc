@@ -116,7 +116,7 @@ std::optional<SmoothingChoice> choose_smoothing(const SeriesMatrix& series, cons
                                                 const SmoothingSearch& search) {
   check(search.lowest > 0.0 && search.lowest < search.highest && search.highest < 0.5,
         "cut-offs lie between 0 and half the sampling rate");
-  check(search.samples >= 1000 * kPieces, "a choice needs a thousand samples of each stretch");
+  check(search.samples >= 1000 * kPieces, "a choice needs a thousand samples of each span");
   SmoothingChoice best;
   for (const int order : search.orders) {
     auto pieces = pieces_of(series, seen, order, search.samples);

@@ -28,7 +28,7 @@ export function measuresPage({ summary, result }: ResultPageData<MeasuresResult>
   return {
     skip: ["table", "Skip to the table"],
     header: resultHeader("measures", "Measures of paths, freed of the bias of noise", summary, [
-      [number(result.measures.length), "measures", `of ${plural(result.markers, "marker")} in ${plural(result.regions, "stretch", "stretches")}`],
+      [number(result.measures.length), "measures", `of ${plural(result.markers, "marker")} in ${plural(result.regions, "span", "spans")}`],
       [number(covered.length), `with an interval of ${level}`, result.refits === 0 ? "none was asked for" : `by ${number(result.refits)} refits`],
       [number(covered.filter((r) => r.interval.approximate).length), "approximate", "cover less in some movements"],
       [number(result.measures.length - known.length), "not determined", "the table says why"],

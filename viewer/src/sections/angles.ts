@@ -145,7 +145,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
     "angles",
     "Joint angles",
     "The line is the estimate, the band is ±2 standard deviations: where the noise is as estimated, about 95 % of the true values lie inside. " +
-      "Striped stretches are not determined: the visible markers do not fix the coordinate there, so no value is drawn.",
+      "Striped spans are not determined: the visible markers do not fix the coordinate there, so no value is drawn.",
     thinned(trial),
     el(
       "div",

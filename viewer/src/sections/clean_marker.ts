@@ -151,7 +151,7 @@ export function cleanMarker(
   const node = section(
     "marker",
     "One marker",
-    "The line is the result, the band is ±2 standard deviations of it, the thin grey line is what came in. Coloured stretches were made, not measured; striped ones hold no value. “Taken away” shows what came in less the result: noise, if the filter is right.",
+    "The line is the result, the band is ±2 standard deviations of it, the thin grey line is what came in. Coloured spans were made, not measured; striped ones hold no value. “Taken away” shows what came in less the result: noise, if the filter is right.",
     thinned(trial),
     el(
       "div",

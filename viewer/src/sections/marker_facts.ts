@@ -66,7 +66,7 @@ export function charts(m: CleanMarker): HTMLElement {
       "spectrum",
       "Spectrum (mm²/Hz, all axes together) ",
       spectrum,
-      "No stretch without gaps is long enough for a spectrum.",
+      "No span without gaps is long enough for a spectrum.",
       el("span", { class: "key raw" }, "came in"),
       el("span", { class: "key one" }, "taken away"),
       m.cutoff_hz === null ? null : el("span", { class: "key cut" }, `cut-off ${number(m.cutoff_hz, 1)} Hz`),

@@ -106,7 +106,7 @@ export function recordedCurves(scene: Scene, view: View): Part {
   const node = section(
     "marker",
     "One marker",
-    "Coordinates in the laboratory. Coloured stretches were made, not measured; striped ones hold no value.",
+    "Coordinates in the laboratory. Coloured spans were made, not measured; striped ones hold no value.",
     el(
       "div",
       { class: "controls" },

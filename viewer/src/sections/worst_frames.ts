@@ -25,7 +25,7 @@ export function worstFrames(summary: Summary, view: View): HTMLElement {
     "Frames with the largest RMS marker error",
     [
       { title: "Time", unit: "s", key: (w) => w.time_s, cell: (w) => el("button", { type: "button", class: "jump plain" }, number(w.time_s, 3)) },
-      { title: "Frame", numeric: true, key: (w) => w.frame, cell: (w) => number((summary.first_frame ?? 0) + w.frame) },
+      { title: "Frame", numeric: true, key: (w) => w.frame, cell: (w) => number(w.frame) },
       { title: "RMS error", unit: "mm", numeric: true, key: (w) => w.rms_error_mm, cell: (w) => number(w.rms_error_mm, 1) },
       { title: "Worst marker", key: (w) => w.worst_marker, cell: (w) => w.worst_marker },
       { title: "Its error", unit: "mm", numeric: true, key: (w) => w.worst_marker_error_mm, cell: (w) => number(w.worst_marker_error_mm, 1) },

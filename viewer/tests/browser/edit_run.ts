@@ -90,7 +90,7 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     assert.match((await page.locator("#edit-changed details").first().textContent()) ?? "", /samples moved, [\d.,]+ mm at most/);
     assert.equal(await page.locator("#marker-name").evaluate((s) => (s as HTMLSelectElement).value), names[1], "the marker stays chosen");
   },
-  "a stretch is chosen on the curve with Shift, cut, filled and unfilled": async (t) => {
+  "a span is chosen on the curve with Shift, cut, filled and unfilled": async (t) => {
     const { page, names, first } = t;
     await choose(t, names[1], null, null);
     await page.locator("#plot-y").scrollIntoViewIfNeeded();

@@ -130,7 +130,7 @@ const ofSimulated: Record<string, Check> = {
       "1.50 degmedian SD of an anglesolved at 200 × real time",
     ]);
   },
-  "undetermined stretches are striped, not drawn": async ({ page }) => {
+  "undetermined spans are striped, not drawn": async ({ page }) => {
     await page.selectOption("#coordinate", { label: "wrist" });
     await page.locator(".group").nth(1).getByRole("button").click();
     await settle(page);

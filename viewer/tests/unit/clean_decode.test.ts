@@ -50,8 +50,8 @@ describe("decodeClean", () => {
   });
   it("refuses another schema and a page with too few series", () => {
     const other = simulatedClean();
-    other.summary.schema_version = 2;
-    expect(() => decodeClean(other)).toThrow("cannot read kinemark.clean_report version 2");
+    other.summary.schema_version = 3;
+    expect(() => decodeClean(other)).toThrow("cannot read kinemark.clean_report version 3");
     const short = simulatedClean();
     short.series.markers.pop();
     expect(() => decodeClean(short)).toThrow("3 series; 4 markers");

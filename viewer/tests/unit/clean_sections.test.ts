@@ -262,7 +262,7 @@ describe("the facts of a marker", () => {
     expect(words(node.tagged("tbody")[0]!.tagged("tr"))).toEqual(["27.02.000e-8", "38.03.000e-8", "4, taken9.04.000e-8", "510.0–"]);
     const none = fake(charts(summary.markers[3]!));
     expect(none.tagged("svg").length).toBe(0);
-    expect(none.textContent).toContain("No stretch without gaps is long enough");
+    expect(none.textContent).toContain("No span without gaps is long enough");
     expect(fake(charts({ ...m, tried: [] })).tagged("table")).toEqual([]);
   });
   it("tell what became of each gap", () => {

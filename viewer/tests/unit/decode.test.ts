@@ -37,7 +37,7 @@ describe("decode", () => {
   });
   it("refuses another schema", () => {
     const data = simulated();
-    data.summary.schema_version = 2;
-    expect(() => decode(data)).toThrow("version 2");
+    data.summary.schema_version = 3;
+    expect(() => decode(data)).toThrow("version 3");
   });
 });

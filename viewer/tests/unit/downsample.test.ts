@@ -48,7 +48,7 @@ describe("extremes", () => {
 });
 
 describe("codes", () => {
-  it("report the worst and the share of a stretch", () => {
+  it("report the worst and the share of a span", () => {
     const codes = Uint8Array.of(0, 3, 1, 0);
     expect(worstCode(codes, 0, 4)).toBe(3);
     expect(worstCode(codes, 2, 10)).toBe(1);

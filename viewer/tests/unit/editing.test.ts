@@ -19,7 +19,7 @@ describe("frames", () => {
     expect(make.frameAt(clock, 99)).toBe(917);
     expect(make.framesWithin(clock, [-3, 99])).toEqual([480, 917]);
   });
-  test("within a stretch are neither before nor behind it", () => {
+  test("within a span are neither before nor behind it", () => {
     expect(make.framesWithin(clock, [4.795, 4.825])).toEqual([481, 483]);
     expect(make.framesWithin(clock, [4.8, 4.82])).toEqual([481, 483]);
     expect(make.framesWithin(clock, [4.801, 4.802])).toEqual([481, 481]);

@@ -53,7 +53,7 @@ describe("spectrumChart", () => {
     expect(texts(chart)).toEqual(expect.arrayContaining(["0.1", "1", "10", "10⁻²", "frequency (Hz)"]));
     expect(chart.getAttribute("aria-label")).toBe("of A");
   });
-  it("does not stretch the axis to arithmetic dust", () => {
+  it("does not span the axis to arithmetic dust", () => {
     const dusty = fake(spectrumChart({ ...spectrum, residual_mm2_per_hz: [1e-30, 1e-20, 0.01] }, null, ""));
     expect(points(dusty, "residual").length).toBe(1);
     expect(texts(dusty)).not.toContain("10⁻³⁰");

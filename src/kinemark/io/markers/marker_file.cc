@@ -85,8 +85,9 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
     return fail(Code::not_supported, fmt::format("{}: {} is not read as a marker file; supported are {}",
                                                  path.string(), named(extension), names_of_read_formats()));
   if (format->stores_rate && options.rate_hz != 0.0)
-    return fail(Code::usage, fmt::format("{}: the file stores its own rate; a rate is given only for {}",
-                                         path.string(), names_without_rate()));
+    return fail(Code::usage,
+                fmt::format("{}: the file stores its own rate; a rate (--rate) is given only for {}",
+                            path.string(), names_without_rate()));
   return format->read(path, options, box_m);
 }
 

@@ -223,7 +223,7 @@ data::Table table_of_forces(const data::Wrenches& wrenches) {
     for (const auto& wrench : wrenches.items) {
       const auto append = [&](const Array<double>& values, bool known) {
         for (std::size_t axis = 0; axis < 3; ++axis)
-          table.values.push_back(known ? values[3 * row + axis] : 0.0);
+          table.values.push_back(known ? values[3 * row + axis] + 0.0 : 0.0);  // no -0
       };
       const bool acts = !(wrench.force[3 * row] == 0.0 && wrench.force[3 * row + 1] == 0.0 &&
                           wrench.force[3 * row + 2] == 0.0);

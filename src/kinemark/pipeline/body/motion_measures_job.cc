@@ -45,15 +45,28 @@ GaitDrawingJob drawing_of(const MotionMeasuresJob& job) {
   return out;
 }
 
+// Whether the forces come with markers and events.
+bool of_recording(const std::filesystem::path& forces) {
+  const auto ending = ending_of(forces);
+  return ending == ".c3d" || ending == ".mat";
+}
+
 Status check(const MotionMeasuresJob& job) {
   if (auto s = check_measures_output(job.output); !s) return s;
   if (job.motion.empty()) return fail(Code::usage, "no motion: give a .mot or .sto");
   if (job.model.empty()) return fail(Code::usage, "no model: give --model");
-  if (!job.between.empty() && ending_of(job.forces) != ".c3d")
-    return fail(Code::usage, "--between of a motion takes the events of a recording; need --forces FILE.c3d");
-  if (drawing_of(job).wanted() && ending_of(job.forces) != ".c3d")
+  if (!job.between.empty() && !of_recording(job.forces))
     return fail(Code::usage,
-                "cycles of a motion are cut at the foot strikes of a recording; need --forces FILE.c3d");
+                "--between of a motion takes the events of a recording; need --forces FILE.c3d or .mat");
+  if (drawing_of(job).wanted() && !of_recording(job.forces))
+    return fail(
+        Code::usage,
+        fmt::format("--{}: cycles of a motion are cut at the foot strikes of a recording; need --forces "
+                    "FILE.c3d or .mat",
+                    !job.report.empty()              ? "report"
+                    : !job.figures.empty()           ? "figures"
+                    : !job.gait.write_events.empty() ? "write-events"
+                                                     : "write-cycles"));
   if (job.first_time_s > job.last_time_s)
     return fail(Code::usage,
                 fmt::format("{:g} to {:g} s is no range of time", job.first_time_s, job.last_time_s));
@@ -172,11 +185,11 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeas
         stretches.push_back(std::move(stretch));
     }
     if (outside == cycles->size())
-      return fail(Code::bad_input, fmt::format("{}: no stretch between events '{}' lies within the motion",
+      return fail(Code::bad_input, fmt::format("{}: no span between events '{}' lies within the motion",
                                                job.forces.string(), label));
     if (outside > 0)
       out.warnings.push_back(
-          fmt::format("{} of {} stretches between events '{}' reach beyond the motion and "
+          fmt::format("{} of {} spans between events '{}' reach beyond the motion and "
                       "are left out",
                       outside, cycles->size(), label));
   }
@@ -266,7 +279,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
     auto begun = GaitDrawing::begin(std::move(walking), others);
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
-  } else if (auto s = job.gait.check(); !s) {
+  } else if (auto s = job.gait.check_idle(); !s) {
     return std::unexpected(s.error());
   }
   MotionMeasuresOutcome out;

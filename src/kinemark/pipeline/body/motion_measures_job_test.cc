@@ -178,7 +178,7 @@ TEST_F(RunMotionMeasures, WhereStretchesAreFromAndWhichLieBeyondTheMotionIsSaid)
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_THAT(found->warnings, Contains("the events of feet are those that were found in found.c3d"));
   EXPECT_THAT(found->warnings,
-              Contains(HasSubstr("stretches between events 'Foot Strike' reach beyond the motion and "
+              Contains(HasSubstr("spans between events 'Foot Strike' reach beyond the motion and "
                                  "are left out")));
   for (const double t : {0.8, 2.0, 3.2})
     trial.events.push_back({.label = "Turn", .context = "", .time_s = t});

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/enum_names.h"
@@ -109,21 +111,43 @@ Status treat_made(data::Trial& trial, const ScreeningRules& rules, Screening& ou
   return {};
 }
 
-/// Who made how many samples; empty: nobody.
-std::string upsampling_sentence(const data::UpsamplingAccount& found, const data::Trajectories& markers) {
-  const auto factor = found.factor();
+/// Which frames were measured; empty: all.
+std::string upsampling_sentence(int factor, double rate_hz) {
   if (factor == 1) return {};
-  std::int64_t made = 0, all = 0;
-  for (std::int64_t m = 0; m < markers.markers(); ++m)
-    for (std::int64_t f = 0; f < markers.frames(); ++f) {
-      const bool there = markers.present(f, m);
-      all += there;
-      made += there && !found.markers[static_cast<std::size_t>(m)].real(f);
-    }
   return fmt::format(
-      "{} of {} samples were made by the recorder, which measured at {:g} Hz: they are no "
+      "the recorder measured at {:g} Hz and made {} of every {} frames: these are no "
       "measurements of their own ('kinemark clean --upsampled decimate' leaves the others)",
-      made, all, markers.time.rate_hz / factor);
+      rate_hz / factor, factor - 1, factor);
+}
+
+/// A part of a recording that shows what the recorder did: frames in its middle, of markers that are seen in
+/// them, at even distances in their order.
+data::Trajectories glimpse_of(const data::Trajectories& markers) {
+  constexpr std::int64_t kFrames = 2048, kMarkers = 12;
+  const auto count = std::min(kFrames, markers.frames()), first = (markers.frames() - count) / 2;
+  std::vector<std::int64_t> seen;
+  for (std::int64_t m = 0; m < markers.markers(); ++m) {
+    std::int64_t present = 0;
+    for (std::int64_t f = first; f < first + count; ++f) present += markers.present(f, m);
+    if (2 * present > count) seen.push_back(m);
+  }
+  const auto taken = std::min(kMarkers, std::ssize(seen));
+  std::vector<std::int64_t> chosen;
+  for (std::int64_t k = 0; k < taken; ++k)
+    chosen.push_back(seen[static_cast<std::size_t>(k * std::ssize(seen) / taken)]);
+  std::vector<std::string> names;
+  for (const auto m : chosen) names.push_back(markers.names[static_cast<std::size_t>(m)]);
+  auto time = markers.time;
+  time.t0_s = markers.time.time_s(first);
+  time.frames = count;
+  auto out = data::Trajectories::all_missing(std::move(names), time);
+  for (std::int64_t f = 0; f < count; ++f)
+    for (std::int64_t k = 0; k < taken; ++k) {
+      const auto m = chosen[static_cast<std::size_t>(k)];
+      out.x(f, k) = markers.x(first + f, m);
+      out.state[out.index(f, k)] = markers.state[markers.index(first + f, m)];
+    }
+  return out;
 }
 
 }  // namespace
@@ -153,9 +177,11 @@ std::vector<std::string> swap_sentences(const Screening& screening, const TimeBa
 }
 
 Result<std::string> note_on_upsampling(const data::Trajectories& markers) {
-  const auto found = trajectory::detect_upsampling(markers);
+  const auto glimpse = glimpse_of(markers);
+  if (glimpse.markers() == 0) return std::string();
+  const auto found = trajectory::detect_upsampling(glimpse);
   if (!found) return std::unexpected(found.error());
-  return upsampling_sentence(*found, markers);
+  return upsampling_sentence(found->factor(), markers.time.rate_hz);
 }
 
 Status leave_out_defects(data::Trial& trial, bool keep_defects,
@@ -168,7 +194,8 @@ Status leave_out_defects(data::Trial& trial, bool keep_defects,
                                                 .swapped = swapped,
                                                 .reject_defects = true});
   if (!screening) return std::unexpected(screening.error());
-  if (auto note = upsampling_sentence(*screening->upsampling, trial.markers); !note.empty())
+  if (auto note = upsampling_sentence(screening->upsampling->factor(), trial.markers.time.rate_hz);
+      !note.empty())
     warnings.push_back(std::move(note));
   std::ranges::move(swap_sentences(*screening, trial.markers.time), std::back_inserter(warnings));
   const auto& sure = screening->sure;

@@ -65,8 +65,8 @@ struct Screening {
 /// trajectory::screen(), detect_upsampling() and keep_real_samples().
 [[nodiscard]] Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules);
 
-/// That the recorder made samples of these markers between those that it measured, how many, and at what rate
-/// it measured; empty where none are seen (trajectory::detect_upsampling()). Fails as that.
+/// That the recorder made frames between those that it measured, and at what rate it measured; empty where
+/// none are seen. Looks at 2,048 frames of 12 markers. Fails as trajectory::detect_upsampling().
 [[nodiscard]] Result<std::string> note_on_upsampling(const data::Trajectories& markers);
 
 /// A sentence on each label swap that was exchanged back, and on each that stays, as edits have it.

@@ -179,7 +179,7 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
     json["slips"].push_back({{"words", sentence_of(slip, outcome.skeleton.time)},
                              {"shift_m", slip.size},
                              {"sd_m", slip.size_sd},
-                             {"frame", slip.first_frame}});
+                             {"frame", outcome.skeleton.time.number(slip.first_frame)}});
   for (std::size_t m = 0; m < outcome.marker_noise_sd_m.size(); ++m)
     if (std::isfinite(outcome.marker_noise_sd_m[m]))
       json["marker_noise"].push_back(

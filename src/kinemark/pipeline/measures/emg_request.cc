@@ -164,7 +164,7 @@ Result<analysis::EmgMeasures> measure_emg_of(const data::Trial& trial, const Emg
   const auto which = emg_channels(trial, request);
   if (!which) return std::unexpected(which.error());
   if (which->empty())
-    return fail(Code::bad_input, "no analog channel is known for an EMG by its name; name them with --emg");
+    return fail(Code::bad_input, "no analog channel is known for an EMG by its name; name the channels");
   auto channels = channels_of(trial, *which);
   options.envelope = request.envelope;
   options.to_maximum = request.maximum == "trial";

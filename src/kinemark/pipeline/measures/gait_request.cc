@@ -57,6 +57,15 @@ Status GaitRequest::check(bool drawn) const {
   return sheet.check();
 }
 
+Status GaitRequest::check_idle() const {
+  if (auto s = check(); !s) return s;
+  if (!wanted() && !of_movement()) return {};
+  return fail(Code::usage,
+              fmt::format("--{} is of walking, of which nothing is written or drawn; need --write-events, "
+                          "--write-cycles, --figures or --report too",
+                          events == "best" ? "gait-marker" : "events"));
+}
+
 std::vector<std::filesystem::path> files_of(const GaitRequest& request) {
   auto files = request.sheet.norms;
   files.insert(files.end(), request.markers.begin(), request.markers.end());
@@ -86,8 +95,10 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool draw
 Result<analysis::Gait> measure_gait(const Recording& recording, const analysis::GaitOptions& options) {
   const auto& trial = recording.trial;
   const auto& plates = recording.plates;
+  auto stated = options;
+  if (recording.up) stated.up = recording.up;
   return analysis::analyze_gait(trial.markers,
-                                {.plates = plates ? &*plates : nullptr, .events = trial.events}, options);
+                                {.plates = plates ? &*plates : nullptr, .events = trial.events}, stated);
 }
 
 nlohmann::ordered_json gait_json(const analysis::Gait& gait) {

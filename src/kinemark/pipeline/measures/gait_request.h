@@ -37,6 +37,8 @@ struct GaitRequest {
   /// Names and endings: Code::usage.
   /// @param drawn  whether figures or a page are made: else norms and pairs have no use
   [[nodiscard]] Status check(bool drawn = false) const;
+  /// The same where nothing of walking is written or drawn: then nothing may be asked about it.
+  [[nodiscard]] Status check_idle() const;
 };
 
 /// What of walking is written and drawn. Paths that are empty are not used.
@@ -47,8 +49,8 @@ struct GaitOutputs {
   std::filesystem::path report;   ///< page, .html
 };
 
-/// The files that the request reads: roles of markers, angles with what lies
-/// beside them, norms. Names of no file may be among them.
+/// The files that the request reads: roles of markers, angles with what lies beside them, norms. Names of no
+/// file may be among them.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const GaitRequest& request);
 
 /// The options of analysis::analyze_gait() for what is asked: roles read, choice understood.

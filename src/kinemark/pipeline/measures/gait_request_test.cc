@@ -40,6 +40,18 @@ TEST(GaitRequest, RefusesWhatIsNone) {
   EXPECT_EQ(both.error().code, Code::usage);
 }
 
+TEST(GaitRequest, NothingIsAskedOfWalkingWhereNothingOfItIsWritten) {
+  EXPECT_TRUE(GaitRequest{}.check_idle());
+  EXPECT_EQ(GaitRequest{.events = "plates"}.check_idle().error().message,
+            "--events is of walking, of which nothing is written or drawn; need --write-events, "
+            "--write-cycles, --figures or --report too");
+  EXPECT_TRUE(
+      GaitRequest{.markers = {"left_heel=A"}}.check_idle().error().message.starts_with("--gait-marker is"));
+  EXPECT_EQ(GaitRequest{.events = "movement"}.check_idle().error().code, Code::usage);
+  EXPECT_EQ(GaitRequest{.events = "plate"}.check_idle().error().message,
+            GaitRequest{.events = "plate"}.check().error().message);
+}
+
 TEST(GaitOptions, ReadsRoles) {
   const auto options = gait_options({.events = "file", .markers = {"left_heel=A=B"}});
   ASSERT_TRUE(options);

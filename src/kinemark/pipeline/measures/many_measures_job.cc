@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -112,7 +113,7 @@ Status write_tables(const ManyMeasuresJob& job, Staging& staging, ManyMeasuresOu
     std::vector<data::InputFile> inputs;
     for (const auto& one : recordings) {
       named.push_back({one.name, one.outcome.measures});
-      inputs.push_back(one.outcome.input);
+      std::ranges::move(inputs_of(one.outcome), std::back_inserter(inputs));
     }
     files.push_back(nwb_file(job.output, std::move(named), inputs, job));
   }

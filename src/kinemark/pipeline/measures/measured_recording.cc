@@ -85,26 +85,41 @@ std::string why_nothing(const analysis::PathMeasures& measured) {
   return "no measure applies";
 }
 
+// Walking. The first: a failure that ends the job. The second: one that does so where plates show nothing.
+std::pair<Status, Status> measure_walking(const MeasuresJob& job, const AskedMeasures& asked,
+                                          const Recording& recording, MeasuresOutcome& outcome) {
+  const bool events_needed = job.gait.writes() || !job.emg.write_cycles.empty();
+  auto gait = measure_gait(recording, asked.gait);
+  if (gait) {
+    std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
+    outcome.measures = gait->measures;
+    outcome.gait = std::move(*gait);
+    return {};
+  }
+  auto failure = std::unexpected(gait.error());
+  const bool alone = job.of == MeasuresOf::walking;
+  if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage))
+    return {failure, {}};
+  if (alone && events_needed) return {failure, {}};
+  if (alone && job.measures.empty()) return {{}, failure};
+  if (asked.by_name)
+    outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
+  else if (job.gait.writes())
+    outcome.warnings.push_back(
+        "events and cycles are those of the markers' own movements, as there is no walking: " +
+        gait.error().message);
+  return {};
+}
+
 // Walking, plates, EMG, then paths; what fails is reported where something else is measured.
 Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const Recording& recording,
                    std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
   const auto& trial = recording.trial;
-  const bool events_needed = job.gait.writes() || !job.emg.write_cycles.empty();
+  Status late;
   if (asked.walking) {
-    auto gait = measure_gait(recording, asked.gait);
-    if (gait) {
-      std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
-      outcome.measures = gait->measures;
-      outcome.gait = std::move(*gait);
-    } else if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage)) {
-      return std::unexpected(gait.error());
-    } else if (asked.by_name) {
-      outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
-    } else if (job.gait.writes()) {
-      outcome.warnings.push_back(
-          "events and cycles are those of the markers' own movements, as there is no walking: " +
-          gait.error().message);
-    }
+    auto [now, later] = measure_walking(job, asked, recording, outcome);
+    if (!now) return now;
+    late = std::move(later);
   }
   const bool others = asked.paths || asked.by_name;
   if (asked.forces)
@@ -112,6 +127,8 @@ Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const Rec
                               !others && !asked.muscles_by_name, outcome);
         !s)
       return s;
+  if (!late && outcome.measures.empty()) return late;
+  if (!late) outcome.warnings.push_back("Walking is not measured: " + late.error().message);
   if (asked.muscles)
     if (auto s = take_failure(
             measure_muscles(job, asked, trial, outcome), "EMG", asked.muscles_by_name,
@@ -198,6 +215,8 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasure
   const std::string name = job.input.string();
   if (ending_of(job.gait.write_events) == ".c3d") out.recorded = trial;
   if (auto s = prepare_recording(source, job, out.recording); !s) return std::unexpected(s.error());
+  if (out.recording.edits.file) outcome.beside.push_back(*out.recording.edits.file);
+  std::ranges::move(out.recording.forces, std::back_inserter(outcome.beside));
   if (const auto up = stated_vertical(job.axes); up && out.recorded) set_screen_up(*out.recorded, up->up);
   auto regions = prepare(job, out.recording, outcome);
   if (!regions) return fail_at(name, regions.error());

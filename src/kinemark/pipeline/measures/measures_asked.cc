@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,9 +27,10 @@ bool is_path_measure(const std::string& id) {
 
 Status unknown_measure(const std::string& id) {
   if (analysis::find_body_definition(id) != nullptr)
-    return fail(
-        Code::usage,
-        fmt::format("{} is measured of a motion, not of markers; need a .mot or .sto with --model", id));
+    return fail(Code::usage,
+                fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
+                            "a .mot or .sto with --model",
+                            id));
   std::vector<std::string> known{"gait", "plates", "emg"};
   for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
   for (const auto& definition : analysis::rhythm_definitions()) known.emplace_back(definition.id);
@@ -38,6 +40,32 @@ Status unknown_measure(const std::string& id) {
   const auto nearest = nearest_names(id, known);
   return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
                                        nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+}
+
+/// The command for measures of this kind.
+const char* command_of(MeasuresOf of) {
+  return of == MeasuresOf::walking ? "gait" : of == MeasuresOf::muscles ? "emg" : "measure";
+}
+
+/// What a measure is of, by its id or the word for all of a kind; nothing for one that does not exist.
+std::optional<MeasuresOf> kind_of(const std::string& id) {
+  if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;
+  if (id == "gait" || id == "plates" || analysis::find_force_definition(id) != nullptr ||
+      analysis::find_gait_definition(id) != nullptr)
+    return MeasuresOf::walking;
+  if (is_path_measure(id)) return MeasuresOf::paths;
+  return std::nullopt;
+}
+
+Status check_kinds(const MeasuresJob& job) {
+  for (const auto& id : job.measures) {
+    const auto kind = kind_of(id);
+    if (!kind) return unknown_measure(id);
+    if (job.of != MeasuresOf::everything && job.of != *kind)
+      return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
+                                           command_of(job.of), command_of(*kind)));
+  }
+  return {};
 }
 
 }  // namespace
@@ -55,6 +83,15 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
                              .keep_outliers = !job.drops_doubtful(true)},
                     .gait = std::move(*gait)};
   if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
+  if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
+  if (job.gait.of_movement() && job.of != MeasuresOf::everything && job.of != MeasuresOf::paths)
+    return fail(
+        Code::usage,
+        fmt::format("--events movement is none of 'kinemark {}'; 'kinemark measure' takes the markers' own",
+                    command_of(job.of)));
+  const auto by_itself = [&job](MeasuresOf kind) {
+    return job.measures.empty() && (job.of == MeasuresOf::everything || job.of == kind);
+  };
   bool all_of_walking = false, all_of_plates = false, all_of_emg = false;
   for (const auto& id : job.measures) {
     if (id == "gait")
@@ -69,21 +106,22 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
       out.emg.measures.push_back(id);
     else if (analysis::find_gait_definition(id) != nullptr)
       out.gait.measures.push_back(id);
-    else if (is_path_measure(id))
+    else
       out.path.measures.push_back(id);
-    else if (auto s = unknown_measure(id); !s)
-      return std::unexpected(s.error());
   }
+  const bool only_paths = job.of == MeasuresOf::paths;
   out.by_name =
       all_of_walking || !out.gait.measures.empty() || job.gait.wanted() || !job.emg.write_cycles.empty();
-  out.paths = job.measures.empty() || !out.path.measures.empty();
-  out.walking = (out.by_name || job.measures.empty() || job.gait.writes()) && !job.gait.of_movement();
+  out.paths = by_itself(MeasuresOf::paths) || !out.path.measures.empty();
+  out.walking = (out.by_name || by_itself(MeasuresOf::walking) || job.gait.writes()) &&
+                !job.gait.of_movement() && !only_paths;
   if (all_of_walking) out.gait.measures.clear();
   out.forces_by_name = all_of_plates || !out.plates.measures.empty();
-  out.forces = out.forces_by_name || job.measures.empty();
+  out.forces = out.forces_by_name || by_itself(MeasuresOf::walking);
   if (all_of_plates) out.plates.measures.clear();
-  out.muscles_by_name = all_of_emg || !out.emg.measures.empty() || job.emg.wanted();
-  out.muscles = out.muscles_by_name || job.measures.empty();
+  out.muscles_by_name = all_of_emg || !out.emg.measures.empty() || job.emg.wanted() ||
+                        (job.of == MeasuresOf::muscles && job.measures.empty());
+  out.muscles = out.muscles_by_name || by_itself(MeasuresOf::muscles);
   if (all_of_emg) out.emg.measures.clear();
   out.plates.refits = out.emg.refits = job.refits;
   out.plates.level = out.emg.level = job.level;

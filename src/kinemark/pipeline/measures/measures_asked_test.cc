@@ -42,6 +42,36 @@ TEST(AskedMeasures, OfOneKindLeaveTheOtherAlone) {
   EXPECT_TRUE(walking.walking && walking.by_name);
 }
 
+TEST(AskedMeasures, OfACommandAreThoseThatItIsAbout) {
+  const auto asked_by = [](MeasuresOf of, std::vector<std::string> measures = {}) {
+    MeasuresJob job;
+    job.of = of;
+    job.measures = std::move(measures);
+    return asked_measures(job);
+  };
+  const auto paths = asked_by(MeasuresOf::paths).value(), walking = asked_by(MeasuresOf::walking).value(),
+             muscles = asked_by(MeasuresOf::muscles).value();
+  EXPECT_TRUE(paths.paths);
+  EXPECT_FALSE(paths.walking || paths.forces || paths.muscles);
+  EXPECT_TRUE(walking.walking && walking.forces);
+  EXPECT_FALSE(walking.paths || walking.muscles || walking.by_name || walking.forces_by_name);
+  EXPECT_TRUE(muscles.muscles && muscles.muscles_by_name);
+  EXPECT_FALSE(muscles.paths || muscles.walking || muscles.forces);
+  EXPECT_TRUE(asked_by(MeasuresOf::walking, {"cadence", "plates"}).value().forces_by_name);
+  EXPECT_EQ(asked_by(MeasuresOf::paths, {"cadence"}).error().message,
+            "cadence is no measure of 'kinemark measure'; 'kinemark gait' measures it");
+  EXPECT_EQ(asked_by(MeasuresOf::walking, {"emg"}).error().message,
+            "emg is no measure of 'kinemark gait'; 'kinemark emg' measures it");
+  EXPECT_EQ(asked_by(MeasuresOf::muscles, {"path_length"}).error().message,
+            "path_length is no measure of 'kinemark emg'; 'kinemark measure' measures it");
+  EXPECT_EQ(asked_by(MeasuresOf::paths, {"nothing"}).error().code, Code::usage);
+  MeasuresJob own;
+  own.gait.events = "movement";
+  EXPECT_TRUE(asked_measures(own));
+  own.of = MeasuresOf::walking;
+  EXPECT_EQ(asked_measures(own).error().code, Code::usage);
+}
+
 TEST(AskedMeasures, AllOfWalkingIsMoreThanOneOfIt) {
   for (const auto& measures : {std::vector<std::string>{"gait"}, {"gait", "cadence"}, {"cadence", "gait"}}) {
     const auto asked = asked_for(measures);

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -23,6 +24,7 @@
 #include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/pipeline/measures/noise_table.h"
+#include "kinemark/stages/analysis/forces/force_measures.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -75,7 +77,7 @@ GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome)
   return {.angles_from = job.gait.angles.empty() ? "outputs of a model that the recording holds"
                                                  : job.gait.angles.filename().string(),
           .command_line = job.command_line,
-          .inputs = {outcome.input},
+          .inputs = inputs_of(outcome),
           .warnings = outcome.warnings};
 }
 
@@ -93,8 +95,8 @@ Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats
   else if (ending == ".json")
     files.push_back(json_file(job.output, [&] { return measures_outcome_json(outcome); }));
   else if (!job.output.empty())
-    files.push_back(
-        nwb_file(job.output, {{.name = measured.name, .measures = outcome.measures}}, {outcome.input}, job));
+    files.push_back(nwb_file(job.output, {{.name = measured.name, .measures = outcome.measures}},
+                             inputs_of(outcome), job));
   if (!files.empty()) {
     auto written = write_results(staging, files, {}, "the measures");
     if (!written) return std::unexpected(written.error());
@@ -224,6 +226,23 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)
     return std::unexpected(s.error());
   return std::move(measured->outcome);
+}
+
+std::vector<data::InputFile> inputs_of(const MeasuresOutcome& outcome) {
+  std::vector<data::InputFile> out{outcome.input};
+  out.insert(out.end(), outcome.beside.begin(), outcome.beside.end());
+  return out;
+}
+
+std::string commands_for(const MeasuresOutcome& outcome) {
+  const bool plates = std::ranges::any_of(outcome.measures, [](const data::Measure& measure) {
+    return analysis::find_force_definition(measure.id) != nullptr;
+  });
+  std::vector<std::string> commands;
+  if (outcome.gait || plates) commands.emplace_back("'kinemark gait' (feet and force plates)");
+  if (outcome.emg) commands.emplace_back("'kinemark emg' (electromyograms)");
+  if (!outcome.noises.empty()) commands.emplace_back("'kinemark measure' (paths of markers)");
+  return join(commands, " and ");
 }
 
 nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {

@@ -3,6 +3,7 @@
 // Measures of the paths of a recording's markers.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -24,23 +25,33 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze` is asked to do with a recording of markers: ids of paths, of walking ("gait": all
-/// of these), of plates ("plates") and of EMG ("emg"), regions beside those of the journal; figures and page
-/// are of paths, too. Paths that are empty are not used. Doubtful samples are dropped unless they are to be
-/// kept.
+/// What of a recording is measured: all that it holds, or what one command is about.
+enum class MeasuresOf : std::uint8_t {
+  everything,  ///< `analyze`
+  paths,       ///< `measure`: paths of markers
+  walking,     ///< `gait`: feet, steps, force plates
+  muscles,     ///< `emg`: electromyograms
+};
+
+/// What `kinemark measure`, `gait`, `emg` and `analyze` are asked to do with a recording of markers: ids of
+/// paths, of walking ("gait": all of these), of plates ("plates") and of EMG ("emg"), regions beside those of
+/// the journal; figures and page are of paths, too. Paths that are empty are not used. Doubtful samples are
+/// dropped unless they are to be kept.
 struct MeasuresJob : JobSettings, RecordingOptions, MeasureChoice, GaitOutputs {
   std::filesystem::path input;   ///< marker file
   std::filesystem::path output;  ///< .csv, .json or .nwb
   std::filesystem::path forces;  ///< read_external_forces() instead of the recording's plates; empty: these
-  double noise_sd_m = 0.0;       ///< per axis; 0: found from the samples
-  EmgRequest emg;                ///< electromyograms
+  MeasuresOf of = MeasuresOf::everything;            ///< measures of others are refused
+  double noise_sd_m = 0.0;                           ///< per axis; 0: found from the samples
+  EmgRequest emg;                                    ///< electromyograms
   std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
   std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
 struct MeasuresOutcome : JobOutcome {
-  data::InputFile input;  ///< the recording
+  data::InputFile input;                ///< the recording
+  std::vector<data::InputFile> beside;  ///< what was read with it: its journal, forces
   std::vector<data::Measure>
       measures;  ///< of walking, plates, EMG, then markers in the recording's order, their regions
   std::optional<analysis::Gait> gait;        ///< walking, where it was asked for or is there
@@ -50,8 +61,7 @@ struct MeasuresOutcome : JobOutcome {
   std::vector<analysis::PathNoise> noises;  ///< of the markers whose paths are measured
 };
 
-/// The files that the job reads, as far as it names them. Names of no file may
-/// be among them.
+/// The files that the job reads, as far as it names them. Names of no file may be among them.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const MeasuresJob& job);
 
 /// Read, screen, measure, write. Walking is measured where it is asked for, and, without measures that are
@@ -66,6 +76,13 @@ struct MeasuresOutcome : JobOutcome {
 
 /// Code::usage for a table of measures of another ending than .csv, .json and .nwb.
 [[nodiscard]] Status check_measures_output(const std::filesystem::path& output);
+
+/// The recording and what was read with it.
+[[nodiscard]] std::vector<data::InputFile> inputs_of(const MeasuresOutcome& outcome);
+
+/// The commands that show what was measured, for a sentence: "'kinemark gait' (feet and force plates) and
+/// 'kinemark measure' (paths of markers)". Empty: nothing was.
+[[nodiscard]] std::string commands_for(const MeasuresOutcome& outcome);
 
 /// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "rhythms"
 /// (rhythms_json(), where movements of markers are looked at), "noise" (noises_json(), of markers),

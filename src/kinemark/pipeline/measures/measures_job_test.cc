@@ -281,5 +281,23 @@ TEST_F(MeasuresJobTest, NothingMeasurableIsAFailureAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(job_.output));
 }
 
+TEST(CommandsFor, NameWhatWasMeasured) {
+  using ::testing::HasSubstr;
+  using ::testing::Not;
+  constexpr const char *kGait = "'kinemark gait' (feet and force plates)",
+                       *kPaths = "'kinemark measure' (paths of markers)";
+  MeasuresOutcome outcome;
+  EXPECT_EQ(commands_for(outcome), "");
+  outcome.noises.emplace_back();
+  EXPECT_THAT(commands_for(outcome), HasSubstr("'kinemark measure' (paths of markers)"));
+  EXPECT_THAT(commands_for(outcome), Not(HasSubstr("'kinemark gait' (feet and force plates)")));
+  outcome.measures.push_back({.id = "cop_path"});
+  EXPECT_EQ(commands_for(outcome), std::string(kGait) + " and " + kPaths);
+  outcome = {};
+  outcome.emg.emplace();
+  EXPECT_THAT(commands_for(outcome), HasSubstr("'kinemark emg' (electromyograms)"));
+  EXPECT_THAT(commands_for(outcome), Not(HasSubstr("'kinemark measure' (paths of markers)")));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

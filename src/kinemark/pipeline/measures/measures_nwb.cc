@@ -41,11 +41,11 @@ struct WhoseColumns {
 WhoseColumns whose_columns(const std::vector<Row>& rows) {
   WhoseColumns out{
       .first = {column_called("file", "name of the recording"),
-                column_called("participant", "who was recorded; empty: not told"),
-                column_called("session", "when; empty: not told"), column_called("trial", "which trial"),
+                column_called("participant", "who was recorded; empty: not known"),
+                column_called("session", "when; empty: not known"), column_called("trial", "which trial"),
                 column_called("subject", "marker, joint, plate or channel; empty: the whole body"),
                 column_called("context", "Left, Right, or kind of movement; empty: none"),
-                column_called("region", "name of the stretch; empty: the whole recording")},
+                column_called("region", "name of the span; empty: the whole recording")},
       .more = {}};
   for (const auto& [column, value] : rows.front().name->more)
     out.more.push_back(column_called(column, fmt::format("'{}' of the participants' table", column)));
@@ -118,8 +118,8 @@ io::NwbTable wide_table(const std::vector<Row>& rows, const std::vector<std::str
   auto whose = whose_columns(rows);
   out.columns = std::move(whose.first);
   auto cycle = column_called("cycle", "number of the cycle, from 0; NaN: none"),
-       start = column_called("start_s", "first time of the stretch, s, on the recording's clock"),
-       end = column_called("end_s", "last time of the stretch, s"),
+       start = column_called("start_s", "first time of the span, s, on the recording's clock"),
+       end = column_called("end_s", "last time of the span, s"),
        share = column_called("share_not_measured",
                              "largest share, 0 to 1, of samples that were missing, filled or rejected");
   for (const auto& row : rows) {
@@ -173,8 +173,8 @@ io::NwbTable tidy_table(const std::vector<Row>& rows) {
     return [value](const Measure& m) { return data::shown_unit(m.quantity).per_si * value(m); };
   };
   numbers("cycle", "number of the cycle, from 0; NaN: none", cycle_of);
-  numbers("start_s", "first time of the stretch, s", [](const Measure& m) { return m.start_s; });
-  numbers("end_s", "last time of the stretch, s", [](const Measure& m) { return m.end_s; });
+  numbers("start_s", "first time of the span, s", [](const Measure& m) { return m.start_s; });
+  numbers("end_s", "last time of the span, s", [](const Measure& m) { return m.end_s; });
   texts("measure", "id; the table measure_definitions says what it is",
         [](const Measure& m) { return m.id; });
   numbers("value", "in the unit of the row; NaN: not determined",

@@ -39,7 +39,7 @@ std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome
                            .trial = job.input.filename().string(),
                            .version = std::string(kVersion),
                            .command_line = job.command_line,
-                           .inputs = {outcome.input}};
+                           .inputs = inputs_of(outcome)};
   report::add_remarks(out.groups, outcome.warnings);
   report::add_group(out.groups, report::Verdict::attention, "measure", "measure not determined",
                     "measures not determined", remarks(outcome.measures, false));

@@ -35,7 +35,7 @@ std::vector<data::Measure> measures() {
   onset.quantity = data::Quantity::time;
   onset.value = onset.sd = onset.uncorrected = kNaN;
   onset.interval = {};
-  onset.remark = "the stretch does not begin and end at rest";
+  onset.remark = "the span does not begin and end at rest";
   return {length, plane, onset};
 }
 
@@ -64,7 +64,7 @@ TEST(MeasuresJson, HasNullWhereNothingIsDetermined) {
   EXPECT_FALSE(json[0].contains("remark"));
   EXPECT_TRUE(json[1]["interval"]["low"].is_null());
   EXPECT_TRUE(json[2]["value"].is_null());
-  EXPECT_EQ(json[2]["remark"], "the stretch does not begin and end at rest");
+  EXPECT_EQ(json[2]["remark"], "the span does not begin and end at rest");
 }
 
 TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
@@ -73,7 +73,7 @@ TEST(MeasuresText, RoundsToWhatTheIntervalSupports) {
       << text;
   EXPECT_NE(text.find("304.1 [303.3 to 304.9] mm\n"), std::string::npos) << text;
   EXPECT_NE(text.find("0.20 [at most 0.80] mm  (not distinguishable from 0)\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("not determined  (the stretch does not begin"), std::string::npos) << text;
+  EXPECT_NE(text.find("not determined  (the span does not begin"), std::string::npos) << text;
 }
 
 TEST(MeasureList, HasALineForEachWithFormulaAndSource) {

@@ -172,7 +172,7 @@ TEST(MotionRun, MarkersOfAPageAreThoseThatWereSolved) {
   fit.findings = {stretch};
   const auto other = internal::solved_markers(recorded, fit, motion);
   EXPECT_EQ(other.x(1, 0).y(), 2.0);
-  EXPECT_EQ(other.x(3, 1).y(), 2.0) << "behind the stretch";
+  EXPECT_EQ(other.x(3, 1).y(), 2.0) << "behind the span";
   fit.findings[0].partner = "nobody";
   EXPECT_EQ(internal::solved_markers(recorded, fit, motion).x(0, 0).y(), 0.0) << "no such marker";
 }

@@ -359,8 +359,10 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
     auto begun = GaitDrawing::begin(std::move(walking), files_of(job));
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
-  } else if (auto s = job.gait.check(); !s) {
+  } else if (auto s = job.gait.check_idle(); !s) {
     return std::unexpected(s.error());
+  } else if (job.level != SegmentsJob{}.level) {
+    return fail(Code::usage, "--level is of the measures of a gait report; need --report FILE.html too");
   }
   SegmentsOutcome outcome;
   outcome.title = definition->title.empty() ? job.definition : definition->title;

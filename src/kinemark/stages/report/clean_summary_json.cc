@@ -23,7 +23,7 @@ using internal::significant;
 using Json = nlohmann::ordered_json;
 using data::SampleState;
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 
 Json counts_json(const std::array<std::int64_t, 6>& counts) {
   Json out = Json::object();
@@ -140,8 +140,8 @@ Json gap_json(const CleanReport& report, const data::GapAccount& g) {
                        {"rms_mm", millimetres(w.rms_m)},
                        {"guarded", w.guarded}});
   return {{"marker", report.account.name_of(g.marker)},
-          {"first_frame", g.first_frame},
-          {"last_frame", g.last_frame},
+          {"first_frame", time.number(g.first_frame)},
+          {"last_frame", time.number(g.last_frame)},
           {"first_time_s", number(time.time_s(g.first_frame), 6)},
           {"last_time_s", number(time.time_s(g.last_frame), 6)},
           {"length_s", number(internal::length_s(g, time), 6)},
@@ -165,8 +165,8 @@ Json defect_json(const CleanReport& report, const data::Defect& d) {
   return {{"kind", to_string(f.kind)},
           {"marker", f.subject},
           {"other_marker", f.partner},
-          {"first_frame", f.first_frame},
-          {"last_frame", f.last_frame},
+          {"first_frame", time.number(f.first_frame)},
+          {"last_frame", time.number(f.last_frame)},
           {"first_time_s", number(time.time_s(f.first_frame), 6)},
           {"last_time_s", number(time.time_s(f.last_frame), 6)},
           {"confidence", number(f.confidence, 4)},

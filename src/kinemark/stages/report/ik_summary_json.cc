@@ -22,7 +22,7 @@ using internal::millimetres;
 using internal::number;
 using internal::options_json;
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;  // 1 counted frames of the motion from 0
 
 /// deg to 1e-4, m to 1e-6.
 Json coordinate_value(const CoordinateSummary& c, double value) {
@@ -68,14 +68,14 @@ Json markers_json(const IkSummary& s) {
   return out;
 }
 
-/// Every stretch of samples that was left out, frames of the motion, both ends included.
+/// Every span of samples that was left out, in the recording's numbers, both ends included.
 Json rejected_json(const IkSummary& s) {
   Json out = Json::array();
   for (const data::Finding& f : s.run.fit.findings)
     if (f.kind == data::FindingKind::outlier)
       out.push_back({{"marker", f.subject},
-                     {"first_frame", f.first_frame},
-                     {"last_frame", f.last_frame},
+                     {"first_frame", s.time.number(f.first_frame)},
+                     {"last_frame", s.time.number(f.last_frame)},
                      {"first_time_s", number(s.time.time_s(f.first_frame), 6)},
                      {"last_time_s", number(s.time.time_s(f.last_frame), 6)},
                      {"distance_mm", millimetres(f.size)},
@@ -83,7 +83,7 @@ Json rejected_json(const IkSummary& s) {
   return out;
 }
 
-/// Every two markers whose labels were exchanged back, and in which frames of the motion.
+/// Every two markers whose labels were exchanged back, and in which frames, in the recording's numbers.
 Json exchanged_json(const IkSummary& s) {
   Json out = Json::array();
   for (const data::Finding& f : s.run.fit.findings) {
@@ -91,6 +91,7 @@ Json exchanged_json(const IkSummary& s) {
     std::vector<std::int64_t> frames = f.frames;
     for (auto frame = f.first_frame; f.frames.empty() && frame <= f.last_frame; ++frame)
       frames.push_back(frame);
+    for (auto& frame : frames) frame = s.time.number(frame);
     out.push_back({{"marker", f.subject},
                    {"other", f.partner},
                    {"frames", data::format_frame_list(frames)},
@@ -103,7 +104,7 @@ Json exchanged_json(const IkSummary& s) {
 Json worst_frames_json(const IkSummary& s) {
   Json out = Json::array();
   for (const WorstFrame& w : s.worst_frames)
-    out.push_back({{"frame", w.frame},
+    out.push_back({{"frame", s.time.number(w.frame)},
                    {"time_s", number(w.time_s, 6)},
                    {"rms_error_mm", millimetres(w.rms_error_m)},
                    {"markers_seen", w.markers_seen},
@@ -125,14 +126,21 @@ double metres(const Json& object, const char* key) {
   return value.is_null() ? kNaN : 1e-3 * value.get<double>();
 }
 
+/// The number of the motion's first frame in the lists of a report: reports of version 1 count from 0.
+std::int64_t first_number(const Json& json) {
+  if (json.at("schema_version") == 1) return 0;
+  return json.value("first_frame", std::int64_t{0});
+}
+
 /// What rejected_json() wrote.
 std::vector<data::Finding> read_rejected(const Json& json) {
+  const auto first = first_number(json);
   std::vector<data::Finding> findings;
   for (const Json& r : json.value("rejected", Json::array()))
     findings.push_back({.kind = data::FindingKind::outlier,
                         .subject = r.at("marker"),
-                        .first_frame = r.at("first_frame"),
-                        .last_frame = r.at("last_frame"),
+                        .first_frame = r.at("first_frame").get<std::int64_t>() - first,
+                        .last_frame = r.at("last_frame").get<std::int64_t>() - first,
                         .size = metres(r, "distance_mm"),
                         .detail = r.at("why")});
   return findings;
@@ -143,6 +151,7 @@ void add_exchanged(const Json& json, std::vector<data::Finding>& findings) {
   for (const Json& e : json.value("exchanged", Json::array())) {
     auto frames = data::parse_frame_list(e.at("frames").get<std::string>());
     if (!frames || frames->empty()) continue;
+    for (auto& frame : *frames) frame -= first_number(json);
     findings.push_back({.kind = data::FindingKind::label_swap,
                         .subject = e.at("marker"),
                         .partner = e.at("other"),
@@ -248,10 +257,10 @@ Result<IkRun> run_from_json(const nlohmann::ordered_json& json) {
   if (!json.is_object() || json.value("schema", Json()) != "kinemark.ik_report")
     return fail(Code::bad_input,
                 "this JSON is not a kinemark IK report; need \"schema\": \"kinemark.ik_report\"");
-  if (json.value("schema_version", Json()) != kSchemaVersion)
+  if (const auto version = json.value("schema_version", Json()); version != 1 && version != kSchemaVersion)
     return fail(Code::not_supported,
-                fmt::format("the report's schema_version is {}; this program reads {}",
-                            json.value("schema_version", Json()).dump(), kSchemaVersion));
+                fmt::format("the report's schema_version is {}; this program reads 1 and {}", version.dump(),
+                            kSchemaVersion));
   try {
     return read_run(json);
   } catch (const Json::exception& e) {

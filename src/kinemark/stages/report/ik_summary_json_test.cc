@@ -131,6 +131,7 @@ TEST(RunFromJson, KeepsWhatWasLeftOut) {
 
 TEST(RunFromJson, KeepsWhatWasExchangedBack) {
   auto t = internal::example_trial(200);
+  t.motion.time.first_number = 1001;
   data::Finding swap{.kind = data::FindingKind::label_swap,
                      .subject = t.run.fit.markers[3].name,
                      .partner = t.run.fit.markers[5].name,
@@ -142,10 +143,10 @@ TEST(RunFromJson, KeepsWhatWasExchangedBack) {
   t.run.fit.findings = {third, swap};
   const Json first = summary_json(summarize(t.run, t.motion, &t.markers).value());
   ASSERT_EQ(first["exchanged"].size(), 2U);
-  EXPECT_EQ(first["exchanged"][0]["frames"], "1-127/3");
+  EXPECT_EQ(first["exchanged"][0]["frames"], "1002-1128/3") << "the recording's own numbers";
   EXPECT_EQ(first["exchanged"][0]["count"], 43);
   EXPECT_EQ(first["exchanged"][0]["apart_mm"], 43.1);
-  EXPECT_EQ(first["exchanged"][1]["frames"], "1-127");
+  EXPECT_EQ(first["exchanged"][1]["frames"], "1002-1128");
   EXPECT_EQ(first["exchanged"][1]["count"], 127);
   EXPECT_EQ(first["rejected"].size(), 0U) << "nothing was left out";
   const auto run = run_from_json(first);
@@ -157,6 +158,26 @@ TEST(RunFromJson, KeepsWhatWasExchangedBack) {
   Json old = first;
   old.erase("exchanged");
   EXPECT_TRUE(run_from_json(old)->fit.findings.empty()) << "reports of earlier versions have none";
+}
+
+TEST(RunFromJson, FramesOfEarlierReportsCountFromTheFirstOfTheMotion) {
+  auto t = internal::example_trial(400);
+  t.motion.time.first_number = 1001;
+  for (auto& marker : t.run.fit.markers) marker.rejected_frames = 0;
+  t.run.fit.markers[12].rejected_frames = 1;
+  t.run.fit.findings.push_back({.kind = data::FindingKind::outlier,
+                                .subject = t.run.fit.markers[12].name,
+                                .first_frame = 358,
+                                .last_frame = 358,
+                                .size = 0.0431,
+                                .detail = "far off"});
+  Json json = summary_json(summarize(t.run, t.motion, &t.markers).value());
+  EXPECT_EQ(json["rejected"][0]["first_frame"], 1359);
+  EXPECT_EQ(json["worst_frames"][0]["frame"].get<std::int64_t>() > 1000, true);
+  EXPECT_EQ(run_from_json(json)->fit.findings.back().first_frame, 358);
+  json["schema_version"] = 1;
+  json["rejected"][0]["first_frame"] = json["rejected"][0]["last_frame"] = 358;
+  EXPECT_EQ(run_from_json(json)->fit.findings.back().first_frame, 358);
 }
 
 TEST(SummaryJson, OpenFramesAreNullWhereTheyAreNotKnown) {
@@ -202,7 +223,7 @@ TEST(RunFromJson, SaysWhatIsWrong) {
   json["schema"] = 3;
   EXPECT_EQ(run_from_json(json).error().code, Code::bad_input);
   json = good;
-  json["schema_version"] = 2;
+  json["schema_version"] = 3;
   EXPECT_EQ(run_from_json(json).error().code, Code::not_supported);
   json = good;
   json.erase("trial");

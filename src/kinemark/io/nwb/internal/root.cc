@@ -34,7 +34,7 @@ std::string fallback(const std::string& text, const char* otherwise) {
 
 void write_provenance(Output& out, hid_t module, const NwbMetadata& m) {
   Column kind{.name = "kind", .description = "software, recorder, command, seed or option"};
-  Column name{.name = "item", .description = "what is told"};
+  Column name{.name = "item", .description = "what is said"};
   Column value{.name = "value", .description = "its value"};
   const auto row = [&](const char* k, const std::string& n, const std::string& v) {
     kind.texts.emplace_back(k);

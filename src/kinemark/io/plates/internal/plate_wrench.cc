@@ -67,7 +67,7 @@ Result<Eigen::MatrixXd> calibration(const data::ForcePlate& plate, std::size_t s
   if (rows < n || columns < n)
     return fail(Code::bad_input, fmt::format("is of type {} but has no CAL_MATRIX of {} x {} numbers",
                                              plate.type, size, size));
-  const Eigen::MatrixXd m =
+  Eigen::MatrixXd m =
       Eigen::Map<const Eigen::MatrixXd>(plate.calibration.data(), rows, columns).topLeftCorner(n, n);
   if (!m.allFinite() || m.isZero(0.0))
     return fail(Code::bad_input, "has a CAL_MATRIX of zeros or of values that are not numbers");

@@ -276,7 +276,7 @@ Result<BodyMeasures> measure_body(const BodyRecord& record, const Mechanics& mec
     stretch.count = last - stretch.first;
     if (stretch.count < kLeastStretch)
       return fail(Code::bad_input,
-                  fmt::format("stretch '{}' has fewer than {} frames between the first and the last {:g} s "
+                  fmt::format("span '{}' has fewer than {} frames between the first and the last {:g} s "
                               "of the motion",
                               stretch.name, kLeastStretch, kEdge_s));
   }

@@ -179,9 +179,9 @@ TEST(BodyMeasures, WhatIsNotDeterminedIsNotSaid) {
   EXPECT_THAT(range.remark, HasSubstr("what happened in 0.5 s without data is not known"));
   EXPECT_NEAR(range.share_not_measured, 50.0 / 400.0, 1e-9);
   EXPECT_TRUE(std::isnan(find(out, "joint_range", "hip_l", "gap").value));
-  EXPECT_EQ(find(out, "joint_range", "hip_l", "gap").remark, "nothing fixes it in this stretch");
+  EXPECT_EQ(find(out, "joint_range", "hip_l", "gap").remark, "nothing fixes it in this span");
   EXPECT_THAT(find(out, "joint_work_net", "knee_l", "all").remark,
-              HasSubstr("the torque is not determined in 3 % of the stretch"));
+              HasSubstr("the torque is not determined in 3 % of the span"));
   EXPECT_EQ(find(out, "joint_range", "knee_l", "all").interval.kind, IntervalKind::two_sided);
 }
 
@@ -214,7 +214,7 @@ TEST(BodyMeasures, ReasonsAreSaidWhereTheyAreSoAlone) {
   for (const std::string id : {"joint_range", "joint_work_net"}) {
     const auto& m = find(out, id, "hip_l");
     EXPECT_THAT(m.remark, Not(HasSubstr("no interval was asked for"))) << id;
-    EXPECT_THAT(m.remark, Not(HasSubstr("nothing fixes it in this stretch"))) << id;
+    EXPECT_THAT(m.remark, Not(HasSubstr("nothing fixes it in this span"))) << id;
     EXPECT_THAT(m.remark, Not(HasSubstr("the torque is not determined in"))) << id;
     EXPECT_THAT(m.remark, Not(HasSubstr("the torque is not known throughout"))) << id;
     EXPECT_THAT(m.remark, Not(HasSubstr("no interval: what happened in"))) << id;
@@ -240,9 +240,9 @@ TEST(BodyMeasures, AnInstantHasAnIntervalWhereItStandsOut) {
   const auto& one = find(out, "joint_maximum_time", "knee_l", "one");
   EXPECT_EQ(one.interval.kind, IntervalKind::two_sided) << one.remark;
   EXPECT_THAT(one.remark, Not(HasSubstr("other instants are nearly as extreme")));
-  EXPECT_THAT(one.remark, Not(HasSubstr("it is at an end of the stretch")));
+  EXPECT_THAT(one.remark, Not(HasSubstr("it is at an end of the span")));
   const auto& slide = find(out, "joint_maximum_time", "slide", "cycles");
-  EXPECT_THAT(slide.remark, HasSubstr("it is at an end of the stretch")) << "it only ever rises";
+  EXPECT_THAT(slide.remark, HasSubstr("it is at an end of the span")) << "it only ever rises";
 }
 
 TEST(BodyMeasures, ATimeOnAPlateauIsNotGiven) {
@@ -422,7 +422,7 @@ TEST(BodyMeasures, RefusesWhatCannotBeMeasured) {
   EXPECT_EQ(measure_body(record, nothing, {.level = 1.0}).error().code, Code::usage);
   EXPECT_THAT(
       measure_body(record, nothing, {.stretches = {{.name = "x", .first = 0, .count = 9}}}).error().message,
-      HasSubstr("stretch 'x' has fewer than 5 frames"));
+      HasSubstr("span 'x' has fewer than 5 frames"));
   EXPECT_THAT(measure_body(swinging(0.01, 2, 20), nothing, {}).error().message,
               HasSubstr("the motion has 20 frames; 30 or more are needed"));
   auto locked = record;

@@ -125,11 +125,11 @@ bool BodyStatement::errors_known(const BodySlot& slot) const {
 
 // Why there is no value, or an empty text.
 std::string BodyStatement::no_value(const BodySlot& slot, double value, const Gaps& gaps) const {
-  if (gaps.share >= 1.0) return "nothing fixes it in this stretch";
+  if (gaps.share >= 1.0) return "nothing fixes it in this span";
   if (slot.definition->scope == BodyScope::torque) {
     const auto unknown = gaps_in(record_.torque_known, slot.a, *slot.stretch);
     if (unknown.share > 0.0)
-      return fmt::format("the torque is not determined in {:.0f} % of the stretch",
+      return fmt::format("the torque is not determined in {:.0f} % of the span",
                          std::max(1.0, std::round(100.0 * unknown.share)));
   }
   if (std::isfinite(value)) return {};
@@ -241,7 +241,7 @@ void BodyStatement::put_instant(const BodySlot& slot, const Pivoted& found, doub
   const double low = std::min(found.low, value + reach.before),
                high = std::max(found.high, value + reach.after);
   if (edge || high - low > kInstant * (last - first)) {
-    remark(measure, edge ? "no interval: it is at an end of the stretch"
+    remark(measure, edge ? "no interval: it is at an end of the span"
                          : "no interval: other instants are nearly as extreme");
     return;
   }

@@ -37,18 +37,18 @@ constexpr std::array<data::MeasureDefinition, kCount> kDefinitions{{
     {"emg_mean", kEmg, Quantity::voltage, "Mean of the envelope",
      "rectified, low-passed; with what it is at rest", kDefinition},
     {"emg_peak", kEmg, Quantity::voltage, "Peak of the envelope", "sqrt(max^2 - rest^2)", kDefinition},
-    {"emg_peak_time", kEmg, Quantity::time, "Time of the peak", "from the beginning of the stretch",
+    {"emg_peak_time", kEmg, Quantity::time, "Time of the peak", "from the beginning of the span",
      kDefinition},
     {"emg_rms", kEmg, Quantity::voltage, "Root mean square", "of the band: sqrt(mean square - that at rest)",
      "Merletti 1999"},
     {"emg_median_frequency", kEmg, Quantity::frequency, "Median frequency", "halves the power of the band",
      "De Luca 1984"},
     {"emg_onset", kEmg, Quantity::time, "Onset of the first burst",
-     "envelope of 50 Hz over rest + 3 SD for 50 ms, from the beginning of the stretch", kHodges},
+     "envelope of 50 Hz over rest + 3 SD for 50 ms, from the beginning of the span", kHodges},
     {"emg_end", kEmg, Quantity::time, "End of the last burst", "likewise", kHodges},
     {"emg_active", kEmg, Quantity::share, "Share of the time active", "of the samples within bursts",
      kHodges},
-    {"emg_rest", kEmg, Quantity::voltage, "Envelope at rest", "mean of the quietest stretch", kDefinition},
+    {"emg_rest", kEmg, Quantity::voltage, "Envelope at rest", "mean of the quietest span", kDefinition},
 }};
 
 /// A channel, prepared.
@@ -250,7 +250,7 @@ class EmgMeasurement {
     const double unit = in_volts && std::isfinite(most) ? 1.0 / most : 1.0;
     if (unit != 1.0) measure.quantity = Quantity::share;
     if (!std::isfinite(value)) {
-      measure.remark = which == kMedian ? "no signal there" : "no burst begins or ends in the stretch";
+      measure.remark = which == kMedian ? "no signal there" : "no burst begins or ends in the span";
       out.measures.push_back(std::move(measure));
       return;
     }
@@ -258,7 +258,7 @@ class EmgMeasurement {
     if (options_.refits == 0) {
       measure.remark = "no interval was asked for";
     } else if (which == kRest) {
-      measure.remark = "no interval: it is the least of many stretches";
+      measure.remark = "no interval: it is the least of many spans";
     } else if (!active) {
       // What is simulated then is rest, with the strength of chance: its bias is not that of a muscle.
       measure.remark = "no interval: no burst rises above rest";

@@ -138,7 +138,7 @@ TEST(EmgMeasures, ReasonsForNoIntervalAreThoseOfTheMeasure) {
   const auto plain = measure_emg({burst(3)}, kEmg_hz, 0.0, {.refits = 0}).value();
   EXPECT_THAT(get(plain, "emg_mean").remark, HasSubstr("no interval was asked for"));
   EXPECT_THAT(get(plain, "emg_peak").remark, Not(HasSubstr("chance can only raise it")));
-  EXPECT_THAT(get(plain, "emg_rest").remark, Not(HasSubstr("it is the least of many stretches")));
+  EXPECT_THAT(get(plain, "emg_rest").remark, Not(HasSubstr("it is the least of many spans")));
 
   const auto out =
       measure_emg(
@@ -148,13 +148,13 @@ TEST(EmgMeasures, ReasonsForNoIntervalAreThoseOfTheMeasure) {
           .value();
   EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("no interval was asked for")));
   EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("no burst rises above rest")));
-  EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("it is the least of many stretches")));
-  EXPECT_THAT(get(out, "emg_rest", "whole").remark, HasSubstr("it is the least of many stretches"));
+  EXPECT_THAT(get(out, "emg_mean", "whole").remark, Not(HasSubstr("it is the least of many spans")));
+  EXPECT_THAT(get(out, "emg_rest", "whole").remark, HasSubstr("it is the least of many spans"));
   EXPECT_THAT(get(out, "emg_peak", "whole").remark, HasSubstr("chance can only raise it"));
   EXPECT_THAT(get(out, "emg_peak_time", "steady").remark, HasSubstr("other instants are nearly as good"))
       << "any instant of an even burst may have the peak";
   EXPECT_THAT(get(out, "emg_onset", "whole").remark, Not(HasSubstr("no burst begins or ends")));
-  EXPECT_THAT(get(out, "emg_onset", "steady").remark, HasSubstr("no burst begins or ends in the stretch"));
+  EXPECT_THAT(get(out, "emg_onset", "steady").remark, HasSubstr("no burst begins or ends in the span"));
 }
 
 TEST(EmgMeasures, AnInstantThatManyDrawsLackHasNoInterval) {
@@ -191,7 +191,7 @@ TEST(EmgMeasures, WhatCannotBeMeasuredIsSaid) {
                        .value();
   EXPECT_THAT(out.notes, Contains("EMG2 has missing samples, and is not measured"));
   EXPECT_THAT(out.notes, Contains("EMG3 holds no signal"));
-  EXPECT_EQ(get(out, "emg_onset", "rest").remark, "no burst begins or ends in the stretch");
+  EXPECT_EQ(get(out, "emg_onset", "rest").remark, "no burst begins or ends in the span");
   EXPECT_THAT(measure_emg({gap}, kEmg_hz, 0.0, {}).error().message, HasSubstr("EMG2 has missing samples"));
   EXPECT_THAT(measure_emg({}, kEmg_hz, 0.0, {}).error().message, HasSubstr("no channel"));
   EXPECT_THAT(measure_emg({}, kEmg_hz, 0.0, {.measures = {"emg_mena"}}).error().message,

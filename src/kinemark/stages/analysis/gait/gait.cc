@@ -285,6 +285,13 @@ void take_strides(Gait& out) {
   }
 }
 
+// "-y" of the axis that is nearest.
+std::string axis_name(const Eigen::Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return fmt::format("{}{}", direction[axis] < 0.0 ? "-" : "", "xyz"[axis]);
+}
+
 }  // namespace
 
 double event_noise(std::span<const double> moved_s) {
@@ -300,7 +307,7 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
                           const GaitOptions& options) {
   const auto which = find_gait_markers(markers, options.markers);
   if (!which) return std::unexpected(which.error());
-  auto smoother = GaitSmoother::create(markers, *which, options.noise_sd_m);
+  auto smoother = GaitSmoother::create(markers, *which, options.noise_sd_m, options.up);
   if (!smoother) return std::unexpected(smoother.error());
   const auto of_markers = find_marker_events(*smoother, *which);
   if (!of_markers) return std::unexpected(of_markers.error());
@@ -310,6 +317,9 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   Gait out{.kind = of_markers->kind, .person = which->person};
   out.treadmill = out.kind.belt, out.belt_speed_m_per_s = out.kind.belt_m_per_s;
   std::ranges::copy(which->notes, std::back_inserter(out.notes));
+  if (options.up && !options.up->isApprox(smoother->standing()))
+    out.notes.push_back(fmt::format("{} is stated to point up, the pelvis stands above the feet along {}",
+                                    axis_name(*options.up), axis_name(smoother->standing())));
   std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
   if (evidence.plates != nullptr)

@@ -3,7 +3,9 @@
 // Walking in a recording: events, cycles, spatiotemporal measures, each with what it is worth.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +35,7 @@ struct GaitOptions {
   double level = 0.95;                     ///< of the intervals, above 0.5 and below 1
   std::uint64_t seed = 1;                  ///< of the refits
   int threads = 1;                         ///< 0: all cores; any number gives the same bits
+  std::optional<Eigen::Vector3d> up;       ///< of length 1; none: where the pelvis stands above the feet
 };
 
 /// What a recording tells of walking besides its markers.

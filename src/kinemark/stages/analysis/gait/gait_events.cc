@@ -77,11 +77,11 @@ void judge_clocks(const MarkerEvents& of_markers, std::span<const GaitEvent> of_
       (later[0] > 0.0) != (later[1] > 0.0))
     return;
   out.out_of_step = true;
-  out.notes.push_back(
-      fmt::format("plates and markers are out of step: the plates' strikes come {:.0f} ms and their leavings "
-                  "{:.0f} ms {} those of "
-                  "the markers; forces of this recording belong to other frames",
-                  1e3 * std::abs(later[0]), 1e3 * std::abs(later[1]), later[0] > 0.0 ? "before" : "after"));
+  out.notes.push_back(fmt::format(
+      "plates and markers are out of step: the plates' strikes come {:.0f} ms and their foot offs "
+      "{:.0f} ms {} those of "
+      "the markers; forces of this recording belong to other frames",
+      1e3 * std::abs(later[0]), 1e3 * std::abs(later[1]), later[0] > 0.0 ? "before" : "after"));
 }
 
 // What the plates tell of the markers' offset: normal with the common SD before, events' own errors about it.

@@ -158,7 +158,7 @@ TEST_F(GaitEventsTest, PlatesOutOfStepAreNamedAndNotTaken) {
   EXPECT_EQ(count_of(found, EventSource::plate), 0);
   ASSERT_FALSE(found.notes.empty());
   EXPECT_NE(
-      found.notes[0].find("out of step: the plates' strikes come 45 ms and their leavings 50 ms before"),
+      found.notes[0].find("out of step: the plates' strikes come 45 ms and their foot offs 50 ms before"),
       std::string::npos)
       << found.notes[0];
   EXPECT_EQ(count_of(find_gait_events(of_markers_, plates, {}, EventChoice::plates), EventSource::plate), 6);

@@ -84,7 +84,7 @@ Result<GaitSmoother::Point> GaitSmoother::make_point(SeriesMatrix raw, std::vect
   const auto count = std::ranges::count(seen, true);
   if (count < kLeastSamples)
     return fail(Code::bad_input,
-                fmt::format("{} is believed in {} frames; need {} at least", what, count, kLeastSamples));
+                fmt::format("{} is usable in {} frames; need {} at least", what, count, kLeastSamples));
   double noise = math::noise_from_differences(raw, seen);
   if (!(noise > noise_sd_m)) noise = noise_sd_m;
   return Point{.name = what,
@@ -169,8 +169,7 @@ Status GaitSmoother::add_pelvis(const data::Trajectories& markers, const GaitMar
   return {};
 }
 
-// The laboratory's axis along which the pelvis stands above the feet, in frames in which both are seen.
-void GaitSmoother::find_up() {
+Eigen::Vector3d GaitSmoother::standing() const {
   const auto& pelvis = points_.back();
   Eigen::Vector3d above = Eigen::Vector3d::Zero(), anyway = Eigen::Vector3d::Zero();
   for (const auto side : data::kBothSides) {
@@ -189,12 +188,11 @@ void GaitSmoother::find_up() {
   if (above.isZero()) above = anyway;
   Eigen::Index axis = 0;
   above.cwiseAbs().maxCoeff(&axis);
-  const Eigen::Vector3d up = (above[axis] < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
-  upright_ = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return (above[axis] < 0.0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
 }
 
 Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, const GaitMarkers& which,
-                                          double noise_sd_m) {
+                                          double noise_sd_m, const std::optional<Eigen::Vector3d>& up) {
   if (!(markers.time.rate_hz >= kLeastRate_hz))
     return fail(Code::bad_input,
                 fmt::format("{:g} frames a second are too few for events of walking; need {:g}",
@@ -208,7 +206,8 @@ Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, con
       if (auto s = out.add_foot(markers, which.foot(side), side, noise_sd_m); !s)
         return std::unexpected(s.error());
   if (auto s = out.add_pelvis(markers, which, noise_sd_m); !s) return std::unexpected(s.error());
-  out.find_up();
+  out.upright_ = Eigen::Quaterniond::FromTwoVectors(up ? *up : out.standing(), Eigen::Vector3d::UnitZ())
+                     .toRotationMatrix();
   if (auto s = out.smooth_at(kFirstCutOff_hz); !s) return std::unexpected(s.error());
   return out;
 }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,12 @@ class GaitSmoother {
   /// Takes what believe_samples() believes and smooths at kFirstCutOff_hz.
   ///
   /// @param noise_sd_m  per axis, 0: found from each marker's sixth differences
+  /// @param up  of length 1, as somebody states it; none: the axis along which the pelvis stands above the
+  /// feet
   /// @return  Code::bad_input where the rate is below 20 Hz, or a marker is believed in fewer than 8 frames.
   [[nodiscard]] static Result<GaitSmoother> create(const data::Trajectories& markers,
-                                                   const GaitMarkers& which, double noise_sd_m);
+                                                   const GaitMarkers& which, double noise_sd_m,
+                                                   const std::optional<Eigen::Vector3d>& up = {});
 
   /// Smooth again at another cut-off, at most 0.4 of the rate.
   [[nodiscard]] Status smooth_at(double cut_off_hz);
@@ -84,6 +88,8 @@ class GaitSmoother {
   [[nodiscard]] GaitPaths noise_alone(std::uint64_t seed, std::int64_t number) const;
   /// Rotation that turns the recording's axes so that z is up.
   [[nodiscard]] const Eigen::Matrix3d& upright() const { return upright_; }
+  /// The laboratory's axis along which the pelvis stands above the feet, in frames in which both are seen.
+  [[nodiscard]] Eigen::Vector3d standing() const;
   /// How a foot was seen.
   [[nodiscard]] const FootSeen& seen(data::Side side) const { return seen_[data::index_of(side)]; }
   /// Left becomes right, and right left.
@@ -105,7 +111,6 @@ class GaitSmoother {
                                 double noise_sd_m);
   [[nodiscard]] Status add_pelvis(const data::Trajectories& markers, const GaitMarkers& which,
                                   double noise_sd_m);
-  void find_up();
   [[nodiscard]] GaitPaths arrange(const std::vector<math::SeriesMatrix>& points) const;
 
   std::vector<Point> points_;  // one or two of each foot that is there, then the pelvis

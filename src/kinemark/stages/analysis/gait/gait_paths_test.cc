@@ -53,6 +53,16 @@ TEST_F(GaitPathsTest, AStraightPathStaysAsItIs) {
   }
 }
 
+TEST_F(GaitPathsTest, UpIsWhereThePelvisStandsUnlessItIsStated) {
+  EXPECT_EQ(create().value().standing(), Vector3d::UnitZ());
+  EXPECT_TRUE(create().value().upright().isIdentity(1e-12));
+  const auto stated =
+      GaitSmoother::create(markers_, find_gait_markers(markers_).value(), 0.0, Vector3d::UnitY());
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(stated->standing(), Vector3d::UnitZ());
+  EXPECT_TRUE((stated->upright() * Vector3d::UnitY()).isApprox(Vector3d::UnitZ()));
+}
+
 // A two-pass Butterworth filter whose power is half at 8 Hz: gain 1 / (1 + (f / 9.97 Hz)^4).
 TEST_F(GaitPathsTest, SwingsAreDampedAsTheLowPassDampsThem) {
   for (const auto& [hz, gain] : {std::pair{3.5, 0.985}, std::pair{8.0, std::sqrt(0.5)}, std::pair{9.972, 0.5},

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/gait.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,6 +139,31 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
   const auto taken = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 0}).value();
   EXPECT_EQ(taken.events.size(), walk.events().size());
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
+}
+
+TEST(Gait, AnAxisThatIsStatedToPointUpIsHeldAgainstThePelvis) {
+  using ::testing::Contains;
+  using ::testing::HasSubstr;
+  using ::testing::Not;
+  const KnownWalk walk;
+  const auto markers = walk.markers(0.0005, 3);
+  const auto found = analyze_gait(markers, {}, {.refits = 0}).value();
+  const std::vector<data::Event> events{{.label = "Foot Strike", .context = "Left", .time_s = 1.0},
+                                        {.label = "Foot Strike", .context = "Left", .time_s = 2.1}};
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0, 1, 0)}) {
+    const auto gait =
+        analyze_gait(markers, {.events = events}, {.choice = EventChoice::file, .refits = 0, .up = up})
+            .value();
+    if (up.z() == 1.0)
+      EXPECT_THAT(gait.notes, Not(Contains(HasSubstr("is stated to point up, the pelvis stands above"))));
+    else
+      EXPECT_THAT(gait.notes,
+                  Contains(HasSubstr("is stated to point up, the pelvis stands above the feet along z")));
+  }
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("is stated to point up, the pelvis stands above"))));
+  const auto same = analyze_gait(markers, {}, {.refits = 0, .up = Eigen::Vector3d::UnitZ()}).value();
+  EXPECT_EQ(value_of(same, "step_width"), value_of(found, "step_width"));
 }
 
 TEST(Gait, RegionsHoldWholeCycles) {

@@ -85,15 +85,15 @@ constexpr std::array kDefinitions{
                    [](Cycles c) { return mean_of(c, [](const GaitCycle& x) { return x.step_length(); }); },
                    true},
     GaitDefinition{
-        {"stance_time", kGait, Quantity::time, "Stance time", "from strike to leaving the ground", kPrints},
+        {"stance_time", kGait, Quantity::time, "Stance time", "from foot strike to foot off", kPrints},
         GaitScope::each_side,
         false,
         [](Cycles c) { return mean_of(c, stance); }},
-    GaitDefinition{{"swing_time", kGait, Quantity::time, "Swing time",
-                    "from leaving the ground to the next strike", kPrints},
-                   GaitScope::each_side,
-                   false,
-                   [](Cycles c) { return mean_of(c, [](const GaitCycle& x) { return x.end_s - x.off_s; }); }},
+    GaitDefinition{
+        {"swing_time", kGait, Quantity::time, "Swing time", "from foot off to the next foot strike", kPrints},
+        GaitScope::each_side,
+        false,
+        [](Cycles c) { return mean_of(c, [](const GaitCycle& x) { return x.end_s - x.off_s; }); }},
     GaitDefinition{
         {"stance_share", kGait, Quantity::share, "Stance, share of the stride", "stance time / stride time",
          kPrints},
@@ -102,12 +102,12 @@ constexpr std::array kDefinitions{
         [](Cycles c) { return mean_of(c, [](const GaitCycle& x) { return stance(x) / duration(x); }); }},
     GaitDefinition{
         {"double_support", kGait, Quantity::time, "First double support",
-         "from the foot's strike to the other's leaving", kPrints},
+         "from the foot's strike to the other's foot off", kPrints},
         GaitScope::each_side,
         false,
         [](Cycles c) { return mean_of(c, [](const GaitCycle& x) { return x.other_off_s - x.start_s; }); }},
     GaitDefinition{{"single_support", kGait, Quantity::time, "Single support",
-                    "from the other foot's leaving to its strike", kPrints},
+                    "from the other's foot off to its strike", kPrints},
                    GaitScope::each_side,
                    false,
                    [](Cycles c) {

@@ -154,7 +154,7 @@ const std::array kDefinitions{
         Weakness::extreme_of_constant,
         [](const PathFacts& f) { return f.speed.maxCoeff(); }},
     PathDefinition{{"time_to_peak", "time", Quantity::time, "Time to peak velocity",
-                    "from the first sample of the stretch to the largest |v|", kDefinition},
+                    "from the first sample of the span to the largest |v|", kDefinition},
                    Applies::discrete,
                    Pivot::plain,
                    Weakness::approximate,

@@ -181,13 +181,13 @@ std::vector<std::string> MarkerNoise::sentences() const {
   for (const auto& noise : noises_)
     if (leaves_size_open(noise)) open.add(noise.subject, noise.sample_sd_m);
   if (!open.names.empty())
-    out.push_back(
-        fmt::format("{}: the samples leave open how large their noise is (slower than can be told from "
-                    "movement, of no known "
-                    "form, or below the rounding of the file); deviations rest on {} mm a sample. State it: "
-                    "--noise, from a "
-                    "static trial of the same session.",
-                    listed(open.names), open.range()));
+    out.push_back(fmt::format(
+        "{}: the samples leave open how large their noise is (slower than can be distinguished from "
+        "movement, of no known "
+        "form, or below the rounding of the file); deviations rest on {} mm a sample. State it: "
+        "--noise, from a "
+        "static trial of the same session.",
+        listed(open.names), open.range()));
   return out;
 }
 

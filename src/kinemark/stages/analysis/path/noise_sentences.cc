@@ -103,7 +103,8 @@ void average(std::span<const PathNoise> markers, SharedFilter& shared) {
 
 std::string range_sentence(const Group& group) {
   return fmt::format(
-      "{}: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm): no interval of "
+      "{}: the noise below 2 Hz cannot be distinguished from movement (between {:.2g} and {:.2g} mm): no "
+      "interval of "
       "extents, largest distance, farthest sample, boxes and plane. State it (--noise, from a static trial "
       "of the same "
       "session)",

@@ -185,13 +185,13 @@ TEST(NoiseSentences, SlowNoiseIsCalledSoAndItsSizeUnknown) {
   EXPECT_THAT(text, HasSubstr("KNE: the noise is correlated over "));
   EXPECT_THAT(text, HasSubstr(" s or more (AR "));
   EXPECT_THAT(text, Not(HasSubstr("mm, correlated over "))) << "its size is not known";
-  EXPECT_THAT(text, HasSubstr("KNE: the noise below 2 Hz cannot be told from movement (between "));
+  EXPECT_THAT(text, HasSubstr("KNE: the noise below 2 Hz cannot be distinguished from movement (between "));
   EXPECT_THAT(text, HasSubstr("no interval of extents, largest distance, farthest sample, boxes and plane"));
   EXPECT_THAT(text, Not(HasSubstr("falls as behind a low-pass")));
   const auto steady = said_of(flat("A"));
   EXPECT_THAT(steady, Not(HasSubstr("mm, correlated over ")));
   EXPECT_THAT(steady, Not(HasSubstr(": the noise is correlated over ")));
-  EXPECT_THAT(steady, Not(HasSubstr("the noise below 2 Hz cannot be told from movement")));
+  EXPECT_THAT(steady, Not(HasSubstr("the noise below 2 Hz cannot be distinguished from movement")));
 }
 
 TEST(NoiseSentences, NumbersOfManyMarkersAreRanges) {

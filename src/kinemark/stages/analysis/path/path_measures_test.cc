@@ -205,7 +205,7 @@ TEST(MeasurePaths, SlowNoiseTakesTheIntervalsOfWhatRestsOnItAndNoOthers) {
   ASSERT_TRUE(found);
   for (const char* id : {"extent_long", "largest_distance", "plane_sd"}) {
     EXPECT_EQ(find(*found, id).interval.kind, IntervalKind::none) << id;
-    EXPECT_NE(find(*found, id).remark.find("cannot be told from movement"), std::string::npos) << id;
+    EXPECT_NE(find(*found, id).remark.find("cannot be distinguished from movement"), std::string::npos) << id;
   }
   EXPECT_EQ(find(*found, "path_length").interval.kind, IntervalKind::two_sided);
   EXPECT_EQ(find(*found, "peak_speed").interval.kind, IntervalKind::two_sided);

@@ -62,7 +62,7 @@ PathSamples differentiate(const SeriesMatrix& x, std::int64_t first, std::int64_
 PathSamples differentiate(const SeriesMatrix& x, std::int64_t first, std::int64_t count, double rate_hz,
                           std::int64_t column, std::int64_t axes) {
   check(first >= kDerivativeMargin && count > 0 && first + count + kDerivativeMargin <= x.rows(),
-        "a stretch needs four samples before and behind it");
+        "a span needs four samples before and behind it");
   check(column >= 0 && column + axes <= x.cols(), "a path has as many columns as are taken of it");
   PathSamples out{.rate_hz = rate_hz};
   for (auto* matrix : {&out.x, &out.v, &out.a, &out.j}) matrix->resize(count, axes);

@@ -79,7 +79,8 @@ std::string no_interval(const PathDefinition& definition, const StretchSummary& 
                        1e3 * stretch.noise_sd_m);
   if (definition.needs_slow_noise && stretch.slow_noise_unknown)
     return fmt::format(
-        "no interval: the noise below 2 Hz cannot be told from movement (between {:.2g} and {:.2g} mm); "
+        "no interval: the noise below 2 Hz cannot be distinguished from movement (between {:.2g} and {:.2g} "
+        "mm); "
         "state it",
         1e3 * stretch.slow_low_m, 1e3 * stretch.slow_high_m);
   if (stretch.correlated && frame.discrete && fails_under_correlation(definition))
@@ -103,7 +104,7 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
   if (square && pivoted.low <= 0.0)
     only_at_most(measure, "not distinguishable from 0");
   else if (definition.weakness == Weakness::lengthened_at_rest && frame.share_at_rest > kRestCounts)
-    only_at_most(measure, fmt::format("{:.0f} % of the stretch are at rest, where noise can only lengthen",
+    only_at_most(measure, fmt::format("{:.0f} % of the span are at rest, where noise can only lengthen",
                                       100.0 * frame.share_at_rest));
   else if (definition.weakness == Weakness::extreme_of_constant && frame.steady)
     only_at_most(measure, "the speed hardly changes, so that its largest value is the noise's");
@@ -151,7 +152,7 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
     return out;
   }
   if (!std::isfinite(numbers.estimate)) {
-    remark(out, definition.applies == Applies::discrete   ? "the stretch does not begin and end at rest"
+    remark(out, definition.applies == Applies::discrete   ? "the span does not begin and end at rest"
                 : definition.applies == Applies::periodic ? "the movement does not repeat"
                 : definition.applies == Applies::closed   ? "the movement does not come back to where it was"
                                                           : "too little movement");

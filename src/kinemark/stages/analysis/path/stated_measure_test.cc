@@ -63,10 +63,10 @@ TEST_F(StatedMeasure, LengthsAcrossARestAreAtMost) {
   frame_.share_at_rest = 0.4;
   const auto m = tell("path_length", 1.0, 0.02, 0.05);
   EXPECT_EQ(m.interval.kind, data::IntervalKind::at_most);
-  EXPECT_TRUE(says(m, "40 % of the stretch are at rest, where noise can only lengthen"));
+  EXPECT_TRUE(says(m, "40 % of the span are at rest, where noise can only lengthen"));
   EXPECT_EQ(tell("movement_path", 1.0, 0.02, 0.05).interval.kind, data::IntervalKind::two_sided);
   frame_.share_at_rest = 0.01;
-  EXPECT_FALSE(says(tell("path_length", 1.0, 0.02, 0.05), "% of the stretch are at rest, where noise"));
+  EXPECT_FALSE(says(tell("path_length", 1.0, 0.02, 0.05), "% of the span are at rest, where noise"));
 }
 
 TEST_F(StatedMeasure, PeaksOfAConstantSpeedAreAtMost) {
@@ -197,11 +197,11 @@ TEST_F(StatedMeasure, WhatNeedsAChangingSpeedSaysSo) {
 TEST_F(StatedMeasure, CountsAreWholeNumbers) { EXPECT_EQ(tell("submovements", 3.0, 0.2, 0.4).value, 3.0); }
 
 TEST_F(StatedMeasure, WhatIsNotDeterminedSaysWhy) {
-  EXPECT_EQ(tell("onset", kNaN, 0.0, 0.1).remark, "the stretch does not begin and end at rest");
+  EXPECT_EQ(tell("onset", kNaN, 0.0, 0.1).remark, "the span does not begin and end at rest");
   EXPECT_EQ(tell("cycle_time", kNaN, 0.0, 0.1).remark, "the movement does not repeat");
   EXPECT_EQ(tell("ellipse_major", kNaN, 0.0, 0.1).remark, "the movement does not come back to where it was");
   EXPECT_EQ(tell("peak_speed", kNaN, 0.0, 0.1).remark, "too little movement");
-  EXPECT_FALSE(says(tell("onset", 0.4, 0.0, 0.1), "the stretch does not begin and end at rest"));
+  EXPECT_FALSE(says(tell("onset", 0.4, 0.0, 0.1), "the span does not begin and end at rest"));
   EXPECT_FALSE(says(tell("cycle_time", 0.4, 0.0, 0.1), "the movement does not repeat"));
   EXPECT_FALSE(says(tell("ellipse_major", 0.4, 0.0, 0.1), "the movement does not come back to where it was"));
 }
@@ -232,16 +232,16 @@ TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
 TEST_F(StatedMeasure, SlowNoiseWithdrawsOnlyWhatRestsOnIt) {
   const auto known = tell("extent_long", 1.0, 0.0, 0.1);
   EXPECT_EQ(known.interval.kind, data::IntervalKind::two_sided);
-  EXPECT_FALSE(says(known, "the noise below 2 Hz cannot be told from movement"));
+  EXPECT_FALSE(says(known, "the noise below 2 Hz cannot be distinguished from movement"));
   stretch_.slow_noise_unknown = true;
   stretch_.slow_low_m = 1e-4, stretch_.slow_high_m = 9e-4;
   for (const char* id :
        {"extent_long", "extent_wide", "largest_distance", "farthest_sample", "plane_sd", "box_length"}) {
     const auto none = tell(id, 1.0, 0.0, 0.1);
     EXPECT_EQ(none.interval.kind, data::IntervalKind::none) << id;
-    EXPECT_EQ(
-        none.remark,
-        "no interval: the noise below 2 Hz cannot be told from movement (between 0.1 and 0.9 mm); state it");
+    EXPECT_EQ(none.remark,
+              "no interval: the noise below 2 Hz cannot be distinguished from movement (between 0.1 and 0.9 "
+              "mm); state it");
   }
   for (const char* id : {"path_length", "peak_speed", "cycle_time"})
     EXPECT_NE(tell(id, 1.0, 0.0, 0.1).interval.kind, data::IntervalKind::none) << id;

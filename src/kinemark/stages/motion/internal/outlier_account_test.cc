@@ -34,7 +34,7 @@ TEST(OutlierAccount, HandsOverInTheOrderOfTheirEndsAndThoseThatNeverReturnedLast
     EXPECT_EQ(found[i].marker, expected[i]) << i;
     EXPECT_EQ(found[i].returned, i < 3) << i;
   }
-  EXPECT_EQ(found[3].first_frame, 30) << "a stretch of its own";
+  EXPECT_EQ(found[3].first_frame, 30) << "a span of its own";
   EXPECT_TRUE(account.finish().empty());
 }
 

@@ -105,7 +105,7 @@ TEST_F(SampleFindings, AnExchangeNamesBothItsFramesAndHowFarApartTheyWere) {
   EXPECT_LE(findings[0].size, apart[2]);
   EXPECT_THAT(said(judged), HasSubstr("are exchanged in 4 frames: every third frame from 2 to 11"));
   judged.exchanges[0].frames = {2, 3, 4};
-  EXPECT_TRUE(find(judged)[0].frames.empty()) << "a stretch needs no list";
+  EXPECT_TRUE(find(judged)[0].frames.empty()) << "a span needs no list";
   EXPECT_THAT(said(judged), HasSubstr("in frames 2 to 4"));
 }
 

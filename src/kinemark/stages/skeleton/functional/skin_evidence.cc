@@ -179,7 +179,8 @@ data::SkinAccount account_of_skin(const SkinEvidence& evidence, const SkinSlide&
   } else {
     out.verdict = data::SkinVerdict::cannot_tell;
     out.description = fmt::format(
-        "Whether the markers slide with the posture cannot be told from {}; the error bar allows for up to "
+        "Whether the markers slide with the posture cannot be distinguished from {}; the error bar allows "
+        "for up to "
         "{:.1f} "
         "mm per rad.",
         count, mm(std::max(out.own_limit_m, slide.common_m)));

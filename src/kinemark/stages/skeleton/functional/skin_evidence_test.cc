@@ -76,12 +76,13 @@ TEST(SkinEvidence, NothingIsSeenOnRigidMarkersOfManyMovementsOnly) {
   EXPECT_TRUE(says(many.account, "assumes that what does not deform does not slide"));
   const auto few = look({.movements = 5, .hinge = true});
   EXPECT_EQ(few.account.verdict, SkinVerdict::cannot_tell);
-  EXPECT_TRUE(
-      says(few.account, "Whether the markers slide with the posture cannot be told from 5 movements"));
+  EXPECT_TRUE(says(few.account,
+                   "Whether the markers slide with the posture cannot be distinguished from 5 movements"));
   const auto sliding = look({.movements = 10, .hinge = true, .own_slide_m = 0.005});
   EXPECT_FALSE(says(sliding.account, "No sliding of markers with the posture is seen"));
-  EXPECT_FALSE(says(sliding.account, "Whether the markers slide with the posture cannot be told from"));
-  EXPECT_FALSE(says(many.account, "Whether the markers slide with the posture cannot be told from"));
+  EXPECT_FALSE(
+      says(sliding.account, "Whether the markers slide with the posture cannot be distinguished from"));
+  EXPECT_FALSE(says(many.account, "Whether the markers slide with the posture cannot be distinguished from"));
   EXPECT_FALSE(says(few.account, "The error bar assumes that what does not deform does not slide"));
 }
 

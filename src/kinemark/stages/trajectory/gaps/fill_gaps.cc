@@ -103,7 +103,7 @@ void describe(const data::Trajectories& in, const Filled& filled, data::GapAccou
 /// Why nothing could be made of a gap at all.
 std::string why_no_fill(const Filler& filler, const Filled& filled, const GapOptions& options) {
   if (!filler.uses_neighbours()) return "no sample beside it to predict from";
-  if (filled.problem.windows() == 0) return "too few complete stretches to learn from";
+  if (filled.problem.windows() == 0) return "too few complete spans to learn from";
   return options.method == GapMethod::automatic
              ? "no neighbours to learn from and no sample beside it to predict from"
              : "no neighbours to learn from";
@@ -128,7 +128,7 @@ std::string why_not_used(const Filler& filler, const Filled& filled, const GapSp
   if (std::isinf(options.max_sd_m)) return {};
   if (std::isnan(sd_m))
     return filled.problem.windows() == 0
-               ? "too few complete stretches to learn from, so that its standard deviation is unknown"
+               ? "too few complete spans to learn from, so that its standard deviation is unknown"
                : "its standard deviation is unknown";
   if (sd_m > options.max_sd_m)
     return fmt::format("its standard deviation would be {:.1f} mm; at most {:.1f} mm is allowed", 1e3 * sd_m,

@@ -205,7 +205,7 @@ TEST(FillGaps, LeavesOpenWhatIsTooLongOrTooUncertain) {
   EXPECT_THAT(longer.gaps.front().why_open, HasSubstr("1.21 s long; at most 1 s are filled"));
   EXPECT_THAT(uncertain.gaps.front().why_open,
               Not(AnyOf(HasSubstr("s long; at most"), HasSubstr("frames long; at most"),
-                        HasSubstr("too few complete stretches to learn from"),
+                        HasSubstr("too few complete spans to learn from"),
                         HasSubstr("its standard deviation is unknown"),
                         HasSubstr("the predicted path is not finite"))));
   EXPECT_EQ(longer.trajectories.count_missing(), t.count_missing());
@@ -271,9 +271,9 @@ TEST(FillGaps, FewSamplesHaveNothingToLearnFrom) {
   Trajectories t = moving_bodies({.frames = 40, .noise_m = kNoiseM});
   hide(t, 2, 8, 31);
   EXPECT_EQ(only_gap(fill(t, {.method = GapMethod::regression})).why_open,
-            "too few complete stretches to learn from");
+            "too few complete spans to learn from");
   EXPECT_EQ(only_gap(fill(t)).why_open,
-            "too few complete stretches to learn from, so that its standard deviation is unknown");
+            "too few complete spans to learn from, so that its standard deviation is unknown");
 }
 
 TEST(FillGaps, SplitsAGapWhereTheNeighboursChangeAndTiesThePieces) {

@@ -77,7 +77,7 @@ TEST(RoundingStep, StaysWithinItsBounds) {
 TEST(Pieces, AreTheAxesOfEveryCompleteStretch) {
   const auto t = path(200, [](std::int64_t f) { return f == 60 || (f >= 100 && f < 110); });
   const auto pieces = pieces_of(t, 0, 0);
-  ASSERT_THAT(pieces, SizeIs(9)) << "three stretches of three axes";
+  ASSERT_THAT(pieces, SizeIs(9)) << "three spans of three axes";
   for (std::size_t k = 0; k < 9; ++k) {
     const std::int64_t first[] = {0, 61, 110};
     const std::size_t length[] = {60, 39, 90};

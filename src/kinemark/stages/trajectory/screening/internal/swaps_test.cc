@@ -192,7 +192,7 @@ TEST(Swaps, OneThatReachesAnEndNamesTheShorterSideAndSaysSo) {
     EXPECT_EQ(found[0].confidence < 0.8, open) << at;
     Trajectories other_side = testing::walker({.frames = 200});
     exchange(other_side, {2, 4, 0, at - 1});
-    EXPECT_EQ(exchanges_in(other_side), exchanges_in(t)) << "one cannot be told from the other";
+    EXPECT_EQ(exchanges_in(other_side), exchanges_in(t)) << "one cannot be distinguished from the other";
   }
 }
 

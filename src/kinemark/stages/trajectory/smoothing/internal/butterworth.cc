@@ -84,7 +84,7 @@ Plan make_plan(const MarkerSamples& samples, const SmoothOptions& options, doubl
   if (problem.columns.empty()) {
     plan.cutoff_hz = std::min(6.0, 0.25 * rate_hz);
     account.description =
-        fmt::format("{:.3g} Hz: no stretch of {} samples to choose a cut-off by.", plan.cutoff_hz, kShortest);
+        fmt::format("{:.3g} Hz: no span of {} samples to choose a cut-off by.", plan.cutoff_hz, kShortest);
   } else {
     plan.cutoff_hz = winter ? winter_cutoff_hz(problem) : challis_cutoff_hz(problem);
     account.description = fmt::format("Order {} both ways, {:.3g} Hz by {}.", plan.order, plan.cutoff_hz,

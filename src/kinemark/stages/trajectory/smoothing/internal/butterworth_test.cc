@@ -104,7 +104,7 @@ TEST(Butterworth, SaysWhatWasAskedAndWhatWasFound) {
   EXPECT_THAT(classic, HasSubstr("Hz together, two-point differences."));
   EXPECT_THAT(found, Not(HasSubstr("Hz together, two-point differences.")));
   EXPECT_THAT(said(of(FilterMethod::butterworth), 8),
-              HasSubstr(": no stretch of 12 samples to choose a cut-off by."));
+              HasSubstr(": no span of 12 samples to choose a cut-off by."));
   EXPECT_THAT(found, Not(HasSubstr("samples to choose a cut-off by.")));
 }
 
@@ -113,7 +113,7 @@ TEST(Butterworth, RulesAreNamed) {
   EXPECT_THAT(smooth(noise_only(300), options)->markers[0].description, HasSubstr("Winter"));
   options.cutoff_rule = CutoffRule::challis;
   EXPECT_THAT(smooth(noise_only(300), options)->markers[0].description, HasSubstr("Challis"));
-  EXPECT_THAT(smooth(noise_only(8), options)->markers[0].description, HasSubstr("no stretch of 12 samples"));
+  EXPECT_THAT(smooth(noise_only(8), options)->markers[0].description, HasSubstr("no span of 12 samples"));
 }
 
 }  // namespace

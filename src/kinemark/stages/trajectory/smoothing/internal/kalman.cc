@@ -162,7 +162,7 @@ std::string describe_correction(const std::vector<GapCorrection>& corrections) {
     left = std::max(left, one.error_left);
   }
   return fmt::format(
-      "; {} {} corrected by what {} or more stretches like {} show when hidden, where {:.0f} % of the error "
+      "; {} {} corrected by what {} or more spans like {} show when hidden, where {:.0f} % of the error "
       "in "
       "velocity or less is left",
       gaps, gaps == 1 ? "gap is" : "gaps are", hidden, gaps == 1 ? "it" : "them", std::ceil(100.0 * left));
