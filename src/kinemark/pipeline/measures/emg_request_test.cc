@@ -96,7 +96,7 @@ TEST(EmgRequest, RefusesInOneSentence) {
   EXPECT_EQ((EmgRequest{.envelope = {.low_pass_hz = 5.0}}.check().error().code), Code::usage);
   auto trial = muscles();
   trial.analog.names = {"a", "b", "c", "d"};
-  EXPECT_THAT(measure_emg_of(trial, {}, {}, {}).error().message, HasSubstr("name them with --emg"));
+  EXPECT_THAT(measure_emg_of(trial, {}, {}, {}).error().message, HasSubstr("name the channels"));
   EXPECT_EQ(
       measure_emg_of(trial, {.channels = {"b"}, .maximum = "/nowhere.c3d"}, {}, {.refits = 0}).error().code,
       Code::io);

@@ -19,7 +19,7 @@ TEST(CleanSummaryJson, SaysWhatItIsAndHoldsTheRun) {
   const Json json = clean_summary_json(example_clean(1200).finished());
   EXPECT_EQ(json.begin().key(), "schema");
   EXPECT_EQ(json["schema"], "kinemark.clean_report");
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["trial"], "reach_07.c3d");
   EXPECT_EQ(json["gap_method"], "auto");
   EXPECT_EQ(json["verdict"], "attention");

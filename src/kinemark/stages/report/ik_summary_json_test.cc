@@ -28,7 +28,7 @@ TEST(SummaryJson, HasTheUnitsThatItsNamesSay) {
   s.rms_error_m = 0.005;
   const Json json = summary_json(s);
   EXPECT_EQ(json["schema"], "kinemark.ik_report");
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["verdict"], "attention");
   EXPECT_EQ(json["coordinates"][0]["unit"], "deg");
   EXPECT_EQ(json["coordinates"][0]["max"], 90.0);

@@ -165,7 +165,7 @@ TEST_F(GaitPathsTest, MarkersBelievedInTooFewFramesAreRefused) {
   const auto which = find_gait_markers(markers_).value();
   for (std::int64_t f = 5; f < kFrames; ++f) markers_.set_missing(f, 3);
   EXPECT_EQ(GaitSmoother::create(markers_, which, 0.0).error().message,
-            "RTOE is believed in 5 frames; need 8 at least");
+            "RTOE is usable in 5 frames; need 8 at least");
 }
 
 TEST_F(GaitPathsTest, RatesBelowTwentyAreTooLow) {
