@@ -76,7 +76,8 @@ void name_value(CLI::Option& option) {
   (void)quieten_checks(option);
   if (!is_type(option.get_type_name())) return;
   const std::string name = option.get_lnames().empty() ? option.get_name() : option.get_lnames().front();
-  const bool is_number = option.get_type_name() == "FLOAT";
+  const bool is_number = option.get_type_name() == "FLOAT",
+             is_count = option.get_type_name() == "INT" || option.get_type_name() == "UINT";
   // Lengths of segments, where they are no file.
   if (name == "segments" && is_number) {
     option.type_name("MM");
@@ -84,6 +85,10 @@ void name_value(CLI::Option& option) {
   }
   if (name == "sides" && !is_number) {
     option.type_name("NAME");
+    return;
+  }
+  if (name == "markers" && is_count) {  // how many, where they are no file
+    option.type_name("N");
     return;
   }
   const auto values = std::ranges::find_if(kValues, [&](const Values& v) { return has_word(v.names, name); });

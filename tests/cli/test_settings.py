@@ -79,3 +79,4 @@ class HelpTest(CommandTest):
         text = self.good("ik", "--help").out
         for line in ("--model FILE", "--noise MM=0", "--rate HZ", "--weight NAME=VALUE ..."):
             self.assertIn(line, text)
+        self.assertIn("--markers N=3", self.good("simulate", "arm", "--help").out)
