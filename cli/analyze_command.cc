@@ -69,6 +69,9 @@ int said(const CommonOptions& common, const char* sentence, int status) {
 
 int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArguments& arguments) {
   share(arguments);
+  const auto& times = arguments.measures.job.selection;
+  if (std::isnan(times.first_time_s) || std::isnan(times.last_time_s))
+    return report_error({.code = Code::usage, .message = "--start and --end: no time lies between them"});
   const auto& inputs = arguments.measures.inputs;
   const auto kind = kind_of(arguments);
   const auto input =
@@ -109,8 +112,9 @@ void add_options(CLI::App& command, AnalyzeArguments& arguments) {
                   "Table of the measures, .csv, .json or .nwb; of a motion also a folder for its tables")
       ->type_name("PATH")
       ->group("Output");
-  add_cycle_options(command, job.gait);
-  add_drawing_options(command, job, "paths, angles over the gait cycle");
+  add_cycle_options(command, job.gait, CyclesOf::either);
+  add_drawing_options(command, job, "paths, angles over the gait cycle",
+                      "figures and tables; of walking alone, a gait report");
   add_several_options(command, arguments.measures);
   for (CLI::Option* option : command.get_options())
     if (!has_word(kShown, option->get_lnames().empty() ? option->get_name() : option->get_lnames().front()))

@@ -87,7 +87,7 @@ std::string names_of(Kinds kinds) {
   add(kList, "--list");
   if (!add(kRecordings, "recordings")) {
     add(kMarkers, "measures of markers");
-    add(kSegments, "--segments");
+    add(kSegments, "segments");
   }
   if (!add(kMotions, "motions")) {
     add(kMotion, "measures of a motion");
@@ -104,6 +104,9 @@ Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string
     const bool positional = option->get_lnames().empty();
     const std::string name = positional ? option->get_name() : option->get_lnames().front();
     const auto kinds = heeded_by(name);
+    if ((kinds & one(kind)) == 0 && kind == AnalyzeKind::list)
+      return fail(Code::usage,
+                  fmt::format("--list takes nothing else; {}{} was given", positional ? "" : "--", name));
     if ((kinds & one(kind)) == 0)
       return fail(Code::usage, fmt::format("{}{} is an option for {}; {} is {}", positional ? "" : "--", name,
                                            names_of(kinds), input, what_is(kind)));

@@ -20,6 +20,7 @@ struct Arguments {
 
 int run_command(const CommonOptions& common, const CLI::App& command, Arguments& arguments) {
   auto& job = arguments.dynamics.job;
+  if (arguments.measures.list) return run_measures_command(common, command, arguments.measures);
   if (job.motion.empty() && job.setup.empty())
     return report_error(
         {.code = Code::usage, .message = "MOTION is required: .mot or .sto of coordinates, or --setup"});
@@ -75,8 +76,9 @@ void add_dynamics(CLI::App& app, const CommonOptions& common, Run& run) {
                    "Folder for tables; or a table of measures, .csv, .json or .nwb")
       ->type_name("PATH")
       ->group("Output");
-  add_cycle_options(*command, shared.gait);
-  add_drawing_options(*command, shared, "angles, moments and powers over the gait cycle");
+  add_cycle_options(*command, shared.gait, CyclesOf::feet);
+  add_drawing_options(*command, shared, "angles, moments and powers over the gait cycle",
+                      "the gait report; needs --forces FILE.c3d or .mat");
   command->callback([&common, command, arguments, &run] {
     run = [&common, command, arguments] { return run_command(common, *command, *arguments); };
   });

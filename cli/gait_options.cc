@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/gait_options.h"
 
+#include <fmt/core.h>
+
+#include <string>
+
 namespace kinemark::cli {
 
 namespace {
@@ -27,17 +31,22 @@ void add_feet_options(CLI::App& command, pipeline::GaitRequest& request, bool mo
       ->group(kWalking);
 }
 
-void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request) {
+void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request, CyclesOf of) {
+  const char *events = "Foot strikes and foot offs", *cycles = "Angles over each stride and their mean";
+  if (of == CyclesOf::movements) {
+    events = "Starts and ends of movements and cycles";
+    cycles = "Places and speeds over each repetition and their mean";
+  } else if (of == CyclesOf::either) {
+    events = "Foot strikes and foot offs, or starts and ends of movements and cycles where no foot steps";
+    cycles =
+        "Angles over each stride and their mean; where no foot steps, places and speeds over each repetition";
+  }
   command
       .add_option("--write-events", request.write_events,
-                  "Foot strikes and foot offs, or starts and ends of movements and cycles where no foot "
-                  "steps: .csv, or .c3d, the recording with these events")
+                  fmt::format("{}: .csv, or .c3d, the recording with these events", events))
       ->type_name("FILE")
       ->group("Output");
-  command
-      .add_option("--write-cycles", request.write_cycles,
-                  "Angles over each stride and their mean, 0 to 100 %, .csv: of the recording's own, or of "
-                  "--angles; where no foot steps, places and speeds over each repetition")
+  command.add_option("--write-cycles", request.write_cycles, fmt::format("{}, 0 to 100 %, .csv", cycles))
       ->type_name("FILE")
       ->group("Output");
 }

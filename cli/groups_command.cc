@@ -148,7 +148,8 @@ void add_retest(CLI::App& groups, const CommonOptions& common, Run& run) {
       "ICC and intervals: Shrout & Fleiss 1979, McGraw & Wong 1996.");
   const auto job = std::make_shared<pipeline::RetestJob>();
   add_tables(*command, *job,
-             "Tables of measures, .csv: one value a line with named columns, as `analyze` writes them");
+             "Tables of measures, .csv: one value a line with named columns, as `gait`, `measure` and `emg` "
+             "write them");
   const auto column = [&](const char* name, std::string& value, const char* what) {
     command->add_option(name, value, what)->type_name("COLUMN")->capture_default_str()->group("Columns");
   };

@@ -24,12 +24,19 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("IN", arguments->inputs, "A recording of markers, several, or a folder of them");
   add_recording_options(*command, job, pipeline::Doubtful::drop);
   add_measures_options(*command, *arguments);
+  command
+      ->add_option("--events", job.gait.events,
+                   "movement: print the movements and cycles of each marker, and measure them, too")
+      ->type_name("movement")
+      ->check(CLI::IsMember({"movement"}))
+      ->group("Measures");
   add_noise_option(*command, arguments->noise_mm);
   command->add_option("-o,--output", job.output, "Table of the measures, .csv, .json or .nwb")
       ->type_name("FILE")
       ->group("Output");
-  add_cycle_options(*command, job.gait);
-  add_drawing_options(*command, job, "each path in its plane, its speed and acceleration, its cycles");
+  add_cycle_options(*command, job.gait, CyclesOf::movements);
+  add_drawing_options(*command, job, "each path in its plane, its speed and acceleration, its cycles",
+                      "figures and tables");
   add_several_options(*command, *arguments);
   command->callback([&common, command, arguments, &run] {
     run = [&common, command, arguments] { return run_measures_command(common, *command, *arguments); };

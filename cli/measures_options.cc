@@ -16,12 +16,12 @@
 namespace kinemark::cli {
 namespace {
 
-void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome& outcome) {
+void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome& outcome, bool events) {
   for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
   if (common.json)
     print_result(pipeline::json_text(pipeline::measures_outcome_json(outcome)) + "\n");
   else if (outcome.written.empty())
-    print_result((outcome.gait ? pipeline::events_text(*outcome.gait) + "\n" : "") +
+    print_result((outcome.gait && events ? pipeline::events_text(*outcome.gait) + "\n" : "") +
                  (outcome.rhythms.empty() ? "" : pipeline::rhythms_text(outcome.rhythms) + "\n") +
                  pipeline::measures_text(outcome.measures));
   say_written(common, outcome);
@@ -59,7 +59,7 @@ int run_one(const CommonOptions& common, MeasuresArguments& arguments) {
                    const auto commands = pipeline::commands_for(outcome);
                    if (job.of == pipeline::MeasuresOf::everything && !commands.empty())
                      say(options, fmt::format("This is {}.", commands));
-                   print_measures(options, outcome);
+                   print_measures(options, outcome, job.of != pipeline::MeasuresOf::muscles);
                  });
 }
 
@@ -73,11 +73,13 @@ int run_many(const CommonOptions& common, MeasuresArguments& arguments) {
   if (job.output.empty() && !job.gait.writes() && !common.json)
     return report_error(
         {.code = Code::usage,
-         .message = "several recordings need a table for their measures: -o FILE.csv, .json or .nwb (or "
-                    "--json, --write-events, --write-cycles)"});
+         .message =
+             "several recordings need a table for their measures: -o FILE.csv, .json or .nwb (or --json)"});
   settle(common, "recordings", job);
   const auto outcome = pipeline::run_many_measures(job);
   if (!outcome) return report_error(outcome.error());
+  if (job.of == pipeline::MeasuresOf::everything)
+    say(common, "This is what 'kinemark gait', 'kinemark emg' and 'kinemark measure' show of each.");
   return print_many(common, *outcome);
 }
 
@@ -137,7 +139,8 @@ void add_forces_option(CLI::App& command, std::filesystem::path& forces) {
       ->group("Input");
 }
 
-void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures) {
+void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures,
+                         const std::string& page) {
   auto* folder = command.add_option("--figures", outputs.figures, "Folder for figures: " + figures)
                      ->type_name("FOLDER")
                      ->group("Output");
@@ -147,9 +150,7 @@ void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, cons
       ->type_name("NAME")
       ->needs(folder)
       ->group("Output");
-  command
-      .add_option("--report", outputs.report,
-                  "Page to write as well, .html: figures and tables; of walking alone, a gait report")
+  command.add_option("--report", outputs.report, "Page to write as well, .html: " + page)
       ->type_name("FILE")
       ->group("Output");
 }
@@ -178,8 +179,8 @@ int run_measures_command(const CommonOptions& common, const CLI::App& command, M
   if (auto s = check_heeded(command, kind, inputs.empty() ? "" : inputs.front().filename().string()); !s)
     return report_error(s.error());
   if (!arguments.list) return many ? run_many(common, arguments) : run_one(common, arguments);
-  print_result(common.json ? pipeline::json_text(pipeline::measure_list_json()) + "\n"
-                           : pipeline::measure_list());
+  print_result(common.json ? pipeline::json_text(pipeline::measure_list_json(arguments.job.of)) + "\n"
+                           : pipeline::measure_list(arguments.job.of));
   return 0;
 }
 

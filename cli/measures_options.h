@@ -31,7 +31,9 @@ void add_noise_option(CLI::App& command, double& noise_mm);
 void add_forces_option(CLI::App& command, std::filesystem::path& forces);
 /// Figures and page.
 /// @param figures  what is drawn
-void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures);
+/// @param page     what the page shows
+void add_drawing_options(CLI::App& command, pipeline::GaitOutputs& outputs, const std::string& figures,
+                         const std::string& page);
 /// What several recordings in one table have.
 void add_several_options(CLI::App& command, MeasuresArguments& arguments);
 

@@ -53,8 +53,8 @@ void add_segments(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("-o,--output", job.output, "Folder for the results")
       ->type_name("FOLDER")
       ->group("Output");
-  add_cycle_options(*command, shared.gait);
-  add_drawing_options(*command, shared, "angles, moments and powers over the gait cycle");
+  add_cycle_options(*command, shared.gait, CyclesOf::feet);
+  add_drawing_options(*command, shared, "angles, moments and powers over the gait cycle", "the gait report");
   command->get_option("--definition")->required();
   command->callback([&common, command, arguments, &run] {
     run = [&common, command, arguments] { return run_command(common, *command, *arguments); };

@@ -63,7 +63,8 @@ void add_segments_options(CLI::App& command, pipeline::SegmentsJob& job, const s
                     ->type_name("NAME=FILE")
                     ->allow_extra_args(false);
   for (auto* option : {segments, still, vsk, subject, trial}) option->group("Segments");
-  for (auto* option : {still, vsk, subject, trial}) option->needs(segments);
+  if (definition == "--segments")  // where it is not there anyway
+    for (auto* option : {still, vsk, subject, trial}) option->needs(segments);
 }
 
 int run_segments_command(const CommonOptions& common, pipeline::SegmentsJob& job,

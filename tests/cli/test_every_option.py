@@ -28,7 +28,7 @@ OF_WALK = {"--select": "?ASI,?PSI,?HEE", "--drop": "RTOE", "--rename": "RTOE=OTH
            "--region": "part=8.4s-9.9s", "--gait-marker": "left_heel=LTOE", "--up": "x", "--doubtful": "perhaps"}
 COMMANDS = {
     "measure": (["walk.trc", "--refits", 0], {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, "--doubtful": "perhaps",
-                                              "--measures": "path_length", "--noise": 3, "--output": "m.csv"}),
+                                              "--measures": "path_length", "--noise": 3, "--output": "m.csv", "--events": "movement"}),
     "gait": (WALK, {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, **FEET, **SHEET, **OF_WALK,
                     "--measures": "cadence", "--noise": 3, "--output": "m.csv", "--forces": "absent.mot", "--angles": "absent.mot"}),
     "emg": (WALK, {**RECORDING, **SPANS, **INTERVALS, **SEVERAL, **FEET, **OF_WALK, "--measures": "emg_rms", "--select": "NOSE", "--drop": "NOSE",
@@ -104,6 +104,8 @@ class EveryOptionTest(CommandTest):
                 self.assertTrue(part != whole, "is passed over")
                 if part[0] not in (0, 1):
                     said = part[2]
+                    self.assertNotIn("is an option for", said, "it is heeded where it is shown")
+                    self.assertNotIn("is required", said)
                     self.assertTrue(any(word in said for word in (option, *re.split("[=,]", str(value)))), said)
 
     def with_walk(self):
@@ -140,7 +142,7 @@ class OneCommandForOneThing(CommandTest):
 
     def test_what_analyze_finds_and_which_command_shows_it(self):
         ran = self.good("analyze", "walk.trc", "--refits", 0, "--json")
-        self.assertIn("This is 'kinemark gait' (feet and force plates) and 'kinemark measure' (paths of markers).", ran.err)
+        self.assertIn("This is 'kinemark gait' (feet and force plates), 'kinemark measure' (paths of markers).", ran.err)
         whole = json.loads(ran.out)["measures"]
         gait, paths = self.values("gait", "walk.trc")["measures"], self.values("measure", "walk.trc")["measures"]
         self.assertEqual(whole, gait + paths)
@@ -161,6 +163,37 @@ class OneCommandForOneThing(CommandTest):
         self.refused(2, "'kinemark measure' takes the markers' own", "gait", "walk.trc", "--events", "movement")
         self.refused(2, "'kinemark emg' measures it", "gait", "walk.trc", "--measures", "emg")
         self.refused(2, "'kinemark dynamics' measures it", "measure", "walk.trc", "--measures", "joint_range")
+
+    def test_emg_is_of_muscles_alone(self):
+        walk_c3d = self.folder / "walk.c3d"
+        shutil.copy(real_file("btk-others/PiG_Motion3_FF.c3d"), walk_c3d)
+        whole = self.values("analyze", walk_c3d)["measures"]
+        parts = [self.values(command, walk_c3d)["measures"] for command in ("gait", "emg", "measure")]
+        self.assertEqual(whole, [measure for part in parts for measure in part])
+        with_cycles = self.values("emg", walk_c3d, "--write-cycles", "c.csv")["measures"]
+        self.assertEqual(with_cycles, parts[1])
+        self.assertTrue((self.folder / "c.csv").is_file())
+        self.refused(2, "need --write-cycles", "emg", walk_c3d, "--events", "plates")
+        for command in ("emg", "gait", "measure"):
+            self.refused(3, "lies outside the recording", command, walk_c3d, "--region", "r=1-10", "--refits", 0)
+        self.refused(3, "-z is stated to point up", "gait", "walk.trc", "--up", "-z", "--refits", 0)
+        self.assertIn("Walking is not measured: -z is stated", self.good("gait", walk_c3d, "--up", "-z", "--refits", 0).err)
+        self.refused(2, "--level", "segments", walk_c3d, "--definition", "pig", "--level", 0.6, "--write-events", "e.csv")
+
+    def test_without_walking_no_report_is_drawn(self):
+        shutil.copy(real_file("btk-others/PiG_Motion3_FF.c3d"), self.folder / "walk.c3d")
+        words = ("gait", "walk.c3d", "--refits", 0, "--figures", "figures", "--force")
+        self.assertIn("no gait report is drawn, as there is no walking", self.good(*words, "--select", "LASI").err)
+        self.assertNotIn("no gait report is drawn, as there is no walking", self.good(*words).err)
+        self.assertTrue((self.folder / "figures").is_dir())
+
+    def test_the_list_is_that_of_the_command(self):
+        lists = {command: {m["measure"] for m in json.loads(self.good(command, "--list", "--json").out)} for command in ("measure", "gait", "emg", "dynamics")}
+        self.assertTrue("path_length" in lists["measure"] and "cadence" not in lists["measure"])
+        self.assertTrue({"cadence", "peak_force"} & lists["gait"] and "emg_rms" not in lists["gait"])
+        self.assertTrue(all(name.startswith("emg") for name in lists["emg"]))
+        self.assertIn("joint_range", lists["dynamics"])
+        self.refused(2, "--list takes nothing else", "gait", "--list", "--measures", "cadence")
 
     def test_a_file_of_another_kind_is_named(self):
         for command in ("measure", "gait", "emg"):

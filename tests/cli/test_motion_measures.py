@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""kinemark analyze MOTION --model M: measures of joints and of the body."""
+"""kinemark dynamics, by its door analyze MOTION --model M: measures of joints and of the body."""
 
 import csv
 import io

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""kinemark analyze --segments, from outside."""
+"""kinemark segments, from outside, by its door analyze."""
 
 import csv
 import json

@@ -111,7 +111,7 @@ export interface ReconstructResult {
   precision: (import("./plots/heat_map.ts").Cells | null)[];
 }
 
-/** Measures of paths, as `analyze -o OUT.json` has them, and their figures. */
+/** Measures of paths, as `measure -o OUT.json` has them, and their figures. */
 export interface MeasuresResult {
   markers: number;
   regions: number;

@@ -61,7 +61,7 @@ std::string stretches_of(std::span<const std::int64_t> frames, const TimeBase& t
   }
   if (stretches > kStretchesNamed)
     text += fmt::format(" and {} more span{}", stretches - kStretchesNamed,
-                        stretches == kStretchesNamed + 1 ? "" : "es");
+                        stretches == kStretchesNamed + 1 ? "" : "s");
   return text;
 }
 

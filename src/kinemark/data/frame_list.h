@@ -16,7 +16,7 @@ namespace kinemark::data {
 
 /// Frames, in order, by their numbers: "frame 7", "frames 7 to 9", "every third frame from 1 to 127" where
 /// all lie equally far apart (three frames at least), "nearly every third frame from 1 to 122" where four in
-/// five do, else "frames 3, 8 to 14, 20 and 3 more stretches". Empty for none.
+/// five do, else "frames 3, 8 to 14, 20 and 3 more spans". Empty for none.
 [[nodiscard]] std::string words_of_frames(std::span<const std::int64_t> frames, const TimeBase& time);
 
 /// Frame numbers, in order, as short text: "1,4,19-20", and "1-127/3" for every third from 1 to 127.

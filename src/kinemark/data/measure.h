@@ -71,7 +71,7 @@ struct Interval {
 
 /// One measure of one subject in one stretch of one recording.
 struct Measure {
-  std::string id;           ///< of its definition, as `analyze --list` names it: "path_length"
+  std::string id;           ///< of its definition, as `--list` names it: "path_length"
   std::string subject;      ///< marker, joint, segment or coordinate; empty: the whole body
   std::string context;      ///< "Left", "Right", or empty
   std::string region;       ///< name of the stretch; empty: the whole recording
@@ -92,7 +92,7 @@ struct Measure {
   [[nodiscard]] Status validate() const;
 };
 
-/// What a measure is: one line of `analyze --list`.
+/// What a measure is: one line of `--list`.
 struct MeasureDefinition {
   std::string_view id;                   ///< snake_case, unique
   std::string_view group;                ///< "shape", "time", "smoothness", "gait", ...

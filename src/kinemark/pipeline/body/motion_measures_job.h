@@ -17,9 +17,9 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze MOTION --model M` is asked to measure: ids of analysis::body_definitions(), regions
-/// whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output is a
-/// .csv, .json or .nwb.
+/// What `kinemark dynamics MOTION --model M` is asked to measure: ids of analysis::body_definitions(),
+/// regions whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output
+/// is a .csv, .json or .nwb.
 struct MotionMeasuresJob : MotionFiles, MeasureChoice, GaitOutputs {
   std::vector<std::string> select;  ///< coordinates; * is any text, ? any letter; empty: all that can move
   std::vector<std::string> couple;  ///< "A,B": coordinates whose coupling is measured

@@ -77,7 +77,7 @@ Result<std::vector<std::int64_t>> naming_columns(const io::TidyTable& table, con
   return out;
 }
 
-// Where a table holds cycles and their mean, as `analyze --write-cycles` writes it, the mean is no further
+// Where a table holds cycles and their mean, as `--write-cycles` writes it, the mean is no further
 // curve.
 void leave_out_means(const io::TidyTable& table, std::vector<std::int64_t>& rows,
                      std::vector<std::string>& warnings) {

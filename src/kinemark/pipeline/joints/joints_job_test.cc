@@ -303,7 +303,7 @@ TEST_F(JointsJobTest, ASlipIsReportedInNotesAndJson) {
   EXPECT_EQ(json[0]["words"], sentence_of(slip, recording.markers.time));
   EXPECT_EQ(json[0]["shift_m"], slip.size);
   EXPECT_EQ(json[0]["sd_m"], slip.size_sd);
-  EXPECT_EQ(json[0]["frame"], recording.markers.time.number(slip.first_frame));
+  EXPECT_EQ(json[0]["frame"], outcome->skeleton.time.number(slip.first_frame));
   EXPECT_TRUE(
       std::ranges::any_of(outcome->warnings, [](const std::string& n) { return n.starts_with("Marker '"); }));
 }

@@ -38,8 +38,10 @@ Status check_many(const ManyMeasuresJob& job) {
   };
   if (!job.figures.empty()) return alone("--figures", job.figures);
   if (!job.report.empty()) return alone("--report", job.report);
-  if (!job.emg.write.empty()) return alone("--write-emg", job.emg.write);
-  if (!job.emg.write_cycles.empty()) return alone("--write-emg-cycles", job.emg.write_cycles);
+  const bool own = job.of == MeasuresOf::muscles;
+  if (!job.emg.write.empty()) return alone(own ? "--write-envelopes" : "--write-emg", job.emg.write);
+  if (!job.emg.write_cycles.empty())
+    return alone(own ? "--write-cycles" : "--write-emg-cycles", job.emg.write_cycles);
   if (!job.gait.angles.empty()) return alone("--angles", job.gait.angles);
   if (ending_of(job.gait.write_events) == ".c3d") return alone("--write-events", job.gait.write_events);
   if (auto s = check_for_several(job); !s) return s;

@@ -14,8 +14,8 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze FILES...` is asked to do. Of the job of one recording the input is not used;
-/// outputs are one table each over all recordings.
+/// What `kinemark measure`, `gait`, `emg` or `analyze` of several recordings is asked to do. Of the job of
+/// one recording the input is not used; outputs are one table each over all recordings.
 struct ManyMeasuresJob : MeasuresJob {
   std::vector<std::filesystem::path> inputs;  ///< files and folders, as list_recordings()
   int jobs = 1;                               ///< recordings at a time; 0: one for each core

@@ -9,6 +9,14 @@
 
 namespace kinemark::pipeline {
 
+/// What of a recording is measured: all that it holds, or what one command is about.
+enum class MeasuresOf : std::uint8_t {
+  everything,  ///< `analyze`
+  paths,       ///< `measure`: paths of markers
+  walking,     ///< `gait`: feet, steps, force plates
+  muscles,     ///< `emg`: electromyograms
+};
+
 /// What is asked of measures, be it of markers or of a motion.
 struct MeasureChoice {
   std::vector<std::string> measures;  ///< ids; empty: those that apply

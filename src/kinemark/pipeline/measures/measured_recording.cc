@@ -27,6 +27,7 @@ Result<std::vector<data::Region>> regions_of(const MeasuresJob& job, const data:
     if (!cycles) return std::unexpected(cycles.error());
     std::ranges::move(*cycles, std::back_inserter(regions));
   }
+  if (auto s = analysis::check_regions(trial.markers.time, regions); !s) return std::unexpected(s.error());
   return regions;
 }
 
@@ -92,7 +93,7 @@ std::pair<Status, Status> measure_walking(const MeasuresJob& job, const AskedMea
   auto gait = measure_gait(recording, asked.gait);
   if (gait) {
     std::ranges::copy(gait->notes, std::back_inserter(outcome.warnings));
-    outcome.measures = gait->measures;
+    if (job.of != MeasuresOf::muscles) outcome.measures = gait->measures;
     outcome.gait = std::move(*gait);
     return {};
   }

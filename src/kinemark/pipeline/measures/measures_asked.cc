@@ -47,19 +47,9 @@ const char* command_of(MeasuresOf of) {
   return of == MeasuresOf::walking ? "gait" : of == MeasuresOf::muscles ? "emg" : "measure";
 }
 
-/// What a measure is of, by its id or the word for all of a kind; nothing for one that does not exist.
-std::optional<MeasuresOf> kind_of(const std::string& id) {
-  if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;
-  if (id == "gait" || id == "plates" || analysis::find_force_definition(id) != nullptr ||
-      analysis::find_gait_definition(id) != nullptr)
-    return MeasuresOf::walking;
-  if (is_path_measure(id)) return MeasuresOf::paths;
-  return std::nullopt;
-}
-
 Status check_kinds(const MeasuresJob& job) {
   for (const auto& id : job.measures) {
-    const auto kind = kind_of(id);
+    const auto kind = measures_of(id);
     if (!kind) return unknown_measure(id);
     if (job.of != MeasuresOf::everything && job.of != *kind)
       return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
@@ -69,6 +59,15 @@ Status check_kinds(const MeasuresJob& job) {
 }
 
 }  // namespace
+
+std::optional<MeasuresOf> measures_of(const std::string& id) {
+  if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;
+  if (id == "gait" || id == "plates" || analysis::find_force_definition(id) != nullptr ||
+      analysis::find_gait_definition(id) != nullptr)
+    return MeasuresOf::walking;
+  if (is_path_measure(id)) return MeasuresOf::paths;
+  return std::nullopt;
+}
 
 Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
   const bool drawn = !job.figures.empty() || !job.report.empty();
@@ -89,6 +88,10 @@ Result<AskedMeasures> asked_measures(const MeasuresJob& job) {
         Code::usage,
         fmt::format("--events movement is none of 'kinemark {}'; 'kinemark measure' takes the markers' own",
                     command_of(job.of)));
+  if (job.of == MeasuresOf::muscles && job.gait.wanted() && job.emg.write_cycles.empty())
+    return fail(Code::usage, fmt::format("--{} is of walking, over whose cycles nothing is written; need "
+                                         "--write-cycles FILE.csv too",
+                                         job.gait.events == "best" ? "gait-marker" : "events"));
   const auto by_itself = [&job](MeasuresOf kind) {
     return job.measures.empty() && (job.of == MeasuresOf::everything || job.of == kind);
   };

@@ -3,6 +3,9 @@
 // Which of the measures that are asked for are of paths, and which of walking.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
@@ -26,6 +29,10 @@ struct AskedMeasures {
   bool muscles = true;                   ///< whether EMG are measured, where there are any
   bool muscles_by_name = false;          ///< EMG are asked for
 };
+
+/// What a measure is of, by its id or the word for all of a kind ("gait", "plates", "emg"); nothing for one
+/// that is of a motion or does not exist.
+[[nodiscard]] std::optional<MeasuresOf> measures_of(const std::string& id);
 
 /// Code::usage for a measure that does not exist, with the nearest names, and as gait_options() and
 /// analysis::PathMeasureOptions::check().

@@ -157,7 +157,10 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
 // Walking drawn, where there is some; what cannot be drawn is told.
 Result<std::unique_ptr<GaitReport>> draw_walking(const MeasuresJob& job, const Recording& recording,
                                                  const GaitNorms& norms, MeasuresOutcome& outcome) {
-  if ((job.figures.empty() && job.report.empty()) || !outcome.gait) return nullptr;
+  if (job.figures.empty() && job.report.empty()) return nullptr;
+  if (job.of == MeasuresOf::walking && !outcome.gait)
+    outcome.warnings.push_back("no gait report is drawn, as there is no walking");
+  if (!outcome.gait) return nullptr;
   std::vector<SheetInput> inputs;
   if (const auto curves = gait_curves(recording.trial, outcome.gait->cycles, job.gait.angles))
     add_curves(*curves, inputs);
@@ -242,7 +245,7 @@ std::string commands_for(const MeasuresOutcome& outcome) {
   if (outcome.gait || plates) commands.emplace_back("'kinemark gait' (feet and force plates)");
   if (outcome.emg) commands.emplace_back("'kinemark emg' (electromyograms)");
   if (!outcome.noises.empty()) commands.emplace_back("'kinemark measure' (paths of markers)");
-  return join(commands, " and ");
+  return join(commands);
 }
 
 nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {

@@ -25,14 +25,6 @@
 
 namespace kinemark::pipeline {
 
-/// What of a recording is measured: all that it holds, or what one command is about.
-enum class MeasuresOf : std::uint8_t {
-  everything,  ///< `analyze`
-  paths,       ///< `measure`: paths of markers
-  walking,     ///< `gait`: feet, steps, force plates
-  muscles,     ///< `emg`: electromyograms
-};
-
 /// What `kinemark measure`, `gait`, `emg` and `analyze` are asked to do with a recording of markers: ids of
 /// paths, of walking ("gait": all of these), of plates ("plates") and of EMG ("emg"), regions beside those of
 /// the journal; figures and page are of paths, too. Paths that are empty are not used. Doubtful samples are

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/table_cell.h"
+#include "kinemark/pipeline/measures/measures_asked.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
 #include "kinemark/stages/analysis/forces/force_measures.h"
@@ -75,6 +76,10 @@ std::string value_text(const data::Measure& measure) {
       rounded(unit.per_si * measure.value, unit.per_si * width) + interval_text(measure, unit.per_si);
   if (!unit.name.empty() && std::isfinite(measure.value)) out += fmt::format(" {}", unit.name);
   return out;
+}
+
+bool is_of(const data::MeasureDefinition& what, MeasuresOf of) {
+  return of == MeasuresOf::everything || measures_of(std::string(what.id)) == of;
 }
 
 }  // namespace
@@ -176,9 +181,10 @@ std::string measures_text(std::span<const data::Measure> measures) {
   return out;
 }
 
-std::string measure_list() {
+std::string measure_list(MeasuresOf of) {
   std::string out;
   for (const auto& what : all_definitions()) {
+    if (!is_of(what, of)) continue;
     const auto unit = data::shown_unit(what.quantity).name;
     out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
                        unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
@@ -186,9 +192,10 @@ std::string measure_list() {
   return out;
 }
 
-nlohmann::ordered_json measure_list_json() {
+nlohmann::ordered_json measure_list_json(MeasuresOf of) {
   Json out = Json::array();
   for (const auto& what : all_definitions()) {
+    if (!is_of(what, of)) continue;
     out.push_back({{"measure", what.id},
                    {"group", what.group},
                    {"title", what.title},

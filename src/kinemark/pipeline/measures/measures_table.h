@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kinemark/data/measure.h"
+#include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 
 namespace kinemark::pipeline {
@@ -42,9 +43,9 @@ namespace kinemark::pipeline {
 /// Its definition; null where there is none of this id.
 [[nodiscard]] const data::MeasureDefinition* find_measure_definition(std::string_view id);
 
-/// What each measure of a path is, one line each: id, what it is, unit, formula, source.
-[[nodiscard]] std::string measure_list();
+/// What each measure is that a command is about, one line each: id, what it is, unit, formula, source.
+[[nodiscard]] std::string measure_list(MeasuresOf of = MeasuresOf::everything);
 /// The same as a list of objects.
-[[nodiscard]] nlohmann::ordered_json measure_list_json();
+[[nodiscard]] nlohmann::ordered_json measure_list_json(MeasuresOf of = MeasuresOf::everything);
 
 }  // namespace kinemark::pipeline

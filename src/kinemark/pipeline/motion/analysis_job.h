@@ -25,7 +25,7 @@ struct AnalysisPoint {
   Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();  ///< m
 };
 
-/// What `kinemark analyze` is asked to do.
+/// What `kinemark dynamics` is asked to do for tables.
 struct AnalysisJob : MotionFiles {
   std::filesystem::path setup;        ///< AnalyzeTool or InverseDynamicsTool; empty: none
   std::vector<std::string> bodies;    ///< to follow; empty: as the setup says, else all
@@ -33,7 +33,7 @@ struct AnalysisJob : MotionFiles {
   bool error_bars = true;             ///< standard deviations too
 };
 
-/// What `kinemark analyze` answers.
+/// What it answers.
 struct AnalysisOutcome : JobOutcome {
   TimeBase time;                                           ///< of the rows that were written
   std::vector<data::InputFile> inputs;                     ///< all that were read

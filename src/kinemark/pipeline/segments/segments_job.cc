@@ -361,9 +361,9 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
     drawing.emplace(std::move(*begun));
   } else if (auto s = job.gait.check_idle(); !s) {
     return std::unexpected(s.error());
-  } else if (job.level != SegmentsJob{}.level) {
-    return fail(Code::usage, "--level is of the measures of a gait report; need --report FILE.html too");
   }
+  if (job.report.empty() && job.level != SegmentsJob{}.level)
+    return fail(Code::usage, "--level is of the measures of a gait report; need --report FILE.html too");
   SegmentsOutcome outcome;
   outcome.title = definition->title.empty() ? job.definition : definition->title;
   auto files = read_files(job, outcome);

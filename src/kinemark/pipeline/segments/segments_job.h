@@ -24,7 +24,7 @@
 
 namespace kinemark::pipeline {
 
-/// What `kinemark analyze --segments` is asked to do. Paths that are empty are not used. Of the options of a
+/// What `kinemark segments` is asked to do. Paths that are empty are not used. Of the options of a
 /// recording the rate, the journals beside, the axes and what becomes of doubtful samples (dropped unless
 /// they are to be kept) count for the static trial and the others too; up is found where nobody says it, else
 /// z.

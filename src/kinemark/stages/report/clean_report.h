@@ -89,7 +89,7 @@ void add_marker(CleanReport& report, data::MarkerAccount account, const MarkerAr
 /// residuals that are not white, filters at the end of their range, warnings.
 [[nodiscard]] std::vector<Notice> clean_findings(const CleanReport& report);
 
-/// `kinemark.clean_report`, version 1: the whole account without the arrays. Lengths in mm, times in s,
+/// `kinemark.clean_report`, version 2: the whole account without the arrays. Lengths in mm, times in s,
 /// unknown numbers null.
 [[nodiscard]] nlohmann::ordered_json clean_summary_json(const CleanReport& report);
 

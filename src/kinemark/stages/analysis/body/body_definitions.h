@@ -41,7 +41,7 @@ struct BodyView {
 
 /// One measure of a body's motion.
 struct BodyDefinition {
-  data::MeasureDefinition what;             ///< its line in `analyze --list`; of a rotation
+  data::MeasureDefinition what;             ///< its line in `--list`; of a rotation
   BodyScope scope = BodyScope::coordinate;  ///< what it is of
   int sign = 0;  ///< 1: never below 0, -1: never above; at most or at least, where it cannot be told from 0
   bool turns = false;         ///< an angle that begins again after a turn

@@ -36,7 +36,7 @@ struct ForceView {
 
 /// One measure of plates.
 struct ForceDefinition {
-  data::MeasureDefinition what;                      ///< its line in `analyze --list`
+  data::MeasureDefinition what;                      ///< its line in `--list`
   ForceScope scope = ForceScope::step;               ///< what it is of
   double (*value)(const ForceView& view) = nullptr;  ///< SI; NaN where not determined
 };

@@ -20,7 +20,7 @@ enum class GaitScope : std::uint8_t {
 
 /// One spatiotemporal measure.
 struct GaitDefinition {
-  data::MeasureDefinition what;       ///< its line in `analyze --list`
+  data::MeasureDefinition what;       ///< its line in `--list`
   GaitScope scope = GaitScope::body;  ///< whether left and right have values of their own
   bool squared = false;               ///< a deviation, which noise raises: its bias is that of its square
   /// Of cycles of one foot, or of both (body), in SI units; NaN where none tells.

@@ -40,7 +40,7 @@ enum class Weakness : std::uint8_t {
 
 /// One measure of a path.
 struct PathDefinition {
-  data::MeasureDefinition what;                       ///< its line in `analyze --list`
+  data::MeasureDefinition what;                       ///< its line in `--list`
   Applies applies = Applies::always;                  ///< to which movements
   Pivot pivot = Pivot::plain;                         ///< how bias and interval are found
   Weakness weakness = Weakness::none;                 ///< what the interval may not claim

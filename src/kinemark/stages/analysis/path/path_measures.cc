@@ -27,21 +27,6 @@ const PathDefinition* find_definition(std::string_view id) {
   return nullptr;
 }
 
-Status check_regions(const TimeBase& time, const std::vector<data::Region>& regions) {
-  const std::int64_t first = time.number(0), last = time.number(time.frames - 1);
-  for (const auto& region : regions) {
-    if (region.first_frame > region.last_frame)
-      return fail(Code::bad_input, fmt::format("region '{}' ends in frame {}, before it begins in frame {}",
-                                               region.name, region.last_frame, region.first_frame));
-    if (region.first_frame > last || region.last_frame < first)
-      return fail(
-          Code::bad_input,
-          fmt::format("region '{}', frames {} to {}, lies outside the recording, whose frames are {} to {}",
-                      region.name, region.first_frame, region.last_frame, first, last));
-  }
-  return {};
-}
-
 // What one marker gives: its measures, and why it gives none.
 struct MarkerMeasures : PathMeasures {
   std::optional<NotMeasured> not_measured;
@@ -90,6 +75,21 @@ MarkerMeasures measure_marker(const data::Trajectories& markers, std::int64_t ma
 }
 
 }  // namespace
+
+Status check_regions(const TimeBase& time, const std::vector<data::Region>& regions) {
+  const std::int64_t first = time.number(0), last = time.number(time.frames - 1);
+  for (const auto& region : regions) {
+    if (region.first_frame > region.last_frame)
+      return fail(Code::bad_input, fmt::format("region '{}' ends in frame {}, before it begins in frame {}",
+                                               region.name, region.last_frame, region.first_frame));
+    if (region.first_frame > last || region.last_frame < first)
+      return fail(
+          Code::bad_input,
+          fmt::format("region '{}', frames {} to {}, lies outside the recording, whose frames are {} to {}",
+                      region.name, region.first_frame, region.last_frame, first, last));
+  }
+  return {};
+}
 
 Status PathMeasureOptions::check() const {
   if (refits != 0 && refits < 39)

@@ -64,4 +64,7 @@ struct PathMeasures {
 [[nodiscard]] Result<PathMeasures> measure_paths(const data::Trajectories& markers,
                                                  const PathMeasureOptions& options);
 
+/// Code::bad_input for a region that ends before it begins or lies outside the recording.
+[[nodiscard]] Status check_regions(const TimeBase& time, const std::vector<data::Region>& regions);
+
 }  // namespace kinemark::analysis
