@@ -182,8 +182,12 @@ class OneCommandForOneThing(CommandTest):
 
     def test_without_walking_no_report_is_drawn(self):
         shutil.copy(real_file("btk-others/PiG_Motion3_FF.c3d"), self.folder / "walk.c3d")
-        words = ("gait", "walk.c3d", "--refits", 0, "--figures", "figures", "--force")
-        self.assertIn("no gait report is drawn, as there is no walking", self.good(*words, "--select", "LASI").err)
+        words = ("gait", "walk.c3d", "--refits", 0, "--figures", "figures", "--select", "LASI")
+        self.assertIn("no gait report is drawn, as there is no walking", self.good(*words).err)
+
+    def test_walking_is_drawn(self):
+        shutil.copy(real_file("btk-others/PiG_Motion3_FF.c3d"), self.folder / "walk.c3d")
+        words = ("gait", "walk.c3d", "--refits", 0, "--figures", "figures")
         self.assertNotIn("no gait report is drawn, as there is no walking", self.good(*words).err)
         self.assertTrue((self.folder / "figures").is_dir())
 
