@@ -110,7 +110,7 @@ class Recordings(unittest.TestCase):
         before = listing(self.folder)
         for arguments, status, sentence in (
             (("closed.mcap", "cut.mcap"), 4, "cut.mcap: exists already; use --force to replace it"),
-            (("closed.mcap", "closed.mcap", "--force"), 2, "need another name"),
+            (("closed.mcap", "closed.mcap", "--force"), 2, "name another output"),
             (("notes.mcap", "out.mcap"), 3, "does not begin as a recording does"),
             (("absent.mcap", "out.mcap"), 4, "absent.mcap: cannot be opened"),
             (("closed.mcap", "no/folder/out.mcap"), 4, "out.mcap: cannot be written"),
