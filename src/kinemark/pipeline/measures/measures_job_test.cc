@@ -292,7 +292,7 @@ TEST(CommandsFor, NameWhatWasMeasured) {
   EXPECT_THAT(commands_for(outcome), HasSubstr("'kinemark measure' (paths of markers)"));
   EXPECT_THAT(commands_for(outcome), Not(HasSubstr("'kinemark gait' (feet and force plates)")));
   outcome.measures.push_back({.id = "cop_path"});
-  EXPECT_EQ(commands_for(outcome), std::string(kGait) + " and " + kPaths);
+  EXPECT_EQ(commands_for(outcome), std::string(kGait) + ", " + kPaths);
   outcome = {};
   outcome.emg.emplace();
   EXPECT_THAT(commands_for(outcome), HasSubstr("'kinemark emg' (electromyograms)"));
