@@ -33,7 +33,8 @@ void add_gait(CLI::App& app, const CommonOptions& common, Run& run) {
       ->type_name("FILE")
       ->group("Output");
   add_cycle_options(*command, job.gait, CyclesOf::feet);
-  add_drawing_options(*command, job, "angles, moments and powers over the gait cycle", "the gait report");
+  add_drawing_options(*command, job, "angles, moments and powers over the gait cycle",
+                      "the gait report; with force plates its figures and a table of all measures");
   add_several_options(*command, *arguments);
   command->callback([&common, command, arguments, &run] {
     run = [&common, command, arguments] { return run_measures_command(common, *command, *arguments); };
