@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "cli/analyze_kinds.h"
 #include "cli/command.h"
 #include "cli/command_tree.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
 #include "cli/emg_options.h"
 #include "cli/gait_options.h"
+#include "cli/heeded_options.h"
 #include "cli/many_inputs.h"
 #include "cli/measures_options.h"
 #include "cli/recording_options.h"
@@ -38,13 +38,13 @@ bool is_of_markers(const DynamicsArguments& motion) {
   return !job.motion.empty() && job.model.empty() && job.setup.empty() && !is_motion_file(job.motion);
 }
 
-AnalyzeKind kind_of(const AnalyzeArguments& arguments) {
-  if (arguments.measures.list) return AnalyzeKind::list;
-  if (are_many(arguments.measures.inputs)) return AnalyzeKind::several;
-  if (!arguments.segments.definition.empty()) return AnalyzeKind::segments;
-  if (is_of_markers(arguments.dynamics)) return AnalyzeKind::markers;
-  return is_measured(arguments.dynamics, arguments.measures.job.measures) ? AnalyzeKind::motion
-                                                                          : AnalyzeKind::tables;
+AnalysisKind kind_of(const AnalyzeArguments& arguments) {
+  if (arguments.measures.list) return AnalysisKind::list;
+  if (are_many(arguments.measures.inputs)) return AnalysisKind::several;
+  if (!arguments.segments.definition.empty()) return AnalysisKind::segments;
+  if (is_of_markers(arguments.dynamics)) return AnalysisKind::markers;
+  return is_measured(arguments.dynamics, arguments.measures.job.measures) ? AnalysisKind::motion
+                                                                          : AnalysisKind::tables;
 }
 
 /// What the command line gives once, where each job has it.
@@ -78,15 +78,15 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
       inputs.empty() ? std::string("the motion of the setup") : inputs.front().filename().string();
   if (auto s = check_heeded(command, kind, input); !s) return report_error(s.error());
   switch (kind) {
-    case AnalyzeKind::list:
-    case AnalyzeKind::markers:
-    case AnalyzeKind::several:
+    case AnalysisKind::list:
+    case AnalysisKind::markers:
+    case AnalysisKind::several:
       return run_measures_command(common, command, arguments.measures);
-    case AnalyzeKind::segments:
+    case AnalysisKind::segments:
       return said(common, "This is 'kinemark segments'.",
                   run_segments_command(common, arguments.segments, arguments.measures));
-    case AnalyzeKind::motion:
-    case AnalyzeKind::tables:
+    case AnalysisKind::motion:
+    case AnalysisKind::tables:
       return said(common, "This is 'kinemark dynamics'.",
                   run_dynamics_command(common, arguments.dynamics, arguments.measures.job));
   }

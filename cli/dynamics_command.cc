@@ -3,11 +3,11 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/analyze_kinds.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
 #include "cli/gait_options.h"
+#include "cli/heeded_options.h"
 #include "cli/measures_options.h"
 
 namespace kinemark::cli {
@@ -32,8 +32,8 @@ int run_command(const CommonOptions& common, const CLI::App& command, Arguments&
                     "'segments' take recordings of markers"});
   if (std::isnan(job.first_time_s) || std::isnan(job.last_time_s))
     return report_error({.code = Code::usage, .message = "--start and --end need a time in seconds"});
-  const auto kind = is_measured(arguments.dynamics, arguments.measures.job.measures) ? AnalyzeKind::motion
-                                                                                     : AnalyzeKind::tables;
+  const auto kind = is_measured(arguments.dynamics, arguments.measures.job.measures) ? AnalysisKind::motion
+                                                                                     : AnalysisKind::tables;
   const auto input =
       job.motion.empty() ? std::string("the motion of the setup") : job.motion.filename().string();
   if (auto s = check_heeded(command, kind, input); !s) return report_error(s.error());

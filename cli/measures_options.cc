@@ -4,9 +4,9 @@
 
 #include <fmt/core.h>
 
-#include "cli/analyze_kinds.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
+#include "cli/heeded_options.h"
 #include "cli/many_inputs.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
@@ -175,7 +175,9 @@ int run_measures_command(const CommonOptions& common, const CLI::App& command, M
   if (inputs.empty() && !arguments.list)
     return report_error({.code = Code::usage, .message = "IN is required: a recording of markers"});
   const bool many = are_many(inputs);
-  const auto kind = arguments.list ? AnalyzeKind::list : many ? AnalyzeKind::several : AnalyzeKind::markers;
+  const auto kind = arguments.list ? AnalysisKind::list
+                    : many         ? AnalysisKind::several
+                                   : AnalysisKind::markers;
   if (auto s = check_heeded(command, kind, inputs.empty() ? "" : inputs.front().filename().string()); !s)
     return report_error(s.error());
   if (!arguments.list) return many ? run_many(common, arguments) : run_one(common, arguments);

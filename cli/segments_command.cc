@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "cli/analyze_kinds.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
 #include "cli/gait_options.h"
+#include "cli/heeded_options.h"
 #include "cli/measures_options.h"
 #include "cli/recording_options.h"
 #include "cli/segments_options.h"
@@ -25,7 +25,7 @@ int run_command(const CommonOptions& common, const CLI::App& command, SegmentsAr
     return report_error(
         {.code = Code::usage,
          .message = input.string() + " is a motion, no recording of markers; its angles are its columns"});
-  if (auto s = check_heeded(command, AnalyzeKind::segments, input.filename().string()); !s)
+  if (auto s = check_heeded(command, AnalysisKind::segments, input.filename().string()); !s)
     return report_error(s.error());
   return run_segments_command(common, arguments.segments, arguments.measures);
 }

@@ -25,13 +25,13 @@ SEVERAL = {"--participants": "absent.tsv", "--jobs": 2}
 
 WALK = ["walk.c3d", "--refits", 0]  # a real one, with plates, EMG and the markers of Plug-in Gait
 OF_WALK = {"--select": "?ASI,?PSI,?HEE", "--drop": "RTOE", "--rename": "RTOE=OTHER", "--frames": "800-1000", "--start": 8.4, "--end": 9.9,
-           "--region": "part=8.4s-9.9s", "--gait-marker": "left_heel=LTOE", "--up": "x", "--doubtful": "perhaps"}
+           "--gait-marker": "left_heel=LTOE", "--up": "x", "--doubtful": "perhaps"}
 COMMANDS = {
     "measure": (["walk.trc", "--refits", 0], {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, "--doubtful": "perhaps",
                                               "--measures": "path_length", "--noise": 3, "--output": "m.csv", "--events": "movement"}),
-    "gait": (WALK, {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, **FEET, **SHEET, **OF_WALK,
+    "gait": (WALK, {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, **FEET, **SHEET, **OF_WALK, "--region": "part=8.4s-9.9s",
                     "--measures": "cadence", "--noise": 3, "--output": "m.csv", "--forces": "absent.mot", "--angles": "absent.mot"}),
-    "emg": (WALK, {**RECORDING, **SPANS, **INTERVALS, **SEVERAL, **FEET, **OF_WALK, "--measures": "emg_rms", "--select": "NOSE", "--drop": "NOSE",
+    "emg": (WALK, {**RECORDING, **SPANS, **INTERVALS, **SEVERAL, **FEET, **OF_WALK, "--region": "part=8.4s-9.9s", "--measures": "emg_rms", "--select": "NOSE", "--drop": "NOSE",
                    "--rename": "NOSE=A", "--output": "m.csv", "--report": "page.html", "--channels": "NOSE", "--high-pass": 30, "--low-pass": 300,
                    "--envelope": 3, "--rms": 0.1, "--max": "trial", "--write-envelopes": "e.sto", "--write-cycles": "c.csv"}),
     "segments": ([*WALK, "--definition", "pig", "--noise", 1],
@@ -43,7 +43,6 @@ COMMANDS = {
                   "--normalize": None, "--forces": "absent.mot", "--select": "knee*", "--start": 0.3, "--end": 0.7, "--measures": "joint_range",
                   "--region": "part=0.2s-0.5s", "--output": "m.csv"}),
 }
-del COMMANDS["segments"][1]["--region"]
 # What changes nothing by itself, as it should, and with what it does.
 WITH = {
     ("measure", "--level"): ["--refits=39"], ("gait", "--level"): ["--refits=39"], ("emg", "--level"): ["--refits=39"],
@@ -178,6 +177,7 @@ class OneCommandForOneThing(CommandTest):
             self.refused(3, "lies outside the recording", command, walk_c3d, "--region", "r=1-10", "--refits", 0)
         self.refused(3, "-z is stated to point up", "gait", "walk.trc", "--up", "-z", "--refits", 0)
         self.assertIn("Walking is not measured: -z is stated", self.good("gait", walk_c3d, "--up", "-z", "--refits", 0).err)
+        self.assertIn("Walking is not measured: y is stated", self.good("analyze", walk_c3d, "--up", "y", "--refits", 0).err)
         self.refused(2, "--level", "segments", walk_c3d, "--definition", "pig", "--level", 0.6, "--write-events", "e.csv")
 
     def test_without_walking_no_report_is_drawn(self):

@@ -86,9 +86,14 @@ std::string why_nothing(const analysis::PathMeasures& measured) {
   return "no measure applies";
 }
 
-// Walking. The first: a failure that ends the job. The second: one that does so where plates show nothing.
-std::pair<Status, Status> measure_walking(const MeasuresJob& job, const AskedMeasures& asked,
-                                          const Recording& recording, MeasuresOutcome& outcome) {
+// Why walking is not measured.
+struct NoWalking {
+  Status ends_job;                 ///< a failure that ends the job
+  Status ends_job_without_plates;  ///< one that does so only where plates show nothing either
+};
+
+NoWalking measure_walking(const MeasuresJob& job, const AskedMeasures& asked, const Recording& recording,
+                          MeasuresOutcome& outcome) {
   const bool events_needed = job.gait.writes() || !job.emg.write_cycles.empty();
   auto gait = measure_gait(recording, asked.gait);
   if (gait) {
@@ -100,10 +105,10 @@ std::pair<Status, Status> measure_walking(const MeasuresJob& job, const AskedMea
   auto failure = std::unexpected(gait.error());
   const bool alone = job.of == MeasuresOf::walking;
   if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage))
-    return {failure, {}};
-  if (alone && events_needed) return {failure, {}};
-  if (alone && job.measures.empty()) return {{}, failure};
-  if (asked.by_name)
+    return {.ends_job = failure};
+  if (alone && events_needed) return {.ends_job = failure};
+  if (alone && job.measures.empty()) return {.ends_job_without_plates = failure};
+  if (asked.by_name || recording.up)  // who states which way is up hears what came of it
     outcome.warnings.push_back("Walking is not measured: " + gait.error().message);
   else if (job.gait.writes())
     outcome.warnings.push_back(
@@ -116,20 +121,19 @@ std::pair<Status, Status> measure_walking(const MeasuresJob& job, const AskedMea
 Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const Recording& recording,
                    std::vector<analysis::PathCurves>& curves, MeasuresOutcome& outcome) {
   const auto& trial = recording.trial;
-  Status late;
-  if (asked.walking) {
-    auto [now, later] = measure_walking(job, asked, recording, outcome);
-    if (!now) return now;
-    late = std::move(later);
-  }
+  NoWalking walking;
+  if (asked.walking) walking = measure_walking(job, asked, recording, outcome);
+  if (!walking.ends_job) return walking.ends_job;
   const bool others = asked.paths || asked.by_name;
   if (asked.forces)
     if (auto s = take_failure(measure_plates(asked, recording, outcome), "Force plates", asked.forces_by_name,
                               !others && !asked.muscles_by_name, outcome);
         !s)
       return s;
-  if (!late && outcome.measures.empty()) return late;
-  if (!late) outcome.warnings.push_back("Walking is not measured: " + late.error().message);
+  if (const auto& late = walking.ends_job_without_plates; !late) {
+    if (outcome.measures.empty()) return late;
+    outcome.warnings.push_back("Walking is not measured: " + late.error().message);
+  }
   if (asked.muscles)
     if (auto s = take_failure(
             measure_muscles(job, asked, trial, outcome), "EMG", asked.muscles_by_name,

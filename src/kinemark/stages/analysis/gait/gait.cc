@@ -311,21 +311,16 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   if (!smoother) return std::unexpected(smoother.error());
   const auto of_markers = find_marker_events(*smoother, *which);
   if (!of_markers) return std::unexpected(of_markers.error());
-  const auto standing = smoother->standing();
-  const bool doubted = options.up && !options.up->isApprox(standing);
-  const auto stated = doubted
-                          ? fmt::format("{} is stated to point up, the pelvis stands above the feet along {}",
-                                        axis_name(*options.up), axis_name(standing))
-                          : std::string();
-  if (doubted && options.up->dot(standing) < -0.5) return fail(Code::bad_input, stated);
+  if (const auto standing = smoother->standing(); options.up && !options.up->isApprox(standing))
+    return fail(Code::bad_input,
+                fmt::format("{} is stated to point up, the pelvis stands above the feet along {}",
+                            axis_name(*options.up), axis_name(standing)));
   const bool by_markers = options.choice == EventChoice::best || options.choice == EventChoice::kinematics;
   if (by_markers && !of_markers->kind.not_gait.empty())
-    return fail(Code::bad_input, fmt::format("not locomotion: {}{}{}", of_markers->kind.not_gait,
-                                             doubted ? "; " : "", stated));
+    return fail(Code::bad_input, "not locomotion: " + of_markers->kind.not_gait);
   Gait out{.kind = of_markers->kind, .person = which->person};
   out.treadmill = out.kind.belt, out.belt_speed_m_per_s = out.kind.belt_m_per_s;
   std::ranges::copy(which->notes, std::back_inserter(out.notes));
-  if (doubted) out.notes.push_back(stated);
   std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
   if (evidence.plates != nullptr)

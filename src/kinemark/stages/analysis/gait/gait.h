@@ -67,7 +67,8 @@ struct Gait {
 ///
 /// @return  Code::usage for an unknown measure (callers tell what else there is) or role; Code::bad_input as
 ///          find_gait_markers() and GaitSmoother::create(), where `best` or `kinematics` is asked for and the
-///          recording holds no locomotion, with the reason, and where there is no event.
+///          recording holds no locomotion, with the reason, where there is no event, and where the
+///          pelvis stands above the feet along another axis than `up`.
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
 

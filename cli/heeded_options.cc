@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/analyze_kinds.h"
+#include "cli/heeded_options.h"
 
 #include <fmt/core.h>
 
@@ -17,11 +17,11 @@ namespace {
 
 using Kinds = unsigned;
 
-constexpr Kinds one(AnalyzeKind kind) { return 1U << static_cast<unsigned>(kind); }
+constexpr Kinds one(AnalysisKind kind) { return 1U << static_cast<unsigned>(kind); }
 
-constexpr Kinds kList = one(AnalyzeKind::list), kMarkers = one(AnalyzeKind::markers),
-                kSeveral = one(AnalyzeKind::several), kSegments = one(AnalyzeKind::segments),
-                kMotion = one(AnalyzeKind::motion), kTables = one(AnalyzeKind::tables);
+constexpr Kinds kList = one(AnalysisKind::list), kMarkers = one(AnalysisKind::markers),
+                kSeveral = one(AnalysisKind::several), kSegments = one(AnalysisKind::segments),
+                kMotion = one(AnalysisKind::motion), kTables = one(AnalysisKind::tables);
 constexpr Kinds kRecordings = kMarkers | kSeveral | kSegments, kMotions = kMotion | kTables,
                 kMeasures = kMarkers | kSeveral | kMotion, kDrawn = kMarkers | kSegments | kMotion;
 
@@ -52,19 +52,19 @@ constexpr std::array kHeeded = {
 };
 
 /// "walk.c3d is {}"
-const char* what_is(AnalyzeKind kind) {
+const char* what_is(AnalysisKind kind) {
   switch (kind) {
-    case AnalyzeKind::list:
+    case AnalysisKind::list:
       return "not needed for --list";
-    case AnalyzeKind::markers:
+    case AnalysisKind::markers:
       return "a recording of markers";
-    case AnalyzeKind::several:
+    case AnalysisKind::several:
       return "one of several recordings";
-    case AnalyzeKind::segments:
+    case AnalysisKind::segments:
       return "a recording whose segments are asked for";
-    case AnalyzeKind::motion:
+    case AnalysisKind::motion:
       return "a motion that is measured";
-    case AnalyzeKind::tables:
+    case AnalysisKind::tables:
       return "a motion whose tables go into a folder";
   }
   return "";
@@ -98,13 +98,13 @@ std::string names_of(Kinds kinds) {
 
 }  // namespace
 
-Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string& input) {
+Status check_heeded(const CLI::App& command, AnalysisKind kind, const std::string& input) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
     const bool positional = option->get_lnames().empty();
     const std::string name = positional ? option->get_name() : option->get_lnames().front();
     const auto kinds = heeded_by(name);
-    if ((kinds & one(kind)) == 0 && kind == AnalyzeKind::list)
+    if ((kinds & one(kind)) == 0 && kind == AnalysisKind::list)
       return fail(Code::usage,
                   fmt::format("--list takes nothing else; {}{} was given", positional ? "" : "--", name));
     if ((kinds & one(kind)) == 0)

@@ -10,8 +10,8 @@
 
 namespace kinemark::cli {
 
-/// What `analyze` does, by what it is given.
-enum class AnalyzeKind : std::uint8_t {
+/// What a command that measures does, by what it is given: which of its options count depends on it.
+enum class AnalysisKind : std::uint8_t {
   list,      ///< say what measures there are
   markers,   ///< measures of a recording of markers
   several,   ///< the same of several recordings, in one table
@@ -23,6 +23,6 @@ enum class AnalyzeKind : std::uint8_t {
 /// Every option that was given is heeded by this kind of analysis: Code::usage names the first that is not,
 /// what it is for, and what this is.
 /// @param input  name of the file that is analysed
-[[nodiscard]] Status check_heeded(const CLI::App& command, AnalyzeKind kind, const std::string& input);
+[[nodiscard]] Status check_heeded(const CLI::App& command, AnalysisKind kind, const std::string& input);
 
 }  // namespace kinemark::cli
