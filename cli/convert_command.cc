@@ -23,6 +23,10 @@ int merge_files(const CommonOptions& common, ConvertArguments& arguments) {
   auto list = pipeline::list_inputs(arguments.many.inputs, pipeline::marker_endings());
   if (!list) return report_error(list.error());
   for (const auto& note : list->notes) say(common, fmt::format("note: {}", note));
+  if (list->files.size() < 2)
+    return report_error({.code = Code::usage,
+                         .message = fmt::format("--merge is for several files of one recording; {} is one",
+                                                list->files.front().filename().string())});
   job.in = list->files.front();
   job.merged.assign(list->files.begin() + 1, list->files.end());
   job.out = arguments.many.output;
@@ -35,6 +39,7 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
   if (auto s = many.split_output(); !s) return report_error(s.error());
   if (arguments.merge) return merge_files(common, arguments);
   if (!many.are_many()) {
+    if (auto s = many.check_single(); !s) return report_error(s.error());
     job.in = many.inputs.front();
     job.out = many.output;
     return run_job(common, "files", job, pipeline::run_convert, print_written);

@@ -9,6 +9,7 @@
 #include "cli/gait_options.h"
 #include "cli/heeded_options.h"
 #include "cli/measures_options.h"
+#include "cli/recording_options.h"
 
 namespace kinemark::cli {
 namespace {
@@ -66,8 +67,10 @@ void add_dynamics(CLI::App& app, const CommonOptions& common, Run& run) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Input");
-  command->add_option("--start", job.first_time_s, "First time to use, s")->group("Input");
-  command->add_option("--end", job.last_time_s, "Last time to use, s")->group("Input");
+  command->add_option("--start", job.first_time_s, "First time to use, s")
+      ->check(finite_time)
+      ->group("Input");
+  command->add_option("--end", job.last_time_s, "Last time to use, s")->check(finite_time)->group("Input");
   add_measures_options(*command, arguments->measures);
   add_feet_options(*command, shared.gait);
   add_sheet_options(*command, shared.gait);

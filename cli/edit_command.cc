@@ -4,12 +4,15 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/word_list.h"
 #include "kinemark/core/counted.h"
+#include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/files/json_text.h"
@@ -51,9 +54,40 @@ struct EditArguments {
   std::string frames;
 };
 
+/// An option that says where or how, and the operations that it is for.
+struct Where {
+  std::string_view option;
+  bool given;
+  std::string_view operations;
+};
+
+/// Every option that says where or how is one of this operation, "--cut".
+Status check_where(const EditArguments& arguments, std::string_view operation) {
+  constexpr std::string_view kAll =
+      "--relabel --swap --cut --fill --unfill --crop --mark --move --delete --region --exchanges --undo "
+      "--redo";
+  constexpr std::string_view kFrames = "--relabel --swap --cut --fill --unfill --crop --region";
+  constexpr std::string_view kTo = "--relabel --swap --cut --fill --unfill --crop --move --region";
+  constexpr std::string_view kEvents = "--mark --move --delete";
+  const auto& job = arguments.job;
+  const std::array<Where, 7> where{{{"--from", !job.from.empty(), kFrames},
+                                    {"--to", !job.to.empty(), kTo},
+                                    {"--frames", !arguments.frames.empty(), "--swap"},
+                                    {"--at", !job.at.empty(), kEvents},
+                                    {"--context", !arguments.context.empty(), kEvents},
+                                    {"--method", !arguments.method.empty(), "--fill"},
+                                    {"--author", !arguments.author.empty(), kAll}}};
+  for (const auto& one : where)
+    if (one.given && !has_word(one.operations, operation))
+      return fail(Code::usage, fmt::format("{} is for {}; this is {}", one.option,
+                                           with_commas(one.operations), operation));
+  return {};
+}
+
 /// What was asked for, apart from when. Nothing: to look.
 Status read_edit(EditArguments& arguments) {
   std::vector<data::Edit> edits;
+  std::vector<std::string> operations;
   for (std::size_t i = 0; i < kOperations.size(); ++i) {
     const auto& values = arguments.values[i];
     if (values.empty() && !arguments.given[i]) continue;
@@ -67,21 +101,23 @@ Status read_edit(EditArguments& arguments) {
       edit.marker = values.front();
     if (values.size() > 1) edit.other = values.back();
     edits.push_back(std::move(edit));
+    operations.emplace_back(kOperations[i].option);
   }
-  if (arguments.undo > 0) edits.push_back({.kind = EditKind::undo, .count = arguments.undo});
-  if (arguments.redo > 0) edits.push_back({.kind = EditKind::redo, .count = arguments.redo});
-  const bool exchanges = arguments.job.exchanges;
-  if (exchanges) edits.push_back({.kind = EditKind::swap});
-  if (edits.size() > 1 || (edits.size() == 1 && arguments.list))
-    return fail(Code::usage, "several operations; need one at a time");
-  if (edits.empty() && !arguments.list)
+  const auto add = [&](bool asked, const char* option, data::Edit edit) {
+    if (!asked) return;
+    edits.push_back(std::move(edit));
+    operations.emplace_back(option);
+  };
+  add(arguments.undo > 0, "--undo", {.kind = EditKind::undo, .count = arguments.undo});
+  add(arguments.redo > 0, "--redo", {.kind = EditKind::redo, .count = arguments.redo});
+  add(arguments.job.exchanges, "--exchanges", {.kind = EditKind::swap});
+  if (arguments.list) operations.emplace_back("--list");
+  if (operations.size() > 1)
+    return fail(Code::usage, fmt::format("{} are several operations; need one at a time", join(operations)));
+  if (operations.empty())
     return fail(Code::usage, "no operation, such as --swap A B; --list shows what was edited");
-  if (edits.empty()) return {};
+  if (auto s = check_where(arguments, operations.front()); !s || arguments.list) return s;
   auto& edit = edits.front();
-  if (!arguments.method.empty() && edit.kind != EditKind::fill)
-    return fail(Code::usage, "--method is for --fill");
-  if (!arguments.frames.empty() && (edit.kind != EditKind::swap || exchanges))
-    return fail(Code::usage, "--frames is for --swap");
   edit.frames = arguments.frames;
   edit.method = arguments.method;
   edit.context = arguments.context;

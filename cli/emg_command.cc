@@ -24,7 +24,9 @@ void add_emg(CLI::App& app, const CommonOptions& common, Run& run) {
   add_emg_options(*command, job.emg, kOwnEmgNames);
   add_feet_options(*command, job.gait);
   add_measures_options(*command, *arguments);
-  command->add_option("-o,--output", job.output, "Table of the measures, .csv, .json or .nwb")
+  command
+      ->add_option("-o,--output", job.output,
+                   "Table of the measures, .csv, .json or .nwb; printed when absent")
       ->type_name("FILE")
       ->group("Output");
   command->add_option("--report", job.report, "Page to write as well, .html: the table of measures")

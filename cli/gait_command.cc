@@ -29,7 +29,9 @@ void add_gait(CLI::App& app, const CommonOptions& common, Run& run) {
   add_sheet_options(*command, job.gait);
   add_measures_options(*command, *arguments);
   add_noise_option(*command, arguments->noise_mm);
-  command->add_option("-o,--output", job.output, "Table of the measures, .csv, .json or .nwb")
+  command
+      ->add_option("-o,--output", job.output,
+                   "Table of the measures, .csv, .json or .nwb; printed when absent")
       ->type_name("FILE")
       ->group("Output");
   add_cycle_options(*command, job.gait, CyclesOf::feet);

@@ -60,8 +60,9 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
   auto& many = arguments.many;
   many.inputs = arguments.motion.recordings;
   many.output = job.output;
-  if (many.inputs.empty() || !many.are_many())
-    return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
+  const bool is_one = many.inputs.empty() || !many.are_many();
+  if (auto s = is_one ? many.check_single() : Status(); !s) return report_error(s.error());
+  if (is_one) return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
   if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   many.pages = job.report;
   const auto solve_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,

@@ -66,9 +66,7 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   job.continuity = !arguments.no_continuity;
   auto& many = arguments.many;
   if (many.are_many()) return run_many_joints(common, arguments);
-  if (!many.to.empty())
-    return report_error({.code = Code::usage,
-                         .message = "--to is for several recordings; the ending of a file names its format"});
+  if (auto s = many.check_single(); !s) return report_error(s.error());
   job.input = many.inputs.front();
   settle(common, "frames", job);
   const auto outcome = pipeline::run_joints(job);
@@ -119,9 +117,10 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
           "TOML: [[segment]] name, markers; [[joint]] name, parent, child; or the .vsk of a Vicon subject")
       ->group("Input");
   command
-      ->add_option(
-          "-o,--output", job.output,
-          "Folder (centres.csv, centres.c3d, skeleton.json, segments.toml), or a file .c3d, .trc, .csv, .nwb")
+      ->add_option("-o,--output", job.output,
+                   "Folder (centres.csv, centres.c3d, skeleton.json, segments.toml), or a file .c3d, .trc, "
+                   ".csv, .nwb; "
+                   "what is found is printed alone when absent")
       ->group("Output");
   command
       ->add_option("--report", job.report,

@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/files_read.h"
 #include "cli/hints.h"
+#include "cli/option_needs.h"
 #include "cli/program.h"
 #include "cli/settings_options.h"
 
@@ -52,6 +53,8 @@ int run_program(int argc, char** argv) {
     }
     return report_usage(app, kinemark::cli::explain_usage(app, error, words->words));
   }
+  if (const auto s = kinemark::cli::check_needs(kinemark::cli::reached(app)); !s)
+    return report_usage(app, s.error().message);
   common.kept = kinemark::cli::files_read(app);
   if (!words->config.empty()) common.kept.push_back(words->config);
   kinemark::cli::watch_signals();

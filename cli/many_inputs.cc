@@ -50,6 +50,13 @@ Status ManyArguments::check_format() {
   return {};
 }
 
+Status ManyArguments::check_single() const {
+  if (to.empty() && jobs == 1 && !keep_going) return {};
+  const char* name = !to.empty() ? "to" : keep_going ? "keep-going" : "jobs";
+  return fail(Code::usage,
+              fmt::format("--{} is for several recordings, or a folder of them; there is one", name));
+}
+
 void add_in_and_out(CLI::App& command, ManyArguments& arguments, const char* in) {
   command.add_option("IN", arguments.inputs, in)->required();
   // The list before it takes all names, this one among them.

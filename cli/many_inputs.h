@@ -32,6 +32,8 @@ struct ManyArguments {
   [[nodiscard]] Status split_output();
   /// `to` gets its dot. Code::usage for one that is no format of markers.
   [[nodiscard]] Status check_format();
+  /// Code::usage where an option of several recordings is given for this one.
+  [[nodiscard]] Status check_single() const;
   /// Whether there are several inputs, or the output is a folder that is there or ends in a slash.
   [[nodiscard]] bool are_many() const;
 };

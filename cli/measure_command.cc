@@ -31,7 +31,9 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
       ->check(CLI::IsMember({"movement"}))
       ->group("Measures");
   add_noise_option(*command, arguments->noise_mm);
-  command->add_option("-o,--output", job.output, "Table of the measures, .csv, .json or .nwb")
+  command
+      ->add_option("-o,--output", job.output,
+                   "Table of the measures, .csv, .json or .nwb; printed when absent")
       ->type_name("FILE")
       ->group("Output");
   add_cycle_options(*command, job.gait, CyclesOf::movements);

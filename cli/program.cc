@@ -9,6 +9,7 @@
 
 #include "cli/hints.h"
 #include "cli/metavars.h"
+#include "cli/option_needs.h"
 #include "kinemark/core/version.h"
 
 namespace kinemark::cli {
@@ -101,7 +102,7 @@ Status check_words(const std::vector<std::string>& words) {
   } catch (const CLI::ParseError& error) {
     return fail(Code::usage, explain_usage(app, error, words));
   }
-  return {};
+  return check_needs(reached(app));
 }
 
 }  // namespace kinemark::cli

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/recording_options.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "kinemark/io/markers/marker_file.h"
@@ -27,8 +31,8 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
   list("--rename", part.rename, "OLD=NEW", "New names");
   add("--frames", part.frames, "A-B",
       "Frames to use, in the file's numbers, both included: 101-250, 101-, -250");
-  add("--start", part.first_time_s, "S", "First time to use, s");
-  add("--end", part.last_time_s, "S", "Last time to use, s");
+  add("--start", part.first_time_s, "S", "First time to use, s")->check(finite_time);
+  add("--end", part.last_time_s, "S", "Last time to use, s")->check(finite_time);
   add("--up", recording.axes.up, "AXIS",
       "Axis that points up in the recording: x, y, z, -x, -y, -z, or auto to find it");
   add("--rotate", recording.axes.rotate, "\"AXIS DEG\"",
@@ -45,6 +49,12 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
       ->type_name("WHAT")
       ->default_str(std::string(pipeline::to_string(by_itself)))
       ->group("Recording");
+}
+
+std::string finite_time(const std::string& text) {
+  return std::isinf(std::strtod(text.c_str(), nullptr))
+             ? fmt::format("'{}' is no time; need a number of seconds", text)
+             : std::string();
 }
 
 void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 #include "kinemark/pipeline/files/recording.h"
 
@@ -14,6 +15,9 @@ namespace kinemark::cli {
 /// @param by_itself  what the command does with doubtful samples where nothing is said
 void add_recording_options(CLI::App& command, pipeline::RecordingOptions& recording,
                            pipeline::Doubtful by_itself);
+
+/// A check of options that take a time: empty, or what is wrong with the text.
+[[nodiscard]] std::string finite_time(const std::string& text);
 
 /// Of several recordings, those that store a rate have no use for the one that is given.
 void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input);

@@ -50,7 +50,9 @@ void add_segments(CLI::App& app, const CommonOptions& common, Run& run) {
   add_sheet_options(*command, shared.gait);
   add_noise_option(*command, arguments->measures.noise_mm);
   add_interval_options(*command, shared);
-  command->add_option("-o,--output", job.output, "Folder for the results")
+  command
+      ->add_option("-o,--output", job.output,
+                   "Folder for the results; their summary is printed alone when absent")
       ->type_name("FOLDER")
       ->group("Output");
   add_cycle_options(*command, shared.gait, CyclesOf::feet);

@@ -54,6 +54,13 @@ Status check_together(const ServeArguments& arguments) {
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
   if (!arguments.is_live() && !arguments.record.empty())
     return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
+  const char* of_files = !arguments.asked.geometry.empty() ? "geometry"
+                         : !arguments.asked.tasks.empty()  ? "tasks"
+                         : !arguments.weights.empty()      ? "weight"
+                                                           : "";
+  if (arguments.is_live() && *of_files != '\0')
+    return fail(Code::usage, fmt::format("--{} is for files; {} is a live source", of_files,
+                                         arguments.given.front().string()));
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace kinemark::cli {
@@ -16,6 +17,13 @@ constexpr bool has_word(std::string_view words, std::string_view word) {
     begin = end + 1;
   }
   return false;
+}
+
+/// The words with commas between them.
+inline std::string with_commas(std::string_view words) {
+  std::string text;
+  for (const char c : words) text += c == ' ' ? std::string(", ") : std::string(1, c);
+  return text;
 }
 
 }  // namespace kinemark::cli

@@ -84,7 +84,7 @@ class Bench:
 
     def _fill(self):
         place = self.inputs
-        (place / "options.toml").write_text("seed = 1\n")
+        (place / "options.toml").write_text("threads = 1\n")
         self._make("simulate", "subject", "-o", "body", "--duration", 0.4)
         self._make("simulate", "arm", "-o", "arm", "--frames", 40, "--markers", 4, "--stagger", 15)
         self._make("simulate", "rig", "sign", "-o", "lab", "--duration", 0.1, "--grid")

@@ -61,9 +61,9 @@ class Clean(CommandTest):
         self.refused(2, ["drop", "decimate"], "clean", self.c3d, "x.c3d", "--upsampled", "drop")
         self.refused(2, "60", "clean", self.c3d, "x.c3d", "--filter", "butterworth", "--cutoff", 60)
         self.refused(2, ".xyz", "clean", self.c3d, "x.xyz")
-        for option in ("--max-gap", "--max-gap-sd"):  # whether or not gaps are filled
+        for option in ("--max-gap", "--max-gap-sd"):
             for value in (-1, "nan", 0):
-                self.refused(2, "need more than 0", "clean", self.c3d, "x.c3d", option, value)
+                self.refused(2, "need more than 0", "clean", self.c3d, "x.c3d", "--gaps", "auto", option, value)
         self.refused(4, "none.c3d", "clean", "none.c3d", "x.c3d")
         self.write("bad.c3d", "not a C3D file")
         self.refused(3, "bad.c3d", "clean", "bad.c3d", "x.c3d")

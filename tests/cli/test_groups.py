@@ -35,7 +35,7 @@ class Groups(CommandTest):
         self.assertIn("Two samples: old (8 curves), young (8 curves); 51 points", result.out)
         self.assertRegex(result.out, r"point (1\d|2[0-3])[.\d]* to (2[7-9]|3\d)")
         again = self.run_in("groups", "spm", old, young, "--json")
-        self.assertEqual(len(json.loads(again.out)["stretches"]), 1)
+        self.assertEqual(len(json.loads(again.out)["spans"]), 1)
         self.assertEqual(again.out, self.run_in("groups", "spm", old, young, "--json", "--threads", "2").out)
 
     def test_a_tidy_table_of_pairs_is_written_and_banded(self):

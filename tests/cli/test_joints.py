@@ -204,7 +204,7 @@ class Joints(CommandTest):
         self.assertEqual(sorted(noise), ["f0", "f1", "f2", "f3", "u0", "u1", "u2", "u3"])
         for name, sd in noise.items():
             self.assertAlmostEqual(1e3 * sd, 0.5, delta=0.2, msg=name)
-        self.refused(2, ["soft tissue", "score"], "joints", "arm.csv", "--method", "score", "--soft-tissue")
+        self.refused(2, ["--soft-tissue", "score"], "joints", "arm.csv", "--method", "score", "--soft-tissue")
 
     def test_no_complete_frame(self):
         self.write("gaps.csv", arm(lose=lambda f, name: int(name[1]) == f % 4)[0])
@@ -234,7 +234,7 @@ class Joints(CommandTest):
 
     def test_wrong_words_and_files(self):
         self.refused(2, ["best", "articulated"], "joints", "arm.csv", "--method", "best")
-        self.refused(2, ["left", "parent"], "joints", "arm.csv", "--sides", "left")
+        self.refused(2, ["left", "parent"], "joints", "arm.csv", "--method", "score", "--sides", "left")
         self.refused(2, ["knee", "hinge"], "joints", "arm.csv", "--kind", "knee")
         self.refused(2, "-1 mm", "joints", "arm.csv", "--noise", -1)
         for name in ("x.mot", "x.v3d", "x.osim", "no/folder/x.xyz"):

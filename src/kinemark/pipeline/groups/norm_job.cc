@@ -65,8 +65,8 @@ BesideNorm compare(const NormBand& norm, const CurveGroups& groups, std::size_t 
     const double beyond = value > high ? value - high : value < low ? value - low : 0.0;
     if (beyond != 0.0) {
       ++out.outside;
-      if (!was_outside) out.stretches.emplace_back(groups.at[p], groups.at[p]);
-      out.stretches.back().second = groups.at[p];
+      if (!was_outside) out.spans.emplace_back(groups.at[p], groups.at[p]);
+      out.spans.back().second = groups.at[p];
       if (!(std::abs(beyond) <= std::abs(out.largest)))
         std::tie(out.largest, out.largest_at) = std::pair{beyond, groups.at[p]};
     }
@@ -75,9 +75,9 @@ BesideNorm compare(const NormBand& norm, const CurveGroups& groups, std::size_t 
   return out;
 }
 
-std::string stretches_text(const BesideNorm& curve) {
+std::string spans_text(const BesideNorm& curve) {
   std::vector<std::string> parts;
-  for (const auto& [first, last] : curve.stretches)
+  for (const auto& [first, last] : curve.spans)
     parts.push_back(first == last ? fmt::format("{:g}", first) : fmt::format("{:g} to {:g}", first, last));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -173,21 +173,21 @@ std::string norm_text(const NormOutcome& outcome) {
       out += fmt::format("  {}: within at all of {} points\n", name, curve.points);
     else
       out += fmt::format("  {}: outside at {} of {} points ({}), at most {:.3g}{} {} at {:g}\n", name,
-                         curve.outside, curve.points, stretches_text(curve), std::abs(curve.largest), unit,
+                         curve.outside, curve.points, spans_text(curve), std::abs(curve.largest), unit,
                          curve.largest > 0 ? "above" : "below", curve.largest_at);
   }
   return out;
 }
 
 std::string norm_csv(const NormOutcome& outcome) {
-  std::string out = "group,curve,points,outside,share_outside,largest,largest_at,stretches,unit\n";
+  std::string out = "group,curve,points,outside,share_outside,largest,largest_at,spans,unit\n";
   for (const auto& curve : outcome.curves)
     out += fmt::format(
         "{},{},{},{},{},{},{},{},{}\n", table_cell(curve.group), table_cell(curve.curve), curve.points,
         curve.outside,
         curve.points > 0 ? table_cell(static_cast<double>(curve.outside) / static_cast<double>(curve.points))
                          : "",
-        table_cell(curve.largest), table_cell(curve.largest_at), table_cell(stretches_text(curve)),
+        table_cell(curve.largest), table_cell(curve.largest_at), table_cell(spans_text(curve)),
         table_cell(outcome.unit));
   return out;
 }
@@ -202,7 +202,7 @@ nlohmann::ordered_json norm_json(const NormOutcome& outcome) {
                              {"outside", curve.outside},
                              {"largest", json_number(curve.largest)},
                              {"largest_at", json_number(curve.largest_at)},
-                             {"stretches", curve.stretches}});
+                             {"spans", curve.spans}});
   out["warnings"] = outcome.warnings;
   return out;
 }

@@ -39,7 +39,7 @@ struct BesideNorm {
   std::int64_t outside = 0;  ///< of them, beyond the band
   double largest = kNaN;     ///< beyond an end, with its sign: above +, below -; NaN: nowhere
   double largest_at = kNaN;  ///< where
-  std::vector<std::pair<double, double>> stretches;  ///< outside, from and to the points' places
+  std::vector<std::pair<double, double>> spans;  ///< outside, from and to the points' places
 };
 
 /// What was compared with what.

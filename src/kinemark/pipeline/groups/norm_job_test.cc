@@ -43,7 +43,7 @@ TEST_F(NormJobTest, WhatIsWithinAndWhatIsOutsideIsSaid) {
   EXPECT_EQ(outcome->curves[0].outside, 0);
   EXPECT_EQ(outcome->curves[1].outside, 3);  // 7.5 below 8; 19 above 15 + 3; 25 above 24
   EXPECT_EQ(outcome->curves[1].largest, 1.0);
-  EXPECT_EQ(outcome->curves[1].stretches.size(), 1u);
+  EXPECT_EQ(outcome->curves[1].spans.size(), 1u);
   const auto text = norm_text(*outcome);
   EXPECT_THAT(text, HasSubstr("Beside the norm (mean +- 2 SD at each point):\n"));
   EXPECT_THAT(text, HasSubstr("curves 1: within at all of 4 points\n"));

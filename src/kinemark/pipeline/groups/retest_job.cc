@@ -59,6 +59,8 @@ Result<Where> columns_in(const io::TidyTable& table, const RetestJob& job) {
     *column = *found;
   }
   out.sd = table.find(job.sd);
+  if (out.sd < 0 && job.sd != RetestJob().sd)
+    return std::unexpected(column_of(table, job.sd, "--sd").error());
   out.unit = table.find("unit");
   if (!job.by.empty()) {
     auto by = columns_of(table, job.by, "--by");

@@ -20,7 +20,7 @@ struct RetestJob : JobSettings {
   std::string subject = "participant";        ///< column of who was measured
   std::string session = "session";            ///< column of when
   std::string value = "value";                ///< column of the measure
-  std::string sd = "sd";           ///< column of its measurement noise; not used where it is absent
+  std::string sd = "sd";                      ///< column of its measurement noise; this one may be absent
   std::vector<std::string> by;     ///< columns: each combination is tested by itself; empty: those of
                                    ///< measure, subject, context and region that are there
   std::vector<std::string> where;  ///< rows_where()

@@ -99,11 +99,11 @@ std::string spm_text(const SpmOutcome& outcome) {
       "{})\n",
       degrees_of_freedom(mapping), magnitude ? "+-" : "", mapping.threshold, mapping.options.alpha,
       null_of(mapping), mapping.arrangements, mapping.possible, mapping.options.seed);
-  for (const auto& stretch : mapping.stretches)
+  for (const auto& span : mapping.spans)
     out += fmt::format("  {} {:.4g} to {:.4g}: {} up to {:.3g}, p = {:.3g}\n", outcome.groups.at_name,
-                       place(outcome.groups, stretch.first), place(outcome.groups, stretch.last),
-                       mapping.statistic, stretch.extreme, stretch.p);
-  if (mapping.stretches.empty())
+                       place(outcome.groups, span.first), place(outcome.groups, span.last), mapping.statistic,
+                       span.extreme, span.p);
+  if (mapping.spans.empty())
     out += fmt::format("No difference{} is found: largest {} {:.3g}, p = {:.3g}\n",
                        mapping.options.design == Design::one_sample ? " from 0" : "", mapping.statistic,
                        largest(mapping), mapping.p);
@@ -126,9 +126,9 @@ std::string spm_csv(const SpmOutcome& outcome) {
     out += table_cell(groups.at[p]);
     for (const auto& mean : means)
       out += fmt::format(",{},{}", table_cell(mean.mean[p]), table_cell(mean.sd[p]));
-    const bool beyond = std::ranges::any_of(mapping.stretches, [&](const auto& stretch) {
+    const bool beyond = std::ranges::any_of(mapping.spans, [&](const auto& span) {
       const auto at = static_cast<double>(p);
-      return at >= stretch.first && at <= stretch.last;
+      return at >= span.first && at <= span.last;
     });
     out += fmt::format(",{},{},{}\n", table_cell(mapping.values[p]), table_cell(mapping.threshold),
                        std::isnan(mapping.values[p]) ? ""
@@ -152,13 +152,13 @@ nlohmann::ordered_json spm_json(const SpmOutcome& outcome) {
                              {"possible_arrangements", json_number(mapping.possible)},
                              {"seed", mapping.options.seed},
                              {"unit", groups.unit}};
-  out["stretches"] = nlohmann::ordered_json::array();
-  for (const auto& stretch : mapping.stretches)
-    out["stretches"].push_back({{"first", place(groups, stretch.first)},
-                                {"last", place(groups, stretch.last)},
-                                {"extreme", json_number(stretch.extreme)},
-                                {"integral", json_number(stretch.integral)},
-                                {"p", json_number(stretch.p)}});
+  out["spans"] = nlohmann::ordered_json::array();
+  for (const auto& span : mapping.spans)
+    out["spans"].push_back({{"first", place(groups, span.first)},
+                            {"last", place(groups, span.last)},
+                            {"extreme", json_number(span.extreme)},
+                            {"integral", json_number(span.integral)},
+                            {"p", json_number(span.p)}});
   out["not_tested"] = mapping.not_tested;
   if (!mapping.remark.empty()) out["remark"] = mapping.remark;
   out["at_name"] = groups.at_name;

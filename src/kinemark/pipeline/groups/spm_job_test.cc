@@ -47,7 +47,7 @@ TEST_F(SpmJobTest, ADifferenceIsSaidWhereItIs) {
   SpmJob job{.inputs = {write("up.csv", 1, 2.5), write("flat.csv", 2, 0.0)}, .output = scratch_ / "spm.csv"};
   const auto outcome = run_spm(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
-  ASSERT_EQ(outcome->mapping.stretches.size(), 1u);
+  ASSERT_EQ(outcome->mapping.spans.size(), 1u);
   const auto text = spm_text(*outcome);
   EXPECT_THAT(text, HasSubstr("Two samples: up (10 curves), flat (10 curves); 21 points\n"));
   EXPECT_THAT(text, HasSubstr("t(18) beyond +-"));
@@ -110,7 +110,7 @@ TEST_F(SpmJobTest, DesignsFollowFromTheGroups) {
   EXPECT_EQ(run_spm({.inputs = {a, b, c}, .one_sided = true}).error().code, Code::usage);
 }
 
-TEST_F(SpmJobTest, JsonHoldsAllAndStretchesAreInPercent) {
+TEST_F(SpmJobTest, JsonHoldsAllAndSpansAreInPercent) {
   std::string text = "group,cycle,percent,value\n";
   for (const std::string group : {"x", "y"})
     for (int cycle = 0; cycle < 6; ++cycle)
@@ -122,9 +122,9 @@ TEST_F(SpmJobTest, JsonHoldsAllAndStretchesAreInPercent) {
       run_spm({.inputs = {scratch_ / "t.csv"}, .columns = {.group = "group"}, .output = scratch_ / "o.json"});
   ASSERT_TRUE(outcome) << outcome.error().message;
   const auto json = nlohmann::json::parse(io::read_text(scratch_ / "o.json").value());
-  ASSERT_EQ(json["stretches"].size(), 1u);
-  EXPECT_GT(json["stretches"][0]["first"], 25.0);
-  EXPECT_LT(json["stretches"][0]["last"], 75.0);
+  ASSERT_EQ(json["spans"].size(), 1u);
+  EXPECT_GT(json["spans"][0]["first"], 25.0);
+  EXPECT_LT(json["spans"][0]["last"], 75.0);
   EXPECT_EQ(json["at"], (nlohmann::json{0.0, 25.0, 50.0, 75.0, 100.0}));
   EXPECT_EQ(json["at_name"], "percent");
   EXPECT_EQ(json["groups"][0]["name"], "x");

@@ -142,10 +142,9 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
                       : table_file(job.emg.write, table));
   }
   if (!job.emg.write_cycles.empty())
-    out.push_back(text_file(job.emg.write_cycles, [&, per_cent] {
-      const auto& found = measured.outcome;
+    out.push_back(text_file(job.emg.write_cycles, [&, per_cent, cycles = measured.outcome.gait->cycles] {
       return curves_csv(
-          {{"", envelope_cycles(measured.recording.trial, *found.emg, found.gait->cycles, per_cent)}},
+          {{"", envelope_cycles(measured.recording.trial, *measured.outcome.emg, cycles, per_cent)}},
           measured.name);
     }));
   if (!job.gait.write_cycles.empty())
@@ -224,6 +223,7 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   page->add_inputs(inputs_of(measured->outcome));
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
+  if (job.of == MeasuresOf::muscles) measured->outcome.gait.reset();  // walking only gave the cycles
   const auto report = draw_walking(job, measured->recording, *norms, measured->outcome);
   if (!report) return fail_at(job.input.string(), report.error());
   if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)

@@ -344,9 +344,9 @@ Result<ForceMeasures> measure_forces(const data::Wrenches& plates, const ForceMe
   ForceMeasurement(plates, options, out).measure();
   if (out.measures.empty())
     return fail(Code::bad_input,
-                out.notes.empty()
-                    ? std::string("nobody steps wholly on a plate, nor stands on plates for 5 s")
-                    : out.notes.front());
+                fmt::format("nobody steps wholly on a plate, nor stands on plates for {:g} s{}",
+                            options.regions.empty() ? kStanding_s : kStandingInRegion_s,
+                            out.notes.empty() ? "" : "; " + out.notes.front()));
   return out;
 }
 

@@ -70,7 +70,7 @@ void CurveStatistic::of(const Arrangements::Labels& labels, std::span<double> st
     double between = 0.0;
     for (std::size_t g = 0; g < sizes_.size(); ++g)
       between += sums_[g * points_ + p] * sums_[g * points_ + p] / static_cast<double>(sizes_[g]);
-    // Of equal curves within groups the statistic is very large, not infinite: stretches have integrals.
+    // Of equal curves within groups the statistic is very large, not infinite: spans have integrals.
     const double variance = std::max(kLeastError * squares_[p], squares_[p] - between) / error;
     if (std::isnan(squares_[p])) {
       statistic[p] = kNaN;

@@ -57,9 +57,9 @@ double largest(std::span<const double> statistic, Side side) {
   return most;
 }
 
-/// Stretches beyond the threshold, each of one sign, up to the interpolated crossings.
-std::vector<MappedStretch> stretches_of(std::span<const double> statistic, double threshold, Side side) {
-  std::vector<MappedStretch> found;
+/// Spans beyond the threshold, each of one sign, up to the interpolated crossings.
+std::vector<MappedSpan> spans_of(std::span<const double> statistic, double threshold, Side side) {
+  std::vector<MappedSpan> found;
   const auto beyond = [&](std::size_t p) { return side.height(statistic[p]) - threshold; };
   const auto counts = [&](std::size_t p) { return beyond(p) > 0.0; };  // false of NaN
   const auto crossing = [&](std::size_t in, std::size_t out, double sign) {
@@ -71,20 +71,20 @@ std::vector<MappedStretch> stretches_of(std::span<const double> statistic, doubl
     const double sign = side.height(statistic[p]) == statistic[p] ? 1.0 : -1.0;
     std::size_t end = p;
     while (end + 1 < statistic.size() && counts(end + 1) && sign * statistic[end + 1] > 0.0) ++end;
-    MappedStretch stretch{.first = static_cast<double>(p),
-                          .last = static_cast<double>(end),
-                          .extreme = statistic[p],
-                          .integral = 0.0};
+    MappedSpan span{.first = static_cast<double>(p),
+                    .last = static_cast<double>(end),
+                    .extreme = statistic[p],
+                    .integral = 0.0};
     const double before = p > 0 ? crossing(p, p - 1, sign) : 0.0;
     const double after = end + 1 < statistic.size() ? crossing(end, end + 1, sign) : 0.0;
-    stretch.first -= before;
-    stretch.last += after;
-    stretch.integral = 0.5 * (before * beyond(p) + after * beyond(end));
+    span.first -= before;
+    span.last += after;
+    span.integral = 0.5 * (before * beyond(p) + after * beyond(end));
     for (std::size_t k = p; k <= end; ++k) {
-      if (side.height(statistic[k]) > side.height(stretch.extreme)) stretch.extreme = statistic[k];
-      if (k > p) stretch.integral += 0.5 * (beyond(k - 1) + beyond(k));
+      if (side.height(statistic[k]) > side.height(span.extreme)) span.extreme = statistic[k];
+      if (k > p) span.integral += 0.5 * (beyond(k - 1) + beyond(k));
     }
-    found.push_back(stretch);
+    found.push_back(span);
     p = end;
   }
   return found;
@@ -104,17 +104,16 @@ double threshold_of(std::vector<double> heights, double alpha) {
   return heights[static_cast<std::size_t>(alpha * static_cast<double>(heights.size()) + kTie)];
 }
 
-void judge_stretches(Mapping& mapping, CurveStatistic& statistic, Arrangements& arrangements, Side side) {
-  mapping.stretches = stretches_of(mapping.values, mapping.threshold, side);
-  if (mapping.stretches.empty()) return;
+void judge_spans(Mapping& mapping, CurveStatistic& statistic, Arrangements& arrangements, Side side) {
+  mapping.spans = spans_of(mapping.values, mapping.threshold, side);
+  if (mapping.spans.empty()) return;
   std::vector<double> integrals(static_cast<std::size_t>(arrangements.count()), 0.0),
       values(statistic.points());
   for (double& most : integrals) {
     statistic.of(arrangements.next(), values);
-    for (const auto& stretch : stretches_of(values, mapping.threshold, side))
-      most = std::max(most, stretch.integral);
+    for (const auto& span : spans_of(values, mapping.threshold, side)) most = std::max(most, span.integral);
   }
-  for (auto& stretch : mapping.stretches) stretch.p = share_reaching(integrals, stretch.integral);
+  for (auto& span : mapping.spans) span.p = share_reaching(integrals, span.integral);
 }
 
 }  // namespace
@@ -164,7 +163,7 @@ Result<Mapping> map_curves(std::span<const data::CycleCurves> groups, const Mapp
                           arrangements.count(), options.alpha);
     return mapping;
   }
-  judge_stretches(mapping, statistic, arrangements, side);
+  judge_spans(mapping, statistic, arrangements, side);
   return mapping;
 }
 

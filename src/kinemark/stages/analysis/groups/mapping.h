@@ -28,13 +28,13 @@ struct MappingOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// A stretch of the curve in which the statistic stays beyond the threshold.
-struct MappedStretch {
+/// A span of the curve in which the statistic stays beyond the threshold.
+struct MappedSpan {
   double first = kNaN;     ///< where it begins, in points from 0, interpolated
   double last = kNaN;      ///< where it ends
   double extreme = kNaN;   ///< largest statistic in it, with its sign
   double integral = kNaN;  ///< of what is beyond the threshold, statistic times points
-  double p = kNaN;  ///< probability of a stretch of that integral or more, anywhere, if groups do not differ
+  double p = kNaN;  ///< probability of a span of that integral or more, anywhere, if groups do not differ
 };
 
 /// Where groups differ.
@@ -46,12 +46,12 @@ struct Mapping {
   std::vector<double> values;  ///< P, the statistic; NaN where not tested
   double threshold =
       kNaN;  ///< exceeded anywhere with probability `alpha` at most if groups do not differ; NaN: see remark
-  double p = kNaN;                       ///< of the largest value anywhere
-  std::vector<MappedStretch> stretches;  ///< beyond the threshold, in order
-  double possible = 0.0;                 ///< arrangements that there are
-  std::int64_t arrangements = 0;         ///< arrangements used, the observed one among them
-  std::int64_t not_tested = 0;           ///< points at which a curve is missing, or all are equal
-  std::string remark;                    ///< why nothing can be found; may be empty
+  double p = kNaN;                ///< of the largest value anywhere
+  std::vector<MappedSpan> spans;  ///< beyond the threshold, in order
+  double possible = 0.0;          ///< arrangements that there are
+  std::int64_t arrangements = 0;  ///< arrangements used, the observed one among them
+  std::int64_t not_tested = 0;    ///< points at which a curve is missing, or all are equal
+  std::string remark;             ///< why nothing can be found; may be empty
 };
 
 /// Test where the mean curves of groups differ (one sample: where a mean curve differs from 0).
@@ -59,7 +59,7 @@ struct Mapping {
 /// The threshold is that of the largest statistic over the curve in all arrangements of the labels (Nichols &
 /// Holmes 2002; Pataky, Vanrenterghem & Robinson 2015), so that its error rate holds however smooth the
 /// curves are. It asks that curves could change places if groups did not differ: equal variances between
-/// groups, symmetric differences within pairs. A stretch is judged by its integral beyond the threshold.
+/// groups, symmetric differences within pairs. A span is judged by its integral beyond the threshold.
 ///
 /// @param groups  one (one sample), two (paired, two samples) or more groups of at least two curves, the same
 /// points

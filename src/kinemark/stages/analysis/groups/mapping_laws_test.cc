@@ -36,11 +36,11 @@ void expect_equal(const Mapping& a, const Mapping& b, double sign) {
   for (std::size_t p = 0; p < a.values.size(); ++p) EXPECT_NEAR(a.values[p], sign * b.values[p], 1e-9);
   EXPECT_NEAR(a.threshold, b.threshold, 1e-9);
   EXPECT_DOUBLE_EQ(a.p, b.p);
-  ASSERT_EQ(a.stretches.size(), b.stretches.size());
-  for (std::size_t i = 0; i < a.stretches.size(); ++i) {
-    EXPECT_NEAR(a.stretches[i].first, b.stretches[i].first, 1e-9);
-    EXPECT_NEAR(a.stretches[i].extreme, sign * b.stretches[i].extreme, 1e-9);
-    EXPECT_DOUBLE_EQ(a.stretches[i].p, b.stretches[i].p);
+  ASSERT_EQ(a.spans.size(), b.spans.size());
+  for (std::size_t i = 0; i < a.spans.size(); ++i) {
+    EXPECT_NEAR(a.spans[i].first, b.spans[i].first, 1e-9);
+    EXPECT_NEAR(a.spans[i].extreme, sign * b.spans[i].extreme, 1e-9);
+    EXPECT_DOUBLE_EQ(a.spans[i].p, b.spans[i].p);
   }
 }
 

@@ -32,12 +32,12 @@ TEST(MapCurves, FindsADifferenceWhereItIs) {
   EXPECT_EQ(mapping->error_df, 22);
   EXPECT_EQ(mapping->arrangements, 2000);
   EXPECT_DOUBLE_EQ(mapping->possible, 2704156.0);
-  ASSERT_EQ(mapping->stretches.size(), 1u);
-  const auto& stretch = mapping->stretches[0];
-  EXPECT_NEAR(stretch.first, 40, 6);
-  EXPECT_NEAR(stretch.last, 60, 6);
-  EXPECT_GT(stretch.extreme, mapping->threshold);
-  EXPECT_LE(stretch.p, 0.05);
+  ASSERT_EQ(mapping->spans.size(), 1u);
+  const auto& span = mapping->spans[0];
+  EXPECT_NEAR(span.first, 40, 6);
+  EXPECT_NEAR(span.last, 60, 6);
+  EXPECT_GT(span.extreme, mapping->threshold);
+  EXPECT_LE(span.p, 0.05);
   EXPECT_LE(mapping->p, 0.05);
   EXPECT_TRUE(mapping->remark.empty());
 }
@@ -47,10 +47,10 @@ TEST(MapCurves, TheSignIsThatOfTheFirstLessTheSecond) {
   std::vector<data::CycleCurves> groups{random_curves(random, 10, 8.0), random_curves(random, 10, 8.0)};
   add_bump(groups[1], 30, 70, 5.0);
   const auto both = map_curves(groups, {.design = Design::paired, .arrangements = 2000});
-  ASSERT_FALSE(both->stretches.empty());
-  EXPECT_LT(both->stretches[0].extreme, 0.0);
+  ASSERT_FALSE(both->spans.empty());
+  EXPECT_LT(both->spans[0].extreme, 0.0);
   const auto up = map_curves(groups, {.design = Design::paired, .two_sided = false, .arrangements = 2000});
-  EXPECT_TRUE(up->stretches.empty());
+  EXPECT_TRUE(up->spans.empty());
   EXPECT_LT(up->threshold, both->threshold);
 }
 
@@ -62,10 +62,10 @@ TEST(MapCurves, ThresholdAndProbabilityOfAllArrangementsByHand) {
   EXPECT_DOUBLE_EQ(mapping->p, 2.0 / 64.0);
   // Three arrangements may exceed it: the two of size 21 do, those of size 19 (-1) do not.
   EXPECT_NEAR(mapping->threshold, (19.0 / 6.0) / std::sqrt((91.0 - 19.0 * 19.0 / 6.0) / 5.0 / 6.0), 1e-9);
-  ASSERT_EQ(mapping->stretches.size(), 1u);
-  EXPECT_DOUBLE_EQ(mapping->stretches[0].p, 2.0 / 64.0);
-  EXPECT_EQ(mapping->stretches[0].first, 0.0);
-  EXPECT_EQ(mapping->stretches[0].last, 1.0);
+  ASSERT_EQ(mapping->spans.size(), 1u);
+  EXPECT_DOUBLE_EQ(mapping->spans[0].p, 2.0 / 64.0);
+  EXPECT_EQ(mapping->spans[0].first, 0.0);
+  EXPECT_EQ(mapping->spans[0].last, 1.0);
   const auto up = map_curves(one, {.design = Design::one_sample, .two_sided = false});
   EXPECT_DOUBLE_EQ(up->p, 1.0 / 64.0);
 }
@@ -76,7 +76,7 @@ TEST(MapCurves, SaysWhenSoFewCurvesCannotShowAnything) {
   EXPECT_TRUE(std::isnan(mapping->threshold));
   EXPECT_EQ(mapping->remark, "16 arrangements of so few curves cannot show a difference at 0.05; add curves");
   EXPECT_DOUBLE_EQ(mapping->p, 2.0 / 16.0);
-  EXPECT_TRUE(mapping->stretches.empty());
+  EXPECT_TRUE(mapping->spans.empty());
 }
 
 TEST(MapCurves, FewArrangementsOfManyCurvesAreNotFewCurves) {
@@ -100,15 +100,15 @@ TEST(MapCurves, ErrorOverTheWholeCurveIsKept) {
     const std::vector<data::CycleCurves> groups{random_curves(random, 8, 10.0, 51),
                                                 random_curves(random, 8, 10.0, 51)};
     const auto mapping = map_curves(groups, {.design = Design::two_sample, .arrangements = 200, .seed = set});
-    found += !mapping->stretches.empty();
-    for (const auto& stretch : mapping->stretches) EXPECT_LE(stretch.p, 0.05);
-    EXPECT_EQ(mapping->p <= 0.05, !mapping->stretches.empty());
+    found += !mapping->spans.empty();
+    for (const auto& span : mapping->spans) EXPECT_LE(span.p, 0.05);
+    EXPECT_EQ(mapping->p <= 0.05, !mapping->spans.empty());
   }
   EXPECT_GT(found, 4);
   EXPECT_LT(found, 42);
 }
 
-TEST(MapCurves, MissingPointsAreLeftOutAndEndAStretch) {
+TEST(MapCurves, MissingPointsAreLeftOutAndEndASpan) {
   Random random(13, 0);
   std::vector<data::CycleCurves> groups{random_curves(random, 10, 8.0), random_curves(random, 10, 8.0)};
   add_bump(groups[0], 20, 80, 6.0);
@@ -116,9 +116,9 @@ TEST(MapCurves, MissingPointsAreLeftOutAndEndAStretch) {
   const auto mapping = map_curves(groups, {.design = Design::two_sample, .arrangements = 1000});
   EXPECT_EQ(mapping->not_tested, 1);
   EXPECT_TRUE(std::isnan(mapping->values[50]));
-  ASSERT_GE(mapping->stretches.size(), 2u);
-  EXPECT_EQ(mapping->stretches[0].last, 49.0);
-  EXPECT_EQ(mapping->stretches[1].first, 51.0);
+  ASSERT_GE(mapping->spans.size(), 2u);
+  EXPECT_EQ(mapping->spans[0].last, 49.0);
+  EXPECT_EQ(mapping->spans[1].first, 51.0);
 }
 
 TEST(MapCurves, NothingToTestIsSaid) {
