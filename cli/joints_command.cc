@@ -38,10 +38,6 @@ int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
   auto& many = arguments.many;
   many.output = arguments.job.output;
   many.pages = arguments.job.report;
-  if (many.output.empty())
-    return report_error(
-        {.code = Code::usage,
-         .message = "several recordings need a folder for what is made of them; give --output"});
   if (many.to.empty()) many.to = "csv";
   if (auto s = many.check_format(); !s) return report_error(s.error());
   if (auto s = pipeline::check_for_several(arguments.job); !s) return report_error(s.error());

@@ -81,6 +81,10 @@ void add_many_options(CLI::App& command, ManyArguments& arguments) {
 
 int run_each(const CommonOptions& common, const ManyArguments& arguments, std::string ending,
              std::string belongs, decltype(pipeline::ManyJob::run_one) run_one) {
+  if (arguments.output.empty())
+    return report_error(
+        {.code = Code::usage,
+         .message = "several recordings need a folder for what is made of them; give --output"});
   auto list = pipeline::list_inputs(arguments.inputs, pipeline::marker_endings());
   if (!list) return report_error(list.error());
   std::error_code ignored;

@@ -187,6 +187,16 @@ class EveryCommandTest(CommandTest):
                 more = [] if option in words.split() or option == "COMMAND" or any(w.startswith(option + "=") for w in words.split()) else [option]
                 self.refused(2, [option.partition("=")[0], said], *words.split(), *more)
 
+    def test_a_motion_goes_beside_its_recording(self):
+        for name in ("body.trc", "body.osim"):
+            shutil.copy(self.inputs / name, self.folder / name)
+        for command in ("ik", "track"):
+            self.good(command, "-m", "body.osim", "-t", "body.trc", "--quiet", *([] if command == "ik" else ["--force"]))
+            self.assertTrue((self.folder / "body.mot").is_file() and (self.folder / "body_report.json").is_file())
+            self.refused(4, "body.mot: exists already; use --force to replace it", command, "-m", "body.osim", "-t", "body.trc")
+            self.refused(2, "body.mot", command, "-m", "body.osim", "-t", "body.trc", "--forces", "body.mot", "--force")
+        self.refused(2, "need a folder for what is made of them; give --output", "ik", "-m", "body.osim", "-t", "body.trc", "legs.trc")
+
     def test_the_seed_draws_what_is_random(self):
         for words in (["simulate", "subject", "--duration", 0.1], ["simulate", "arm", "--frames", 9], ["simulate", "macaque", "--duration", 1],
                       ["simulate", "rig", "--duration", 0.05]):

@@ -178,6 +178,12 @@ class Gait(CommandTest):
         self.assertAlmostEqual(values["gait_speed", ""], STRIDE_MM / STRIDE_S, delta=13)
         self.assertAlmostEqual(values["step_width", ""], 100, delta=2)
 
+    def test_who_stands_too_briefly_hears_of_both(self):
+        still = real_file("c3d-parser-clinics/MH0222_BP08.c3d")
+        both = ["no foot swings", "nor stands on plates for 5 s"]
+        self.refused(3, both, "gait", still, "--refits", 0)
+        self.refused(3, ["no foot swings", "nor stands on plates for 2 s"], "gait", still, "--refits", 0, "--region", "start=1-100")
+
     def test_who_stands_is_refused_with_the_reason(self):
         rows = walk()
         still = [[tuple(v + 0.3 * wobble(i, 3 * m) for v in p) for m, p in enumerate(rows[0])] for i in range(len(rows))]
