@@ -49,7 +49,7 @@ class HelpAndUsage(CommandTest):
         self.refused(2, ["--threads", "-1"], *self.ik(threads=-1))
         self.refused(2, ["'foo' is not square, huber or cauchy"], *self.ik(loss="foo"))
         self.refused(2, "noise", *self.ik(noise=-1))
-        self.refused(2, "no output", "ik", "-m", self.model, "-t", self.c3d)
+        self.refused(2, "give --output", "ik", "-m", self.model, "-t", self.c3d, self.trc)
         self.refused(2, "no marker file", "ik", "-m", self.model, "-o", "q.mot")
         self.refused(2, "no model", "ik", "-t", self.c3d, "-o", "q.mot")
         self.refused(2, "different kinds", "convert", self.c3d, "x.osim")

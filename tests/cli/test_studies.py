@@ -167,13 +167,13 @@ class Subject(CommandTest):
             ("--noise", -1, "noise"),
             ("--noise", "nan", "noise"),
             ("--soft-tissue", -0.1, "soft_tissue"),
-            ("--soft-tissue-common", 1.5, "soft_tissue"),
             ("--dropout-random", 0.95, "0 to 0.9"),
             ("--dropout-sight", -0.1, "dropout_sight"),
             ("--duration", 1e12, "frames"),
             ("--rate", 0, "positive"),
         ):
             self.refused(2, words, "simulate", "subject", "-o", "s", option, value)
+        self.refused(2, "soft_tissue_common", "simulate", "subject", "-o", "s", "--soft-tissue", 1, "--soft-tissue-common", 1.5)
 
 
 if __name__ == "__main__":

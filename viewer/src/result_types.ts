@@ -113,6 +113,9 @@ export interface ReconstructResult {
 
 /** Measures of paths, as `measure -o OUT.json` has them, and their figures. */
 export interface MeasuresResult {
+  /** What the page is of, and what its rows are of. */
+  heading: string;
+  rows: string;
   markers: number;
   regions: number;
   level: number;

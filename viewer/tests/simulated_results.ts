@@ -106,7 +106,7 @@ const measured = (measure: string, title: string, shown: string, value: number |
 });
 
 const measures: MeasuresResult = {
-  markers: 2, regions: 2, level: 0.95, refits: 99, most_not_measured: 0.125,
+  heading: `Paths ${hostile}`, rows: "Marker", markers: 2, regions: 2, level: 0.95, refits: 99, most_not_measured: 0.125,
   measures: [
     measured("path_length", "Path length", "1340.1 [1339.0 to 1341.2] mm", 1340.1, { region: "reach" }),
     measured("box_long", `Box ${hostile}`, "340 [about 339 to 342] mm", 340, { subject: `LFIN ${hostile}`, interval: { kind: "two-sided", low: 339, high: 342, level: 0.95, approximate: true } }),

@@ -17,7 +17,7 @@ export function measuresPage({ summary, result }: ResultPageData<MeasuresResult>
   const known = result.measures.filter((r) => r.value !== null);
   const covered = known.filter((r) => r.interval.kind !== "none");
   const columns: Column<Row>[] = [
-    text("Of", (r) => r.subject),
+    text(result.rows, (r) => r.subject),
     ...(result.regions > 1 ? [text<Row>("Region", (r) => r.region ?? "")] : []),
     text("Measure", (r) => r.title),
     { title: "Value and interval", key: (r) => r.value, cell: (r) => r.shown },
@@ -27,7 +27,7 @@ export function measuresPage({ summary, result }: ResultPageData<MeasuresResult>
   const level = `${number(100 * result.level, 0)} %`;
   return {
     skip: ["table", "Skip to the table"],
-    header: resultHeader("measures", "Measures of a recording", summary, [
+    header: resultHeader("measures", result.heading, summary, [
       [number(result.measures.length), "measures", `of ${plural(result.markers, "subject")} in ${plural(result.regions, "span", "spans")}`],
       [number(covered.length), `with an interval of ${level}`, result.refits === 0 ? "none was asked for" : `by ${number(result.refits)} refits`],
       [number(covered.filter((r) => r.interval.approximate).length), "approximate", "cover less in some movements"],

@@ -31,6 +31,26 @@ std::vector<report::Notice> remarks(const std::vector<data::Measure>& measures, 
   return out;
 }
 
+// What the page is of, and what its rows are of.
+struct Headings {
+  const char* page;
+  const char* rows;
+};
+
+Headings headings(MeasuresOf of) {
+  switch (of) {
+    case MeasuresOf::walking:
+      return {.page = "Walking and force plates", .rows = "Walking or plate"};
+    case MeasuresOf::muscles:
+      return {.page = "Electromyograms", .rows = "Channel"};
+    case MeasuresOf::paths:
+      return {.page = "Paths of markers", .rows = "Marker"};
+    case MeasuresOf::everything:
+      break;
+  }
+  return {.page = "All measures of a recording", .rows = "Marker, plate or channel"};
+}
+
 }  // namespace
 
 std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome,
@@ -52,6 +72,8 @@ std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome
     regions.insert(measure.region);
     not_measured = std::max(not_measured, measure.share_not_measured);
   }
+  out.result["heading"] = headings(job.of).page;
+  out.result["rows"] = headings(job.of).rows;
   out.result["markers"] = markers.size();
   out.result["regions"] = regions.size();
   out.result["level"] = job.level;

@@ -32,6 +32,19 @@ TEST(MeasuresPage, HoldsTheTableTheFiguresAndWhatStandsOut) {
     EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST(MeasuresPage, IsHeadedByWhatItIsOf) {
+  const auto heading = [](MeasuresOf of) {
+    MeasuresJob job{.input = "sign.c3d"};
+    job.of = of;
+    const auto page = measures_page(job, outcome(), {});
+    return page.substr(page.find("\"heading\":\""), 80);
+  };
+  EXPECT_THAT(heading(MeasuresOf::paths), HasSubstr("\"Paths of markers\",\"rows\":\"Marker\""));
+  EXPECT_THAT(heading(MeasuresOf::muscles), HasSubstr("\"Electromyograms\",\"rows\":\"Channel\""));
+  EXPECT_THAT(heading(MeasuresOf::walking), HasSubstr("\"Walking and force plates\""));
+  EXPECT_THAT(heading(MeasuresOf::everything), HasSubstr("\"All measures of a recording\""));
+}
+
 TEST(MeasuresPage, NamesAreTextInIt) {
   const auto page = measures_page({.input = "sign.c3d"}, outcome(), {});
   EXPECT_THAT(page, Not(HasSubstr("</script><b>")));
