@@ -93,8 +93,8 @@ def judge(name, groups, options, test):
                     "the least of spm1d's distribution that is exceeded in 5 % at most",
                     f"{ours['threshold']:.4f}, exceeded in {100 * beyond:.1f} %, reached in {100 * with_it:.1f} %; spm1d's {theirs.zstar:.4f}, "
                     f"exceeded in {100 * (null > theirs.zstar).mean():.1f} %")
-    pairs = list(zip([c.P for c in theirs.clusters], [s["p"] for s in ours["stretches"]], strict=False))
-    same = len(theirs.clusters) == len(ours["stretches"])
+    pairs = list(zip([c.P for c in theirs.clusters], [s["p"] for s in ours["spans"]], strict=False))
+    same = len(theirs.clusters) == len(ours["spans"])
     if possible >= FEW or same:
         worst = max((abs(a - b) for a, b in pairs), default=0.0)
         good &= row(same and worst <= 0.005, f"{name}: probability of each span", "as many, 0.005",

@@ -180,8 +180,8 @@ def solve(name, names, markers, counts, method, kind="ball"):
     write(recording, names, markers)
     parts = names[: counts[0]], names[counts[0] :]
     segments.write_text("".join(f"[[segment]]\nname = {n!r}\nmarkers = {json.dumps(m)}\n" for n, m in zip(("a", "b"), parts)))
-    done = subprocess.run([PROGRAM, "joints", recording, "--segments", segments, "--method", method, "--kind", kind,
-                           "--doubtful", "keep", "--keep-upsampled", "--json", "--quiet"], capture_output=True, text=True, check=False)
+    done = subprocess.run([PROGRAM, "joints", recording, "--segments", segments, "--method", method,
+                           *(["--kind", kind] if method != "sara" else []), "--doubtful", "keep", "--keep-upsampled", "--json", "--quiet"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise SystemExit(f"{name}: {done.stderr}")
     found = json.loads(done.stdout)
