@@ -9,6 +9,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/io/animation/glb.h"
 #include "kinemark/io/animation/internal/glb_builder.h"
+#include "kinemark/math/rotation_between.h"
 
 namespace kinemark::io {
 namespace {
@@ -96,7 +97,7 @@ void add_marker(GlbBuilder& glb, const data::Trajectories& markers, std::int64_t
 void add_bone(GlbBuilder& glb, const std::string& name, const Eigen::Vector3d& to, int mesh, int node) {
   const double length = to.norm();
   if (length < kShortestBone_m) return;
-  const auto turned = floats(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), to).normalized());
+  const auto turned = floats(math::rotation_between(Eigen::Vector3d::UnitY(), to).normalized());
   glb.add_node({{"name", name}, {"mesh", mesh}, {"rotation", turned}, {"scale", {length, length, length}}},
                node);
 }

@@ -12,6 +12,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
+#include "kinemark/math/rotation_between.h"
 #include "kinemark/math/smoothing_choice.h"
 
 namespace kinemark::analysis {
@@ -206,8 +207,8 @@ Result<GaitSmoother> GaitSmoother::create(const data::Trajectories& markers, con
       if (auto s = out.add_foot(markers, which.foot(side), side, noise_sd_m); !s)
         return std::unexpected(s.error());
   if (auto s = out.add_pelvis(markers, which, noise_sd_m); !s) return std::unexpected(s.error());
-  out.upright_ = Eigen::Quaterniond::FromTwoVectors(up ? *up : out.standing(), Eigen::Vector3d::UnitZ())
-                     .toRotationMatrix();
+  out.upright_ =
+      math::rotation_between(up ? *up : out.standing(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   if (auto s = out.smooth_at(kFirstCutOff_hz); !s) return std::unexpected(s.error());
   return out;
 }
