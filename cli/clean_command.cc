@@ -54,7 +54,7 @@ Status read_names(CleanArguments& arguments) {
   if (!filter) return std::unexpected(filter.error());
   const auto rule = trajectory::parse_cutoff_rule(arguments.cutoff_rule);
   if (!rule) return std::unexpected(rule.error());
-  const auto made = pipeline::parse_recorder_made(arguments.upsampled);
+  const auto made = workflow::parse_recorder_made(arguments.upsampled);
   if (!made) return std::unexpected(made.error());
   job.gaps.method = *gaps;
   job.filter.method = *filter;
@@ -73,6 +73,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
   auto& many = arguments.many;
   if (auto s = many.split_output(); !s) return report_error(s.error());
   if (!many.are_many()) {
+    if (auto s = many.check_single(); !s) return report_error(s.error());
     job.input = many.inputs.front();
     job.output = many.output;
     return run_job(common, "markers", job, pipeline::run_clean, print_clean_outcome);

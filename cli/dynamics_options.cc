@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cli/console.h"
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/pipeline/body/motion_measures_job.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/outcome_json.h"
@@ -32,7 +32,7 @@ Result<pipeline::AnalysisPoint> parse_point(const std::string& text) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto end = axis < 2 ? text.find(',', begin) : text.size();
     if (end == std::string::npos) return wrong;
-    const auto value = io::parse_number(text.substr(begin, end - begin));
+    const auto value = parse_number(text.substr(begin, end - begin));
     if (!value || !std::isfinite(*value)) return wrong;
     point.x_in_body[axis] = *value;
     begin = end + 1;

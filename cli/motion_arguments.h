@@ -66,7 +66,11 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
           "Folder with the meshes that the .osim names, for the page; looked into after the model's own "
           "folder and Geometry/ there. Repeatable.")
       ->group("Output");
-  command.add_option("-o,--output", job.output, "Motion file to write, Q.mot")->group("Output");
+  command
+      .add_option("-o,--output", job.output,
+                  "Motion file to write, Q.mot; of one recording walk.c3d, when absent, "
+                  "walk.mot beside it")
+      ->group("Output");
   command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
       ->group("Markers");
   command.add_option("--noise", a.noise_mm, "Marker noise per axis, mm; 0 estimates it from the residuals")
@@ -84,10 +88,17 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       ->group("Quality gates");
 }
 
+/// Where the motion of one recording goes without --output: beside it, with its name. Empty where that cannot
+/// be said: of several recordings, of images alone.
+[[nodiscard]] std::filesystem::path motion_beside(const std::vector<std::filesystem::path>& recordings);
+
 /// Copy the command line's arguments to the job.
 template <class Job>
 [[nodiscard]] Status apply(const MotionArguments& a, Job& job) {
   if (!a.recordings.empty()) job.markers = a.recordings.front();
+  bool is_set_up = false;  // which names the output
+  if constexpr (requires { job.setup; }) is_set_up = !job.setup.empty();
+  if (job.output.empty() && !is_set_up) job.output = motion_beside(a.recordings);
   for (const auto& text : a.weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return std::unexpected(weight.error());

@@ -9,8 +9,8 @@
 #include "cli/console.h"
 #include "cli/many_inputs.h"
 #include "cli/motion_arguments.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
-#include "kinemark/io/number.h"
 #include "kinemark/pipeline/motion/track_job.h"
 
 namespace kinemark::cli {
@@ -54,8 +54,8 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   }
   if (!arguments.posture.empty()) {
     const auto parts = split(arguments.posture.front(), ',');
-    const auto kp = io::parse_number(parts.front());
-    const auto kd = parts.size() == 2 ? io::parse_number(parts.back()) : std::nullopt;
+    const auto kp = parse_number(parts.front());
+    const auto kd = parts.size() == 2 ? parse_number(parts.back()) : std::nullopt;
     if (!kp || !kd) return fail(Code::usage, fmt::format("'{}' is not KP,KD", arguments.posture.front()));
     options.posture_kp = *kp;
     options.posture_kd = *kd;
@@ -96,8 +96,9 @@ int run_command(const CommonOptions& common, const TrackArguments& arguments) {
   many.inputs = arguments.motion.recordings;
   many.output = job.output;
   many.pages = job.report;
-  if (many.inputs.empty() || !many.are_many())
-    return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
+  const bool is_one = many.inputs.empty() || !many.are_many();
+  if (auto s = is_one ? many.check_single() : Status(); !s) return report_error(s.error());
+  if (is_one) return run_job(common, "frames", job, pipeline::run_track, print_track_outcome);
   if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
   const auto track_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "kinemark/stages/simulation/limb.h"
-#include "kinemark/stages/skeleton/articulated/articulated.h"
+#include "kinemark/workflow/joints/joints.h"
 
 using namespace kinemark;
 
@@ -21,11 +21,14 @@ int main() {
   for (const auto& segment : layout.segments)
     std::printf("segment %-10s %zu markers\n", segment.name.c_str(), segment.markers.size());
 
-  // Maximum likelihood over the whole recording: where the markers sit on their segments, every frame's pose,
-  // and the point that neighbouring segments share.
-  const auto fit = skeleton::fit_articulated(arm.markers, layout);
-  if (!fit) return std::fprintf(stderr, "%s\n", fit.error().message.c_str()), 1;
-  const data::Skeleton& skeleton = fit->skeleton;
+  // What screening is sure of is left out; then maximum likelihood over the whole recording: where the
+  // markers sit on their segments, every frame's pose, and the point that neighbouring segments share.
+  workflow::JointsOptions options;
+  options.segments = layout;  // without them they are looked for
+  const auto found = workflow::joints({.trial = {.markers = arm.markers}}, options);
+  if (!found) return std::fprintf(stderr, "%s\n", found.error().message.c_str()), 1;
+  const data::Skeleton& skeleton = found->skeleton;
+  for (const auto& warning : found->remarks.warnings) std::printf("note: %s\n", warning.c_str());
   for (const auto& warning : skeleton.warnings) std::printf("note: %s\n", warning.c_str());
 
   // One centre a frame and joint, in metres, with its covariance; NaN where it is not determined.

@@ -9,6 +9,7 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/model_description.h"
+#include "kinemark/data/recording.h"
 #include "kinemark/data/rig.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/data/trajectories.h"
@@ -33,6 +34,8 @@
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
+#include "kinemark/workflow/joints/joints.h"
+#include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark {
 
@@ -44,6 +47,7 @@ using data::ForcePlate;        // as a file has it
 using data::JointMotion;       // coordinates with standard deviations
 using data::Measure;           // a number with its interval
 using data::ModelDescription;  // a body model as a file says it
+using data::Recording;         // a trial with its forces, edits and vertical
 using data::Rig;               // cameras and detectors
 using data::SampleState;       // measured, interpolated, filled, missing, rejected
 using data::SegmentLayout;     // which markers ride on which segment
@@ -60,6 +64,10 @@ using io::read_osim;
 using io::write_markers;  // the ending names the format
 using io::write_osim;
 using pipeline::find_definition;  // "pig", "isb-shoulder", or a .toml
+
+// As the commands do it: from a recording to what is found, with what there is to say of it.
+using workflow::joints;
+using workflow::prepare;
 
 // Cleaning.
 using trajectory::fill_gaps;

@@ -11,8 +11,8 @@
 
 #include "acceptance/ik_recordings.h"
 #include "kinemark/core/random.h"
-#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/stages/motion/ik.h"
+#include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
 
@@ -112,7 +112,7 @@ void check_toes(const testing_support::IkCase& c) {
     if ((t.x(f, toe) - t.x(f, heel)).norm() < (t.x(f, side) - t.x(f, heel)).norm()) nearer.push_back(f);
   data::Trial trial{.markers = t};
   trial.first_frame = 1;
-  const auto swaps = pipeline::sure_swaps(pipeline::find_label_swaps(trial).value());
+  const auto swaps = workflow::sure_swaps(workflow::find_label_swaps(trial).value());
   const bool found = swaps.size() == 1 && swaps[0].frames == nearer;
   print_row(found, "running: toes by the markers alone",
             fmt::format("the {} frames in which the toe is nearer to the heel", nearer.size()),
@@ -180,8 +180,8 @@ int run_check(int argc, char** argv) {
     const Planted p = plant(r.used, kind, random, bad);
     if (p.one < 0) continue;
     data::Trial trial{.markers = bad};
-    const auto swaps = pipeline::sure_swaps(pipeline::find_label_swaps(trial).value());
-    const bool undone = pipeline::exchange_back(trial, swaps).has_value();
+    const auto swaps = workflow::sure_swaps(workflow::find_label_swaps(trial).value());
+    const bool undone = workflow::exchange_back(trial, swaps).has_value();
     const bool exact = undone && same_samples(trial.markers, r.used);
     // The same frames by inverse kinematics, in a copy of the recording.
     data::Trajectories whole = r.c.markers;

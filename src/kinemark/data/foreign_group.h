@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kinemark::data {
@@ -26,5 +27,9 @@ struct ForeignGroup {
   std::string description;                   ///< as stored; at most 255 bytes
   std::vector<ForeignParameter> parameters;  ///< in the order of the file
 };
+
+/// A name as groups and parameters are found by it, files differ in the case of letters: upper case, fit to
+/// show (name_of_bytes()).
+[[nodiscard]] std::string foreign_name(std::string_view stored);
 
 }  // namespace kinemark::data

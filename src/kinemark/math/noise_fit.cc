@@ -23,24 +23,30 @@ constexpr double kEvidenceOfFilter = 12;  // nats
 constexpr double kFloorToNoise = 0.03;    // variance of a filtered recording's floor over its noise: penalty
 constexpr double kLargestFloor = 0.01;    // the same: beyond it no filter is claimed
 constexpr double kFloorPenalty = 50.0;
-constexpr double kPriorSpread = 3.0;                 // of ln variance
-constexpr double kKnownCutOff = 0.02;                // deviation of the logarithm of a cut-off that is told
-constexpr double kKnownVariance = 0.3;               // of a variance that is told
-constexpr double kSpreadDrawn = 1.3;                 // times the deviations by the curvature
-constexpr double kWidestDrawn = 4.0;                 // variance of a parameter that is drawn
-constexpr double kNextShare = 0.4;                   // of draws from the next higher frequency
-constexpr double kLeastWeight = 0.02;                // of a model over that of the best
-constexpr double kTailLeast = 5.0, kTailMore = 7.0;  // exponents of the movement's tail
+constexpr double kPriorSpread = 3.0;                  // of ln variance
+constexpr double kKnownCutOff = 0.02;                 // deviation of the logarithm of a cut-off that is told
+constexpr double kKnownVariance = 0.3;                // of a variance that is told
+constexpr double kSpreadDrawn = 1.3;                  // times the deviations by the curvature
+constexpr double kWidestDrawn = 4.0;                  // variance of a parameter that is drawn
+constexpr double kNextShare = 0.4;                    // of draws from the next higher frequency
+constexpr double kLeastWeight = 0.02;                 // of a model over that of the best
+constexpr double kTailLeast = 5.0, kTailMore = 7.0;   // exponents of a tail by a power
+constexpr double kFallLeast = 3.0, kFallMore = 17.0;  // of an exponential tail, over the lowest frequency
 
 // Parameters by their place; -1: the model has none of these.
 struct Sites {
   int variance = 0, memory = -1, cut_off = -1, floor = -1, tail = -1, slope = -1, count = 0;
 };
 
+// What the movement has above the lowest frequency. One form alone is not enough: a power falls slower than
+// movements without jumps do, and takes what lies under its end from noise that is slow.
+enum class Tail : std::uint8_t { none, power, exponential };
+
 struct Kind {
   NoiseKind kind;
   LowPass form = LowPass::butterworth;
   int order = 0;
+  Tail moves = Tail::power;
 
   [[nodiscard]] Sites sites() const {
     Sites out;
@@ -48,8 +54,7 @@ struct Kind {
     if (kind == NoiseKind::correlated || kind == NoiseKind::correlated_and_white) out.memory = next++;
     if (kind == NoiseKind::filtered) out.cut_off = next++;
     if (kind == NoiseKind::filtered || kind == NoiseKind::correlated_and_white) out.floor = next++;
-    out.tail = next++;
-    out.slope = next++;
+    if (moves != Tail::none) out.tail = next++, out.slope = next++;
     out.count = next;
     return out;
   }
@@ -65,6 +70,21 @@ constexpr std::array kKinds{Kind{NoiseKind::white},
                             Kind{NoiseKind::filtered, LowPass::spline, 3},
                             Kind{NoiseKind::filtered, LowPass::spline, 4},
                             Kind{NoiseKind::filtered, LowPass::spline, 5}};
+
+// All kinds with both tails. Without one, slow noise and white only: with white noise on top it would be
+// white noise under a tail.
+std::vector<Kind> kinds_with_tails() {
+  std::vector<Kind> out;
+  for (auto kind : kKinds) {
+    for (const auto tail : {Tail::none, Tail::power, Tail::exponential}) {
+      const bool single = kind.kind == NoiseKind::white || kind.kind == NoiseKind::correlated;
+      if (tail == Tail::none && !single) continue;
+      kind.moves = tail;
+      out.push_back(kind);
+    }
+  }
+  return out;
+}
 
 double sigmoid(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
@@ -99,8 +119,12 @@ class Spectrum {
 
   // Logarithms into `logs`; where `slopes` is not null, bins x parameters.
   void operator()(const Eigen::VectorXd& x, Eigen::VectorXd& logs, Eigen::MatrixXd* slopes) const {
-    const double variance = std::exp(x[sites_.variance]), tail = std::exp(x[sites_.tail]);
-    const double share = sigmoid(x[sites_.slope]), exponent = kTailLeast + kTailMore * share;
+    const double variance = std::exp(x[sites_.variance]);
+    const bool moves = sites_.tail >= 0, by_power = kind_.moves == Tail::power;
+    const double tail = moves ? std::exp(x[sites_.tail]) : 0.0,
+                 share = moves ? sigmoid(x[sites_.slope]) : 0.0;
+    const double more = by_power ? kTailMore : kFallMore;
+    const double exponent = (by_power ? kTailLeast : kFallLeast) + more * share;
     const double floor = sites_.floor >= 0 ? std::exp(x[sites_.floor]) : 0.0;
     const double forget = sites_.memory >= 0 ? std::exp(x[sites_.memory]) : 1.0, rho = 1.0 - forget;
     const double half = sites_.cut_off >= 0 ? std::exp(x[sites_.cut_off]) : 0.0;
@@ -121,7 +145,8 @@ class Spectrum {
         by_memory = variance * forget *
                     (2.0 * rho * down + (1.0 - rho * rho) * 2.0 * (rho - data_.cosine[k])) / (down * down);
       }
-      const double moved = tail * std::exp(-exponent * data_.log_ratio[k]);
+      const double away = by_power ? data_.log_ratio[k] : std::expm1(data_.log_ratio[k]);
+      const double moved = tail * std::exp(-exponent * away);
       const double gain = sites_.cut_off >= 0 ? 1.0 / (1.0 + roll_off_[k] / at_half) : 1.0;
       const double squared = gain * gain, total = squared * (noise + moved) + floor;
       logs[i] = std::log(total);
@@ -131,9 +156,9 @@ class Spectrum {
       if (sites_.cut_off >= 0)
         (*slopes)(i, sites_.cut_off) = squared * (noise + moved) * 2.0 * (1.0 - gain) * half_slope / total;
       if (sites_.floor >= 0) (*slopes)(i, sites_.floor) = floor / total;
+      if (!moves) continue;
       (*slopes)(i, sites_.tail) = squared * moved / total;
-      (*slopes)(i, sites_.slope) =
-          -squared * moved * data_.log_ratio[k] * kTailMore * share * (1.0 - share) / total;
+      (*slopes)(i, sites_.slope) = -squared * moved * away * more * share * (1.0 - share) / total;
     }
   }
 
@@ -154,8 +179,7 @@ struct Priors {
     low = Eigen::VectorXd::Constant(sites.count, -80.0), high = -low;
     mean = weight = Eigen::VectorXd::Zero(sites.count);
     weight[sites.variance] = 1.0 / (kPriorSpread * kPriorSpread);  // about the typical one
-    low[sites.slope] = -6.0, high[sites.slope] = 6.0;
-    weight[sites.slope] = 0.25;
+    if (sites.slope >= 0) low[sites.slope] = -6.0, high[sites.slope] = 6.0, weight[sites.slope] = 0.25;
     if (sites.memory >= 0) low[sites.memory] = std::log(0.002), high[sites.memory] = std::log(0.95);
     if (kind.kind != NoiseKind::filtered) return;
     floor = sites.floor;
@@ -245,9 +269,9 @@ std::vector<Eigen::VectorXd> starts_of(const Kind& kind, const Data& data) {
   std::ranges::sort(sorted);
   const double middle = std::log(sorted[n / 2]), first = std::log(data.power.front());
   std::vector<Eigen::VectorXd> out;
-  const auto start = [&out](std::initializer_list<double> values) {
-    out.emplace_back(Eigen::VectorXd(std::ssize(values)));
-    std::ranges::copy(values, out.back().begin());
+  const auto start = [&out, count = kind.sites().count](std::initializer_list<double> values) {
+    out.emplace_back(Eigen::VectorXd(count));  // a tail, where there is one, stands at the end
+    std::copy_n(values.begin(), count, out.back().begin());
   };
   const auto slow = [high](double rho) { return high + std::log(2.0 / (1.0 - rho) / (1.0 + rho)); };
   switch (kind.kind) {
@@ -283,11 +307,11 @@ std::vector<Eigen::VectorXd> starts_of(const Kind& kind, const Data& data) {
   return out;
 }
 
-// Whether a recording may have been filtered at all: it has little above, and much less than below.
+// Whether a recording may have been filtered at all: it has much less above than below. How low its floor is
+// tells the fit alone: at a low rate a filter lets noise through up to the highest frequency.
 bool may_be_filtered(const Data& data) {
   const auto [least, most] = std::ranges::minmax(data.power);
-  const double floor = data.search->largest_floor_sd / data.search->typical_sd;
-  return least <= 3.0 * floor * floor && least <= 0.03 * most;
+  return least <= 0.03 * most;
 }
 
 Data data_of(const NoiseSpectrum& spectrum, double lowest, double rate_hz, const NoiseSearch& search) {
@@ -330,7 +354,8 @@ NoiseFits fit_all(const Data& data) {
   for (const double weight : data.weight) points += weight;
   const bool filters = search.known || may_be_filtered(data);
   const double floor = search.largest_floor_sd / search.typical_sd;
-  for (const auto& kind : kKinds) {
+  static const auto kinds = kinds_with_tails();
+  for (const auto& kind : kinds) {
     const bool filter = kind.kind == NoiseKind::filtered;
     if (filter && !filters) continue;
     if (search.known && !(filter && kind.form == search.known->form && kind.order == search.known->order))

@@ -57,10 +57,11 @@ struct FoundNoise {
 
 /// Fit all models (Whittle's likelihood of gamma distributed powers, damped scoring) above the lowest of
 /// seven frequencies from 2 to 18 Hz from which one of them is right, and weigh them by BIC. Each has a tail
-/// of the movement, steeper than f^-5, which goes through the filter as the noise does. A filter is a claim:
-/// it must be 12 nats better than any other model and its floor must be as low as rounding.
+/// of the movement, a power steeper than f^-5 or an exponential, which goes through the filter as the noise
+/// does; white and correlated noise are tried without one, too. A filter is a claim: it must be 12 nats
+/// better than any other model and its floor must be as low as rounding.
 ///
-/// @return nothing where the spectrum is empty. Cost: some 20 fits of 50 microseconds for each frequency.
+/// @return nothing where the spectrum is empty. Cost: some 40 fits of 50 microseconds for each frequency.
 [[nodiscard]] std::optional<FoundNoise> find_noise(const NoiseSpectrum& spectrum, double rate_hz,
                                                    const NoiseSearch& search = {});
 

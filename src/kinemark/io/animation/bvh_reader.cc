@@ -8,11 +8,11 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/animation/bvh.h"
 #include "kinemark/io/animation/internal/bvh_hierarchy.h"
 #include "kinemark/io/animation/internal/joint_trial.h"
 #include "kinemark/io/animation/internal/words.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text_input.h"
 

@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "kinemark/core/distinct_names.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::io {
 namespace {

@@ -47,7 +47,7 @@ class Parser {
         ends_inside(at);
         break;
       }
-      const std::string name = c3d_name(text(at + 2, n));
+      const std::string name = data::foreign_name(text(at + 2, n));
       const std::size_t pointer = load_u16(section_.data() + pointer_at, processor_);
       const std::size_t next = pointer == 0 ? section_.size() : pointer_at + pointer;
       const std::size_t end = std::min(next, section_.size());
@@ -198,8 +198,6 @@ class Parser {
 };
 
 }  // namespace
-
-std::string c3d_name(std::string_view stored) { return upper(clean_text(stored)); }
 
 std::string clean_text(std::string_view raw) { return name_of_bytes(raw); }
 

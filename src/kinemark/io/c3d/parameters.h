@@ -79,9 +79,6 @@ struct C3dParameters {
 [[nodiscard]] Result<std::vector<std::byte>> encode_parameters(
     const C3dParameters& parameters, Processor processor, std::span<const data::ForeignGroup> foreign = {});
 
-/// A name as parameters and groups are found by it: upper case, fit to show.
-[[nodiscard]] std::string c3d_name(std::string_view stored);
-
 /// Text as a file holds it, made fit to show: control characters become blanks, blanks at both ends go, and
 /// bytes that are not UTF-8 are taken as Latin-1.
 [[nodiscard]] std::string clean_text(std::string_view raw);

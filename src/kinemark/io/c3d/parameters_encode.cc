@@ -121,9 +121,9 @@ void put_foreign(Encoder& e, int id, const data::ForeignGroup& group) {
 /// What is carried of a group that is written anew, where it is not written too.
 void put_rest(Encoder& e, int id, const C3dGroup& group, std::span<const data::ForeignGroup> foreign) {
   for (const data::ForeignGroup& carried : foreign) {
-    if (c3d_name(carried.name) != group.name) continue;
+    if (data::foreign_name(carried.name) != group.name) continue;
     for (const data::ForeignParameter& p : carried.parameters)
-      if (std::ranges::find(group.parameters, c3d_name(p.name), &C3dParameter::name) ==
+      if (std::ranges::find(group.parameters, data::foreign_name(p.name), &C3dParameter::name) ==
           group.parameters.end())
         put_foreign(e, id, p);
   }
@@ -154,7 +154,7 @@ Result<std::vector<std::byte>> encode_parameters(const C3dParameters& parameters
     put_rest(e, id, group, foreign);
   }
   for (const data::ForeignGroup& group : foreign)
-    if (std::ranges::find(parameters.groups, c3d_name(group.name), &C3dGroup::name) ==
+    if (std::ranges::find(parameters.groups, data::foreign_name(group.name), &C3dGroup::name) ==
         parameters.groups.end())
       put_foreign(e, ++id, group);
   e.put(0);

@@ -356,7 +356,9 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   add_events(plan, trial);
   if (first >= 1) add_trial_group(plan, first, last);
   // Who recorded a trial is told by the group that is carried; a trial of no C3D file names who writes.
-  const auto tells_recorder = [](const auto& group) { return c3d_name(group.name) == kC3dRecorderGroup; };
+  const auto tells_recorder = [](const auto& group) {
+    return data::foreign_name(group.name) == kC3dRecorderGroup;
+  };
   if (std::ranges::none_of(trial.foreign, tells_recorder))
     add_text(plan.parameters.group(kC3dRecorderGroup), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);

@@ -14,9 +14,9 @@
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/data/filtering.h"
 #include "kinemark/io/c3d/provenance.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::io {
 namespace {

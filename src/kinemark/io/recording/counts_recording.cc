@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/recording/clock_watch.h"
 #include "kinemark/io/recording/encoder.h"
 #include "kinemark/io/recording/internal/counts_layout.h"

@@ -13,7 +13,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/counted.h"
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/recording/clock_watch.h"
 #include "kinemark/io/recording/survey.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/recording/clock_watch.h"
 
 namespace kinemark::io {

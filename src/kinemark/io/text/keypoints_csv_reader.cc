@@ -7,8 +7,8 @@
 #include <map>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/keypoints_csv.h"

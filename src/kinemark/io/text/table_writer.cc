@@ -6,8 +6,8 @@
 #include <string>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
 #include "kinemark/io/text/table_file.h"

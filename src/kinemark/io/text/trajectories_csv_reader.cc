@@ -12,8 +12,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/time_column.h"

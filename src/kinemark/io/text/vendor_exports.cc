@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
 #include "kinemark/io/text/internal/vendor_headers.h"

@@ -10,9 +10,9 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/enum_names.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/vsk/vsk.h"
 
 namespace kinemark::io {

@@ -14,9 +14,9 @@
 #include "kinemark/core/index.h"
 #include "kinemark/data/gait_event.h"
 #include "kinemark/pipeline/files/external_forces.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/whole_body.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -80,7 +80,7 @@ analysis::BodyRecord record_of(const model::Model& model, const RatedMotion& rea
   out.determined.resize(frames, n);
   for (std::int64_t f = 0; f < frames; ++f)
     for (std::int64_t c = 0; c < n; ++c) out.determined(f, c) = motion.determined[motion.index(f, c)] != 0;
-  if (const auto up = up_of(model)) out.up = *up;
+  if (const auto up = workflow::up_of(model)) out.up = *up;
   if (model.gravity().norm() > 0.0) out.gravity = model.gravity().norm();
   for (const auto& body : model.bodies()) out.mass_kg += body.mass;
   return out;

@@ -21,7 +21,6 @@
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
@@ -32,6 +31,7 @@
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/body/body_measures.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -255,7 +255,7 @@ Status draw_walking(const MotionMeasuresJob& job, const RatedMotion& read, const
   for (const auto& one : inputs)
     if (one.curves.quantity == data::Quantity::angle || one.curves.quantity == data::Quantity::length)
       curves.push_back(one.curves);
-  const auto vertical = vertical_of_plates(recording->trial);
+  const auto vertical = workflow::vertical_of_plates(recording->trial);
   if (recording->plates && vertical) add_ground_reaction(*recording->plates, vertical->up, gait, inputs);
   return drawing.write(job.forces, recording->trial, curves, inputs,
                        {.angles_from = fmt::format("coordinates of {} in {}", job.model.filename().string(),

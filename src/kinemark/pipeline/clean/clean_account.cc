@@ -45,12 +45,12 @@ report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial) {
   return run;
 }
 
-void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling) {
+void settle_upsampling(workflow::RecorderMade made, data::UpsamplingAccount& upsampling) {
   if (upsampling.factor() == 1) return;
   const char* outcomes[] = {"left as they are", "marked as upsampled", "removed",
                             "removed, and the rate brought down"};
   upsampling.done = outcomes[static_cast<int>(made)];
-  upsampling.handled = made != RecorderMade::keep;
+  upsampling.handled = made != workflow::RecorderMade::keep;
 }
 
 std::vector<data::Defect> settle_defects(std::vector<data::Finding> found,

@@ -45,20 +45,20 @@ TEST(CleanAccount, TheRuleOfACutOffIsThatOfButterworthAlone) {
 }
 
 TEST(CleanAccount, SamplesThatTheRecorderMadeAreHandledAsAsked) {
-  const auto done = [](RecorderMade made, int factor) {
+  const auto done = [](workflow::RecorderMade made, int factor) {
     data::UpsamplingAccount account;
     account.recording.factor = factor;
     settle_upsampling(made, account);
-    EXPECT_EQ(account.handled, factor > 1 && made != RecorderMade::keep);
+    EXPECT_EQ(account.handled, factor > 1 && made != workflow::RecorderMade::keep);
     return account.done;
   };
-  EXPECT_EQ(done(RecorderMade::keep, 2), "left as they are");
-  EXPECT_EQ(done(RecorderMade::mark, 2), "marked as upsampled");
-  EXPECT_THAT(done(RecorderMade::mark, 2), Not(HasSubstr("left as they are")));
-  EXPECT_EQ(done(RecorderMade::missing, 3), "removed");
-  EXPECT_EQ(done(RecorderMade::decimate, 3), "removed, and the rate brought down");
-  EXPECT_THAT(done(RecorderMade::missing, 3), Not(HasSubstr("removed, and the rate brought down")));
-  EXPECT_EQ(done(RecorderMade::mark, 1), "") << "none were made";
+  EXPECT_EQ(done(workflow::RecorderMade::keep, 2), "left as they are");
+  EXPECT_EQ(done(workflow::RecorderMade::mark, 2), "marked as upsampled");
+  EXPECT_THAT(done(workflow::RecorderMade::mark, 2), Not(HasSubstr("left as they are")));
+  EXPECT_EQ(done(workflow::RecorderMade::missing, 3), "removed");
+  EXPECT_EQ(done(workflow::RecorderMade::decimate, 3), "removed, and the rate brought down");
+  EXPECT_THAT(done(workflow::RecorderMade::missing, 3), Not(HasSubstr("removed, and the rate brought down")));
+  EXPECT_EQ(done(workflow::RecorderMade::mark, 1), "") << "none were made";
 }
 
 TEST(CleanAccount, WhatWasDoneAboutADefectIsWhatScreeningDid) {

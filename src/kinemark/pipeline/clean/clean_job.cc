@@ -59,12 +59,12 @@ std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
 }
 
 /// Look for what the recorder did, and do about it what the job says.
-Status screen_trial(const CleanJob& job, const EditsTaken& edits, CleanOutcome& outcome) {
-  auto screening = screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
-                                                  .exchange_back = job.exchange_back,
-                                                  .swapped = edits.swapped,
-                                                  .reject_defects = job.drops_doubtful(false),
-                                                  .sure = internal::kRejectConfidence});
+Status screen_trial(const CleanJob& job, const data::EditsInForce& edits, CleanOutcome& outcome) {
+  auto screening = workflow::screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
+                                                            .exchange_back = job.exchange_back,
+                                                            .swapped = edits.swapped,
+                                                            .reject_defects = job.drops_doubtful(false),
+                                                            .sure = internal::kRejectConfidence});
   if (!screening) return std::unexpected(screening.error());
   auto& account = outcome.report.account;
   account.names = outcome.trial.markers.names;
@@ -153,8 +153,9 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   report.run = internal::describe_run(job, trial);
   if (!filtered.empty()) report.run.warnings.push_back(filtered);
   report.run.inputs.push_back(std::move(recording->file));
-  if (recording->edits.file) report.run.inputs.push_back(*recording->edits.file);
-  std::ranges::move(edit_options(recording->edits), std::back_inserter(report.run.options));
+  if (recording->journal.file) report.run.inputs.push_back(*recording->journal.file);
+  std::ranges::move(edit_options(recording->edits, recording->journal),
+                    std::back_inserter(report.run.options));
   std::ranges::copy(recording->notes, std::back_inserter(report.run.warnings));
   const auto start = std::chrono::steady_clock::now();
   if (auto s = screen_trial(job, recording->edits, outcome); !s)

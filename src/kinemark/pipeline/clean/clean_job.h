@@ -9,21 +9,22 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/stages/report/clean_report.h"
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
 #include "kinemark/stages/trajectory/smoothing/smooth_options.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark clean` is asked to do. Paths that are empty are not used. Doubtful samples are kept unless
 /// they are to be dropped: they become `rejected` then, and so gaps.
 struct CleanJob : JobSettings, RecordingOptions {
-  std::filesystem::path input;                      ///< .c3d, .trc, .csv or .nwb
-  std::filesystem::path output;                     ///< likewise; OUT_report.json goes beside it
-  std::filesystem::path report;                     ///< page to write as well
-  RecorderMade recorder_made = RecorderMade::mark;  ///< what is done with samples that the recorder made
+  std::filesystem::path input;   ///< .c3d, .trc, .csv or .nwb
+  std::filesystem::path output;  ///< likewise; OUT_report.json goes beside it
+  std::filesystem::path report;  ///< page to write as well
+  workflow::RecorderMade recorder_made =
+      workflow::RecorderMade::mark;  ///< what is done with samples that the recorder made
   bool exchange_back = true;  ///< markers that surely carry each other's label get their own; else only told
   trajectory::GapOptions gaps{.method = trajectory::GapMethod::none};  ///< how gaps are filled
   trajectory::SmoothOptions filter;                                    ///< how positions are smoothed

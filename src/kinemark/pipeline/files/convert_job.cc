@@ -22,14 +22,14 @@
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
 #include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/resample.h"
-#include "kinemark/pipeline/files/turn.h"
-#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/turn.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -99,9 +99,9 @@ Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
 
 /// A scene has y up: a recording whose vertical is known is turned, which is said.
 /// @param vertical  as it is stated; none: nobody states it
-void turn_y_up(std::optional<Vertical> vertical, data::Trial& trial) {
-  if (!vertical) vertical = vertical_of_plates(trial);
-  if (!vertical) vertical = vertical_of_screen(trial);
+void turn_y_up(std::optional<workflow::Vertical> vertical, data::Trial& trial) {
+  if (!vertical) vertical = workflow::vertical_of_plates(trial);
+  if (!vertical) vertical = workflow::vertical_of_screen(trial);
   if (!vertical) {
     trial.warnings.emplace_back(
         "which way is up is not known and y is taken, as a .glb has it; --rotate turns a recording, \"x "
@@ -109,9 +109,9 @@ void turn_y_up(std::optional<Vertical> vertical, data::Trial& trial) {
     return;
   }
   if (vertical->up == Eigen::Vector3d::UnitY()) return;
-  turn(trial, rotation_between(vertical->up, Eigen::Vector3d::UnitY()));
+  workflow::turn(trial, workflow::rotation_between(vertical->up, Eigen::Vector3d::UnitY()));
   trial.warnings.push_back(fmt::format("the recording was turned: {} is up by {}, and y in a .glb",
-                                       name_of_direction(vertical->up), vertical->from));
+                                       workflow::name_of_direction(vertical->up), vertical->from));
 }
 
 /// Every file that the job reads.
@@ -157,11 +157,12 @@ Result<Recording> read_prepared(const ConvertJob& job, const std::vector<std::fi
   if (auto s = prepare_recording({.path = job.in}, rest, *recording); !s) return std::unexpected(s.error());
   auto& trial = recording->trial;
   if (job.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
+    if (auto s = workflow::leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
       return fail_at(job.in.string(), s.error());
   if (job.resample_hz)
     if (auto s = resample(trial, *job.resample_hz); !s) return fail_at(job.in.string(), s.error());
-  if (job.axes.rotate.empty() && ending_of(job.out) == ".glb") turn_y_up(stated_vertical(job.axes), trial);
+  if (job.axes.rotate.empty() && ending_of(job.out) == ".glb")
+    turn_y_up(workflow::stated_vertical(job.axes), trial);
   std::ranges::move(notes, std::back_inserter(recording->notes));
   return recording;
 }

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -12,7 +14,7 @@
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/stages/trajectory/edits/apply_edits.h"
+#include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark::pipeline {
 
@@ -63,58 +65,55 @@ Result<data::EditList> append_edit(const fs::path& journal, const data::EditedRe
   return open->list();
 }
 
-Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial) {
-  EditsTaken taken;
-  if (source.edits.empty() || source.edits == kEditsNone) return taken;
+Result<UsedJournal> take_edits(const EditsSource& source, data::Recording& recording) {
+  UsedJournal used;
+  if (source.edits.empty() || source.edits == kEditsNone) return used;
   auto path = source.edits;
   const bool beside_it = path == kEditsBeside;
   if (beside_it) {
     path = edits_of(source.recording);
     std::error_code absent;
-    if (!fs::exists(path, absent)) return taken;
+    if (!fs::exists(path, absent)) return used;
   }
   auto read = io::read_edits(path);
   if (!read) return std::unexpected(read.error());
-  const auto recording = identify_recording(source.recording);
-  if (!recording) return std::unexpected(recording.error());
-  if (beside_it && is_of_another(*read, *recording)) {
-    taken.notes.push_back(
-        fmt::format("{} is of '{}' and is not applied", path.string(), printable(read->list.recording.name)));
-    return taken;
+  const auto identity = identify_recording(source.recording);
+  if (!identity) return std::unexpected(identity.error());
+  auto& notes = recording.notes;
+  const std::string whose = printable(read->list.recording.name);
+  if (beside_it && is_of_another(*read, *identity)) {
+    notes.push_back(fmt::format("{} is of '{}' and is not applied", path.string(), whose));
+    return used;
   }
-  taken.notes = std::move(read->notes);
-  if (auto s = io::check_recording(path, read->list.recording, *recording); !s) {
-    if (!source.force) return std::unexpected(s.error());
-    taken.notes.push_back(fmt::format("{}: these edits are of '{}' and were applied to another recording, {}",
-                                      path.string(), printable(read->list.recording.name),
-                                      source.recording.string()));
-  }
+  const auto matches = io::check_recording(path, read->list.recording, *identity);
+  if (!matches && !source.force) return std::unexpected(matches.error());
   const auto in_force = read->list.edits_in_force();
   if (!in_force) return fail_at(path.string(), in_force.error());
-  auto edited = trajectory::apply_edits(trajectory::EditedTrial{.trial = trial}, *in_force,
-                                        {.seed = source.seed, .threads = source.threads});
-  if (!edited) return fail_at(path.string(), edited.error());
   auto file = record_input("edits", path);
   if (!file) return std::unexpected(file.error());
-  trial = std::move(edited->trial);
-  taken.file = std::move(*file);
-  taken.in_force = in_force->size();
-  taken.digest = io::digest_of(*in_force);
-  taken.regions = std::move(edited->regions);
-  for (const auto& edit : *in_force)
-    if (edit.kind == data::EditKind::swap) taken.swapped.emplace_back(edit.marker, edit.other);
-  for (const auto& note : edited->notes) taken.notes.push_back(fmt::format("{}: {}", path.string(), note));
-  taken.notes.push_back(fmt::format("{} of {} {} applied",
-                                    counted(static_cast<std::int64_t>(taken.in_force), "edit"), path.string(),
-                                    taken.in_force == 1 ? "was" : "were"));
-  return taken;
+  data::Recording edited{.trial = recording.trial};
+  if (auto s = workflow::apply_edits(edited, *in_force, source.seed, source.threads); !s)
+    return fail_at(path.string(), s.error());
+  recording.trial = std::move(edited.trial);
+  recording.edits = std::move(edited.edits);
+  std::ranges::move(read->notes, std::back_inserter(notes));
+  if (!matches)
+    notes.push_back(fmt::format("{}: these edits are of '{}' and were applied to another recording, {}",
+                                path.string(), whose, source.recording.string()));
+  for (const auto& note : edited.notes) notes.push_back(fmt::format("{}: {}", path.string(), note));
+  notes.push_back(fmt::format("{} of {} {} applied", counted(std::ssize(*in_force), "edit"), path.string(),
+                              in_force->size() == 1 ? "was" : "were"));
+  used.file = std::move(*file);
+  used.digest = io::digest_of(*in_force);
+  return used;
 }
 
-std::vector<std::pair<std::string, std::string>> edit_options(const EditsTaken& taken) {
+std::vector<std::pair<std::string, std::string>> edit_options(const data::EditsInForce& edits,
+                                                              const UsedJournal& journal) {
   std::vector<std::pair<std::string, std::string>> options;
-  if (!taken.file) return options;
-  options.emplace_back("edits in force", fmt::format("{}, XXH3-64 {}", taken.in_force, taken.digest));
-  for (const auto& region : taken.regions)
+  if (!journal.file) return options;
+  options.emplace_back("edits in force", fmt::format("{}, XXH3-64 {}", edits.in_force, journal.digest));
+  for (const auto& region : edits.regions)
     options.emplace_back(fmt::format("region '{}'", region.name),
                          fmt::format("frames {} to {}", region.first_frame, region.last_frame));
   return options;

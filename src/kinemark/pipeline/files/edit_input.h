@@ -13,8 +13,8 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/edit.h"
+#include "kinemark/data/recording.h"
 #include "kinemark/data/run_record.h"
-#include "kinemark/data/trial.h"
 #include "kinemark/io/edits/edit_journal.h"
 
 namespace kinemark::pipeline {
@@ -51,22 +51,20 @@ struct EditsSource {
   int threads = 1;                  ///< 0: all cores. Any number gives the same bits.
 };
 
-/// What was applied.
-struct EditsTaken {
+/// The journal whose edits were applied.
+struct UsedJournal {
   std::optional<data::InputFile> file;  ///< role "edits", with size and checksum; none: there was no journal
-  std::size_t in_force = 0;             ///< operations
-  std::string digest;                   ///< of what they do, io::digest_of()
-  std::vector<data::Region> regions;    ///< that they name
-  std::vector<std::pair<std::string, std::string>> swapped;  ///< markers that they swap, as they name them
-  std::vector<std::string> notes;                            ///< what was odd, one sentence each
+  std::string digest;                   ///< of what its edits do, io::digest_of()
 };
 
-/// Apply a journal to `trial`. Code::bad_input, naming journal and line, as io::read_edits(),
-/// io::check_recording() and trajectory::apply_edits(); the trial is then as it was.
-[[nodiscard]] Result<EditsTaken> take_edits(const EditsSource& source, data::Trial& trial);
+/// Apply a journal to a recording, whose edits and notes say what was done. Code::bad_input, naming journal
+/// and line, as io::read_edits(), io::check_recording() and workflow::apply_edits(); the trial is then as it
+/// was.
+[[nodiscard]] Result<UsedJournal> take_edits(const EditsSource& source, data::Recording& recording);
 
 /// The same as options of a run's record: how many are in force and what they come to, and the regions; none
 /// where there was no journal.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> edit_options(const EditsTaken& taken);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> edit_options(const data::EditsInForce& edits,
+                                                                            const UsedJournal& journal);
 
 }  // namespace kinemark::pipeline

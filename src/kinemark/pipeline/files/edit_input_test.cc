@@ -28,20 +28,21 @@ class EditInputTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(io::write_markers(recording_, trajectory::testing::moving_trial(), false));
-    trial_ = io::read_markers(recording_).value();
+    loaded_.trial = io::read_markers(recording_).value();
   }
   void append(const std::vector<Edit>& edits) {
     auto journal = io::EditJournal::open(journal_, identify_recording(recording_).value());
     ASSERT_TRUE(journal) << journal.error().message;
     for (const auto& edit : edits) ASSERT_TRUE(journal->append(edit));
   }
-  Result<EditsTaken> take(const std::filesystem::path& edits, bool force = false) {
-    return take_edits({.edits = edits, .recording = recording_, .force = force}, trial_);
+  Result<UsedJournal> take(const std::filesystem::path& edits, bool force = false) {
+    return take_edits({.edits = edits, .recording = recording_, .force = force}, loaded_);
   }
 
   testing_support::ScratchFolder scratch_;
   std::filesystem::path recording_ = scratch_ / "walk.c3d", journal_ = scratch_ / "walk_edits.jsonl";
-  data::Trial trial_;
+  data::Recording loaded_;
+  data::Trial& trial_ = loaded_.trial;
 };
 
 TEST_F(EditInputTest, TheJournalLiesBesideItsRecording) {
@@ -61,12 +62,12 @@ TEST_F(EditInputTest, TakesWhatIsInForce) {
   const auto taken = take(journal_);
   ASSERT_TRUE(taken) << taken.error().message;
   EXPECT_EQ(trial_.markers.count_missing(), before + 10);
-  EXPECT_EQ(taken->in_force, 2U);
+  EXPECT_EQ(loaded_.edits.in_force, 2U);
   EXPECT_EQ(taken->file->role, "edits");
   EXPECT_EQ(taken->file->hash, hash_file(journal_)->hex);
-  EXPECT_THAT(taken->notes, ElementsAre(HasSubstr("2 edits of")));
+  EXPECT_THAT(loaded_.notes, ElementsAre(HasSubstr("2 edits of")));
   EXPECT_THAT(
-      edit_options(*taken),
+      edit_options(loaded_.edits, *taken),
       ElementsAre(std::pair<std::string, std::string>("edits in force", "2, XXH3-64 " + taken->digest),
                   std::pair<std::string, std::string>("region 'gait'", "frames 520 to 530")));
 }
@@ -75,21 +76,22 @@ TEST_F(EditInputTest, BesideMayBeAbsentANameMayNot) {
   const auto none = take(kEditsBeside);
   ASSERT_TRUE(none);
   EXPECT_FALSE(none->file);
-  EXPECT_THAT(none->notes, IsEmpty());
-  EXPECT_THAT(edit_options(*none), IsEmpty());
+  EXPECT_THAT(loaded_.notes, IsEmpty());
+  EXPECT_THAT(edit_options(loaded_.edits, *none), IsEmpty());
   EXPECT_TRUE(take("")) << "none asked for";
   const auto absent = take(journal_);
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().code, Code::io);
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
-  EXPECT_EQ(take(kEditsBeside)->in_force, 1U);
+  ASSERT_TRUE(take(kEditsBeside));
+  EXPECT_EQ(loaded_.edits.in_force, 1U);
 }
 
 TEST_F(EditInputTest, AnotherRecordingIsRefused) {
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
-  auto own = trial_;
-  const auto of_its_own = take_edits({.edits = journal_, .recording = recording_, .force = true}, own);
-  EXPECT_THAT(of_its_own->notes, Not(Contains(HasSubstr("' and were applied to another recording,"))));
+  auto own = loaded_;
+  ASSERT_TRUE(take_edits({.edits = journal_, .recording = recording_, .force = true}, own));
+  EXPECT_THAT(own.notes, Not(Contains(HasSubstr("' and were applied to another recording,"))));
   ASSERT_TRUE(io::write_text(recording_, *io::read_text(recording_) + "x", true));
   const auto before = trajectory::testing::bytes_of(trial_);
   const auto other = take(journal_);
@@ -97,7 +99,8 @@ TEST_F(EditInputTest, AnotherRecordingIsRefused) {
   EXPECT_EQ(other.error().code, Code::bad_input);
   EXPECT_THAT(other.error().message, HasSubstr("these edits are of 'walk.c3d'"));
   EXPECT_EQ(trajectory::testing::bytes_of(trial_), before);
-  EXPECT_THAT(take(journal_, true)->notes,
+  ASSERT_TRUE(take(journal_, true));
+  EXPECT_THAT(loaded_.notes,
               Contains(HasSubstr("these edits are of 'walk.c3d' and were applied to another recording,")));
 }
 

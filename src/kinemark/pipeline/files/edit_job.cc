@@ -13,12 +13,12 @@
 #include <tuple>
 #include <utility>
 
+#include "kinemark/core/number.h"
 #include "kinemark/io/edits/edit_line.h"
-#include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/exchanged_labels.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
+#include "kinemark/workflow/prepare/exchanged_labels.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -42,7 +42,7 @@ struct Moment {
 Result<Moment> parse_moment(const std::string& text, const data::Trial& trial) {
   const auto& time = trial.markers.time;
   const bool is_time = text.ends_with('s');
-  const auto number = io::parse_number(is_time ? std::string_view(text).substr(0, text.size() - 1) : text);
+  const auto number = parse_number(is_time ? std::string_view(text).substr(0, text.size() - 1) : text);
   if (!number || !(std::abs(*number) < 1e9) || (!is_time && *number != std::floor(*number)))
     return fail(Code::usage,
                 fmt::format("'{}' is no moment; need a frame such as 120, or a time such as 1.5s", text));
@@ -55,7 +55,7 @@ Result<Moment> parse_moment(const std::string& text, const data::Trial& trial) {
 Result<double> time_of(const std::string& text, const data::Trial& trial) {
   const auto moment = parse_moment(text, trial);
   if (!moment) return std::unexpected(moment.error());
-  if (moment->is_time) return *io::parse_number(std::string_view(text).substr(0, text.size() - 1));
+  if (moment->is_time) return *parse_number(std::string_view(text).substr(0, text.size() - 1));
   return trial.markers.time.time_s(static_cast<std::int64_t>(moment->frame));
 }
 
@@ -93,11 +93,11 @@ Status place_edit(const EditJob& job, const data::Trial& trial, data::Edit& edit
 
 /// The exchanges that a recording needs, one edit each.
 Result<std::vector<data::Edit>> find_exchange_edits(const EditJob& job, const data::Trial& trial) {
-  const auto swaps = find_label_swaps(trial);
+  const auto swaps = workflow::find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());
   std::vector<data::Edit> edits;
-  for (const auto& swap : sure_swaps(*swaps)) {
-    edits.push_back(edit_of(swap, trial));
+  for (const auto& swap : workflow::sure_swaps(*swaps)) {
+    edits.push_back(workflow::edit_of(swap, trial));
     if (job.edit) {
       edits.back().made = job.edit->made;
       edits.back().author = job.edit->author;

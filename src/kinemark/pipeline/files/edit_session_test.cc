@@ -40,9 +40,9 @@ class EditSessionTest : public ::testing::Test {
   }
   /// What the edits make of the recording when all is read anew.
   [[nodiscard]] std::size_t anew() const {
-    auto trial = read_marker_input({.path = recording_}).value().trial;
-    EXPECT_TRUE(take_edits({.edits = kEditsBeside, .recording = recording_}, trial));
-    return digest(trial);
+    data::Recording read{.trial = read_marker_input({.path = recording_}).value().trial};
+    EXPECT_TRUE(take_edits({.edits = kEditsBeside, .recording = recording_}, read));
+    return digest(read.trial);
   }
   /// Of all bytes, as a failure would print them.
   static std::size_t digest(const data::Trial& trial) {

@@ -26,8 +26,4 @@ struct ExternalForces {
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
 
-/// The same forces at other instants, linear in force and in moment about one point; NaN outside. Instants
-/// that meet a frame to 1 % of a frame are copied.
-[[nodiscard]] data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time);
-
 }  // namespace kinemark::pipeline

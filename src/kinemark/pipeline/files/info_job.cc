@@ -16,9 +16,9 @@
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/exchanged_labels.h"
-#include "kinemark/pipeline/files/marker_screening.h"
-#include "kinemark/pipeline/files/turn.h"
+#include "kinemark/workflow/prepare/exchanged_labels.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -42,10 +42,10 @@ std::vector<ChannelFacts> describe_channels(const data::Channels& channels) {
 }
 
 std::string describe_up(const InfoJob& job, const data::Trial& trial) {
-  auto vertical = stated_vertical(job.axes);
-  if (!vertical) vertical = vertical_of_plates(trial);
-  if (!vertical) vertical = vertical_of_screen(trial);
-  return vertical ? fmt::format("{}, by {}", name_of_direction(vertical->up), vertical->from) : "";
+  auto vertical = workflow::stated_vertical(job.axes);
+  if (!vertical) vertical = workflow::vertical_of_plates(trial);
+  if (!vertical) vertical = workflow::vertical_of_screen(trial);
+  return vertical ? fmt::format("{}, by {}", workflow::name_of_direction(vertical->up), vertical->from) : "";
 }
 
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
@@ -55,7 +55,7 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   out.warnings = trial.warnings;
   std::ranges::move(recording->notes, std::back_inserter(out.warnings));
   if (job.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, out.warnings); !s)
+    if (auto s = workflow::leave_out_defects(trial, false, recording->edits.swapped, out.warnings); !s)
       return fail_at(job.file.string(), s.error());
   const auto& markers = trial.markers;
   MarkerFileFacts facts{.format = trial.format,
@@ -79,9 +79,10 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);
   if (!job.find_exchanges || !recording->rate_known) return {};
-  const auto swaps = find_label_swaps(trial);
+  const auto swaps = workflow::find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());
-  for (const auto& swap : sure_swaps(*swaps)) out.warnings.push_back(sentence_of(swap, markers.time));
+  for (const auto& swap : workflow::sure_swaps(*swaps))
+    out.warnings.push_back(sentence_of(swap, markers.time));
   return {};
 }
 
@@ -137,6 +138,16 @@ Result<CountsFacts> describe_counts(const std::filesystem::path& path) {
                      .labels = counts.leds};
 }
 
+/// What is no recording of markers has no use for the options of one.
+Status check_no_options(const InfoJob& job) {
+  if (job.RecordingOptions::empty()) return {};
+  return fail(
+      Code::usage,
+      fmt::format("{}: is no recording of markers; --rate, --edits, --select and the other options of "
+                  "one are not for it",
+                  job.file.string()));
+}
+
 /// Of an MCAP file of another program, and of a recording of markers, what of it is markers.
 Status describe_recording(const InfoJob& job, InfoOutcome& out) {
   const auto begin = io::read_begin(job.file);
@@ -145,6 +156,7 @@ Status describe_recording(const InfoJob& job, InfoOutcome& out) {
   auto survey = io::survey_recording(job.file);
   if (!survey) return std::unexpected(survey.error());
   if (std::ranges::any_of(survey->channels, io::carries_markers)) return describe_markers(job, out);
+  if (auto s = check_no_options(job); !s) return s;
   RecordingFacts facts{.end = survey->end, .bytes = survey->bytes, .messages = survey->messages};
   for (const auto& channel : survey->channels) facts.channels.push_back(channel.topic);
   for (const auto& metadata : survey->metadata) facts.metadata.push_back(metadata.name);
@@ -175,11 +187,8 @@ Result<InfoOutcome> run_info(const InfoJob& job) {
                         : ending == ".mcap"                    ? describe_recording
                         : io::is_vsk_ending(ending)            ? describe_skeleton
                                                                : describe_markers;
-  if (describe != describe_markers && describe != describe_recording && !job.RecordingOptions::empty())
-    return fail(Code::usage,
-                fmt::format("{}: is no recording; --rate, --edits, --select and the other options of "
-                            "a recording are not for it",
-                            job.file.string()));
+  const bool may_hold_markers = describe == describe_markers || describe == describe_recording;
+  if (auto s = may_hold_markers ? Status() : check_no_options(job); !s) return std::unexpected(s.error());
   InfoOutcome out;
   out.file = job.file;
   if (auto s = describe(job, out); !s) return std::unexpected(s.error());

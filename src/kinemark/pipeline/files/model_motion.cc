@@ -13,8 +13,8 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/files/coordinate_rows.h"
-#include "kinemark/pipeline/files/turn.h"
-#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/workflow/prepare/turn.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -35,10 +35,11 @@ Vector3d end_of(const data::ModelDescription& description, int body) {
 
 /// To a world whose y points up.
 Eigen::Matrix3d y_up(const model::Model& model, std::vector<std::string>& notes) {
-  const auto up = up_of(model);
+  const auto up = workflow::up_of(model);
   if (!up || (*up - Vector3d::UnitY()).norm() < 1e-6) return Eigen::Matrix3d::Identity();
-  notes.push_back(fmt::format("the motion was turned: the model's up ({}) became y", name_of_direction(*up)));
-  return rotation_between(*up, Vector3d::UnitY());
+  notes.push_back(
+      fmt::format("the motion was turned: the model's up ({}) became y", workflow::name_of_direction(*up)));
+  return workflow::rotation_between(*up, Vector3d::UnitY());
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ Result<ModelMotion> move_model(data::ModelDescription description, const data::T
                                 .parent = body.parent,
                                 .end_in_body = end_of(model->description(), body.description_idx)});
   const Eigen::Matrix3d turned = y_up(*model, out.notes);
-  out.y_is_up = up_of(*model).has_value();
+  out.y_is_up = workflow::up_of(*model).has_value();
   out.poses.world_from_body.reserve(coordinates->q.size() * out.poses.bodies.size());
   model::Workspace w(*model);
   for (const auto& q : coordinates->q) {

@@ -15,8 +15,7 @@
 #include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/screen_axes.h"
-#include "kinemark/pipeline/files/turn.h"
+#include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -26,19 +25,18 @@ bool names_no_journal(const std::filesystem::path& edits) {
   return edits.empty() || edits == kEditsBeside || edits == kEditsNone;
 }
 
-Status apply_edits(const RecordingSource& source, const RecordingOptions& options, Recording& recording) {
-  auto taken = take_edits({.edits = options.edits,
-                           .recording = source.path,
-                           .force = source.force,
-                           .seed = source.seed,
-                           .threads = source.threads},
-                          recording.trial);
-  if (!taken && options.edits == kEditsBeside)
-    return fail(taken.error().code,
-                fmt::format("{}; --edits none passes the journal over", taken.error().message));
-  if (!taken) return std::unexpected(taken.error());
-  recording.notes = taken->notes;
-  recording.edits = std::move(*taken);
+Status apply_journal(const RecordingSource& source, const RecordingOptions& options, Recording& recording) {
+  auto journal = take_edits({.edits = options.edits,
+                             .recording = source.path,
+                             .force = source.force,
+                             .seed = source.seed,
+                             .threads = source.threads},
+                            recording);
+  if (!journal && options.edits == kEditsBeside)
+    return fail(journal.error().code,
+                fmt::format("{}; --edits none passes the journal over", journal.error().message));
+  if (!journal) return std::unexpected(journal.error());
+  recording.journal = std::move(*journal);
   return {};
 }
 
@@ -73,25 +71,6 @@ Status find_plates(const RecordingSource& source, Recording& recording) {
   return {};
 }
 
-/// Which way is up as it is said, beside what the plates say of it.
-void state_up(const Vertical& stated, Recording& recording) {
-  if (const auto plates = vertical_of_plates(recording.trial); plates && !plates->up.isApprox(stated.up))
-    recording.notes.push_back(fmt::format("--up says that {} points up, {} say {}",
-                                          name_of_direction(stated.up), plates->from,
-                                          name_of_direction(plates->up)));
-  set_screen_up(recording.trial, stated.up);
-  recording.up = stated.up;
-}
-
-void turn_axes(const RecordingOptions& options, Recording& recording) {
-  if (const auto stated = stated_vertical(options.axes)) state_up(*stated, recording);
-  if (options.axes.rotate.empty()) return;
-  const auto rotation = parse_rotation(options.axes.rotate).value();  // it was checked
-  turn(recording.trial, rotation);
-  if (recording.plates) turn(*recording.plates, rotation);
-  recording.notes.push_back(fmt::format("the recording was turned: {}", options.axes.rotate));
-}
-
 }  // namespace
 
 std::string_view to_string(Doubtful doubtful) { return doubtful == Doubtful::drop ? "drop" : "keep"; }
@@ -123,26 +102,24 @@ Result<Recording> read_recording(const RecordingSource& source, const RecordingO
                                   .needs_samples = source.needs_samples,
                                   .record = source.record});
   if (!input) return std::unexpected(input.error());
-  return Recording{.trial = std::move(input->trial),
-                   .plates = {},
-                   .plates_fault = {},
-                   .file = std::move(input->file),
-                   .forces = {},
-                   .edits = {},
-                   .up = {},
-                   .rate_known = input->rate_known,
-                   .notes = {}};
+  Recording recording;
+  recording.trial = std::move(input->trial);
+  recording.file = std::move(input->file);
+  recording.rate_known = input->rate_known;
+  if (auto s = find_plates(source, recording); !s) return std::unexpected(s.error());
+  return recording;
 }
 
 Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
                          Recording& recording) {
-  if (auto s = apply_edits(source, options, recording); !s) return s;
-  if (auto s = find_plates(source, recording); !s) return s;
-  if (auto s = take_selection(options.selection, recording.trial); !s)
-    return fail_at(source.path.string(), s.error());
-  if (recording.plates && recording.plates->time != recording.trial.markers.time)
-    recording.plates = resample(*recording.plates, recording.trial.markers.time);
-  if (source.turns) turn_axes(options, recording);
+  if (auto s = apply_journal(source, options, recording); !s) return s;
+  const workflow::PrepareOptions asked{
+      .selection = options.selection,
+      .axes = source.turns ? options.axes : workflow::AxesChoice{},
+  };
+  auto prepared = workflow::prepare(std::move(static_cast<data::Recording&>(recording)), asked);
+  if (!prepared) return fail_at(source.path.string(), prepared.error());
+  static_cast<data::Recording&>(recording) = std::move(*prepared);
   return {};
 }
 
@@ -151,11 +128,6 @@ Result<Recording> open_recording(const RecordingSource& source, const RecordingO
   if (!recording) return recording;
   if (auto s = prepare_recording(source, options, *recording); !s) return std::unexpected(s.error());
   return recording;
-}
-
-std::optional<Vertical> stated_vertical(const AxesChoice& axes) {
-  if (axes.up.empty() || axes.up == "auto") return std::nullopt;
-  return Vertical{.up = parse_axis(axes.up).value(), .from = "--up"};
 }
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,

@@ -14,14 +14,11 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/recording.h"
 #include "kinemark/data/run_record.h"
-#include "kinemark/data/trial.h"
-#include "kinemark/data/wrenches.h"
-#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/marker_input.h"
-#include "kinemark/pipeline/files/selection.h"
-#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark::pipeline {
 
@@ -40,8 +37,8 @@ struct RecordingOptions {
   double rate_hz = 0.0;  ///< of a file that tells none; any other refuses it; 0: not given
   std::filesystem::path edits = kEditsBeside;  ///< journal applied first; "beside": the recording's own,
                                                ///< where there is one; "none" or empty: none
-  Selection selection;                         ///< markers, names, frames
-  AxesChoice axes;                             ///< which way is up, or a rotation
+  workflow::Selection selection;               ///< markers, names, frames
+  workflow::AxesChoice axes;                   ///< which way is up, or a rotation
   std::optional<Doubtful> doubtful;            ///< none: as the job does by itself
 
   /// Whether doubtful samples are left out, by a job that does so by itself or does not.
@@ -70,18 +67,11 @@ struct RecordingSource {
   int threads = 1;                      ///< 0: all cores. Any number gives the same bits.
 };
 
-/// A recording as it is to be used.
-struct Recording {
-  data::Trial trial;  ///< its warnings stay those of the reader
-  std::optional<data::Wrenches>
-      plates;                ///< forces of its plates on its frames; none: not wanted, or not there
-  std::string plates_fault;  ///< why those that are there have no forces; empty: they do
-  data::InputFile file;      ///< role "markers"; bytes and hash only when asked for
+/// A recording as it is to be used, and the files that it is of.
+struct Recording : data::Recording {
+  data::InputFile file;                 ///< role "markers"; bytes and hash only when asked for
   std::vector<data::InputFile> forces;  ///< files of RecordingSource::forces, role "forces"
-  EditsTaken edits;                     ///< that were applied
-  std::optional<Eigen::Vector3d> up;    ///< as --up states it, length 1
-  bool rate_known = true;               ///< false: frames are counted at 1 Hz (RateRule::or_unknown)
-  std::vector<std::string> notes;       ///< what was done to it, one sentence each
+  UsedJournal journal;                  ///< whose edits were applied
 };
 
 /// The recording as its file has it: the first half of open_recording(), for jobs that do something in
@@ -89,18 +79,14 @@ struct Recording {
 [[nodiscard]] Result<Recording> read_recording(const RecordingSource& source,
                                                const RecordingOptions& options);
 
-/// What was read as the options ask for it, in this order: edits of its journal, markers and names, frames,
-/// rotation. Defects are looked for by the job, in what is left (marker_screening.h). Fails as take_edits()
-/// and take_selection(), naming the file.
+/// What was read as the options ask for it: edits of its journal, then workflow::prepare(). Fails as these,
+/// naming the file.
 [[nodiscard]] Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
                                        Recording& recording);
 
 /// read_recording(), then prepare_recording().
 [[nodiscard]] Result<Recording> open_recording(const RecordingSource& source,
                                                const RecordingOptions& options);
-
-/// The axis that is said to point up; none: nobody says one, or it is to be found. `options` are checked.
-[[nodiscard]] std::optional<Vertical> stated_vertical(const AxesChoice& axes);
 
 /// The files that opening a recording reads: its own, the skeleton of an .amc, the sidecars of a _motion.tsv,
 /// and the journal, whether it is there or not.

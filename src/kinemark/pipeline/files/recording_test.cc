@@ -10,8 +10,8 @@
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/stages/trajectory/edits/testing/edited.h"
+#include "kinemark/workflow/prepare/screen_axes.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -154,10 +154,10 @@ TEST_F(RecordingTest, AStatedVerticalGoesIntoTheRecordingAndIsHeldAgainstThePlat
   options.axes.up = "y";
   const auto recording = open(options);
   ASSERT_TRUE(recording);
-  EXPECT_EQ(screen_up(recording->trial), Vector3d::UnitY());
-  EXPECT_EQ(stated_vertical(options.axes)->from, "--up");
+  EXPECT_EQ(workflow::screen_up(recording->trial), Vector3d::UnitY());
+  EXPECT_EQ(workflow::stated_vertical(options.axes)->from, "--up");
   options.axes.up = "auto";
-  EXPECT_FALSE(stated_vertical(options.axes));
+  EXPECT_FALSE(workflow::stated_vertical(options.axes));
 
   auto& plate = trial_.force_plates.emplace_back();
   plate.type = 2;

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/version.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rig/toml_text.h"
 #include "kinemark/pipeline/files/settings_table.h"
 
@@ -27,7 +27,7 @@ constexpr const char* kCommand = "command";
 std::optional<std::string> typed(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
-  if (const auto* number = node.as_floating_point()) return io::format_number(number->get());
+  if (const auto* number = node.as_floating_point()) return format_number(number->get());
   return std::nullopt;
 }
 
@@ -35,11 +35,11 @@ std::optional<std::string> typed(const toml::node& node) {
 bool is_plain_number(std::string_view text) {
   const auto digits = text.substr(text.starts_with('-') ? 1 : 0);
   if (digits.empty() || digits.find_first_not_of("0123456789.") != std::string_view::npos) return false;
-  const auto number = io::parse_number(text);
+  const auto number = parse_number(text);
   if (!number || std::abs(*number) > 1e15) return false;
   const bool is_whole = text.find('.') == std::string_view::npos;
   return is_whole ? std::to_string(static_cast<std::int64_t>(*number)) == text
-                  : io::format_number(*number) == text;
+                  : format_number(*number) == text;
 }
 
 std::string in_toml_quotes(std::string_view text) {

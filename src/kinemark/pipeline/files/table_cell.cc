@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/text/tidy_csv.h"
 
 namespace kinemark::pipeline {
@@ -15,7 +15,7 @@ namespace kinemark::pipeline {
 std::string table_cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 std::string table_cell(const std::string& given) {
-  const std::string text = io::is_like_formula(given) && !io::parse_number(given) ? "'" + given : given;
+  const std::string text = io::is_like_formula(given) && !parse_number(given) ? "'" + given : given;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) {

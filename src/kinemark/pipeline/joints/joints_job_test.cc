@@ -14,7 +14,6 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/joints/joints_json.h"
-#include "kinemark/pipeline/joints/joints_segmentation.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/stages/simulation/limb.h"
 #include "support/scratch.h"
@@ -243,26 +242,6 @@ TEST_F(JointsJobTest, NamesOfAKnownSetAreTheSegments) {
   EXPECT_GT(spread, 0.0);
   EXPECT_GE(outcome->skeleton.joints[0].covariance_in_parent(0, 0), spread * spread / 3.0);
   EXPECT_NE(outcome->skeleton.joints[0].description.find("rivals of its segmentation"), std::string::npos);
-}
-
-TEST_F(JointsJobTest, AJointThatTheMotionLeavesOpenIsNotKnown) {
-  make({.frames = 300, .markers_per_segment = 4, .stagger_m = 0.03, .noise_sd_m = 0.0005});
-  const auto known = run_joints(job);
-  ASSERT_TRUE(known);
-  EXPECT_EQ(known->exit_status(), 0);
-  ASSERT_EQ(known->skeleton.joints.size(), 1U);
-  const auto none = keep_joints(known->skeleton, {0});
-  EXPECT_TRUE(none.joints.empty() && none.segments.empty() && none.lengths.empty());
-  EXPECT_TRUE(none.validate());
-  // Its SD beyond the bound: nothing of it is left.
-  auto wide = *known;
-  wide.skeleton.joints[0].covariance_in_child = 0.021 * 0.021 * Eigen::Matrix3d::Identity();
-  settle_segmentation(wide);
-  EXPECT_TRUE(wide.skeleton.joints.empty());
-  EXPECT_TRUE(wide.layout.joints.empty() && wide.layout.segments.empty());
-  EXPECT_EQ(wide.exit_status(), 1);
-  EXPECT_NE(wide.segmentation->joints[0].reason.find("21 mm"), std::string::npos)
-      << wide.segmentation->joints[0].reason;
 }
 
 TEST_F(JointsJobTest, EveryMethodRuns) {

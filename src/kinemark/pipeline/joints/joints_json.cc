@@ -12,12 +12,13 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
-#include "kinemark/pipeline/joints/joints_segmentation.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int kSkeletonSchemaVersion = 2;  // 2: first_frame, and frames are the recording's numbers
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -129,6 +130,58 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   return out;
 }
 
+std::vector<std::string> names_of(const std::vector<int>& which, const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const int m : which) out.push_back(names[at(m)]);
+  return out;
+}
+
+Json judged_json(const skeleton::JudgedJoint& joint, const std::vector<std::string>& names) {
+  const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
+  Json out;
+  out["name"] = joint.name;
+  out["known"] = joint.known;
+  out["parent_markers"] = names_of(joint.parent, names);
+  out["child_markers"] = names_of(joint.child, names);
+  out["turn_sd_deg"] = number(joint.turn_rad * kDegPerRad);
+  out["gap_m"] = number(joint.gap_m);
+  out["between_rivals_m"] = number(joint.spread_m);
+  out["weight"] = joint.weight;
+  out["rival_weight"] = joint.rival_weight;
+  out["rivals"] = Json::array();
+  for (const auto& rival : joint.rivals)
+    out["rivals"].push_back({{"parent_markers", names_of(rival.parent, names)},
+                             {"child_markers", names_of(rival.child, names)},
+                             {"weight", rival.weight},
+                             {"distance_m", number(rival.distance_m)}});
+  if (!joint.known) out["words"] = joint.sentence(names);
+  return out;
+}
+
+/// Where the segmentation comes from, the joints that are not determined, rivals.
+Json segmentation_json(const JointsOutcome& outcome) {
+  const auto& found = *outcome.segmentation;
+  const auto& names = outcome.markers;
+  Json out;
+  out["from"] = found.from_names ? "names" : "data";
+  out["sets"] = found.sets;
+  out["segmentations_compared"] = found.rivals;
+  out["words"] = workflow::describe_origin(found);
+  out["put_aside"] = Json::array();
+  for (const auto& aside : found.aside)
+    out["put_aside"].push_back({{"marker", names[at(aside.marker)]},
+                                {"segment", aside.segment},
+                                {"median_distance_sd_m", aside.distance_sd_m}});
+  out["model_outputs"] = names_of(found.model_outputs, names);
+  out["on_neither_side"] = names_of(found.over_joints, names);
+  out["on_no_segment"] = names_of(found.unplaced, names);
+  out["known"] = Json::array();
+  out["not_determined"] = Json::array();
+  for (const auto& joint : found.joints)
+    out[joint.known ? "known" : "not_determined"].push_back(judged_json(joint, names));
+  return out;
+}
+
 /// How well the data tell the segments and the joints between them.
 Json topology_json(const JointsOutcome& outcome) {
   const auto& topology = *outcome.topology;
@@ -192,7 +245,9 @@ Json joints_json(const JointsJob& job, const JointsOutcome& outcome) {
 Json skeleton_json(const data::Skeleton& skeleton) {
   Json out;
   out["schema"] = "kinemark.skeleton";
+  out["schema_version"] = kSkeletonSchemaVersion;
   out["frames"] = skeleton.frames();
+  out["first_frame"] = skeleton.time.first_number;
   out["rate_hz"] = skeleton.time.rate_hz;
   out["noise_sd_m"] = number(skeleton.noise_sd_m);
   out["segments"] = Json::array();

@@ -66,9 +66,13 @@ data::Skeleton small() {
 }
 
 TEST(SkeletonJson, UnknownNumbersAreNullAndAnglesDegrees) {
-  const auto json = skeleton_json(small());
+  auto skeleton = small();
+  skeleton.time.first_number = 101;
+  const auto json = skeleton_json(skeleton);
   EXPECT_EQ(json["schema"], "kinemark.skeleton");
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["frames"], 4);
+  EXPECT_EQ(json["first_frame"], 101);
   EXPECT_EQ(json["segments"][0]["markers"][1]["name"], "C");
   EXPECT_EQ(json["segments"][0]["markers"][1]["x_in_segment_m"], nlohmann::json({0.1, 0.2, 0.3}));
   const auto& knee = json["joints"][0];
@@ -127,7 +131,7 @@ TEST(SkeletonDescription, OneLineAJointAndALength) {
 }
 
 TEST(CentreTrajectories, StatesSayHowEachCentreWasFound) {
-  const auto centres = centre_trajectories(small());
+  const auto centres = workflow::centre_trajectories(small());
   EXPECT_THAT(centres.names, ElementsAre("knee", "lost"));
   EXPECT_EQ(centres.state[centres.index(0, 0)], data::SampleState::model_filled);
   EXPECT_EQ(centres.made_by(0, 0), "SARA: determined");
@@ -168,6 +172,51 @@ TEST(JointsJson, TellsHowTheSkeletonWasFound) {
   EXPECT_EQ(json["topology"]["markers"][1]["doubtful"], true);
   EXPECT_EQ(json["topology"]["joints"][0]["name"], "knee");
   EXPECT_TRUE(json["topology"]["joints"][0]["margin"].is_null()) << "no other tree was possible";
+}
+
+/// A search without named segments of which one joint is known.
+JointsOutcome searched() {
+  JointsOutcome out;
+  out.markers = {"LASI", "RASI", "LTH3", "LSK1", "LSK2", "LHJC"};
+  out.skeleton = small();
+  auto& found = out.segmentation.emplace();
+  found.from_names = true;
+  found.sets = {"Plug-in Gait", "CAST"};
+  for (const char* name : {"hip_l", "knee_l"})
+    found.joints.push_back({.name = name,
+                            .parent_name = "pelvis",
+                            .child_name = "thigh_l",
+                            .parent = {0, 1},
+                            .child = {2},
+                            .known = true,
+                            .gap_m = 0.002,
+                            .turn_rad = 0.3,
+                            .weight = 1.0,
+                            .rivals = {},
+                            .reason = {}});
+  auto& knee = found.joints[1];
+  knee.known = false;
+  knee.reason = "the two hardly turn";
+  knee.spread_m = knee.gap_m = kNaN;
+  knee.rivals.push_back({.parent = {0, 1}, .child = {3, 4}, .weight = 0.25, .distance_m = 0.08});
+  found.aside.push_back({.marker = 2, .segment = "thigh_l", .distance_sd_m = 0.031});
+  found.model_outputs = {5};
+  return out;
+}
+
+TEST(JointsJson, TheSegmentationHoldsJointsRivalsAndMarkersByName) {
+  const auto json = joints_json({}, searched())["segmentation"];
+  EXPECT_EQ(json["from"], "names");
+  EXPECT_EQ(json["sets"].dump(), R"(["Plug-in Gait","CAST"])");
+  EXPECT_EQ(json["put_aside"][0]["marker"], "LTH3");
+  EXPECT_EQ(json["model_outputs"].dump(), R"(["LHJC"])");
+  ASSERT_EQ(json["known"].size(), 1U);
+  EXPECT_EQ(json["known"][0]["gap_m"], 0.002);
+  EXPECT_FALSE(json["known"][0].contains("words"));
+  const auto& open = json["not_determined"][0];
+  EXPECT_TRUE(open["gap_m"].is_null() && open["between_rivals_m"].is_null());
+  EXPECT_EQ(open["rivals"][0]["child_markers"].dump(), R"(["LSK1","LSK2"])");
+  EXPECT_THAT(open["words"].get<std::string>(), HasSubstr("the two hardly turn; a rival: [LASI, RASI]"));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::vector<report::NoticeGroup> groups_of(const JointsOutcome& outcome) {
 
 }  // namespace
 
-std::string joints_page(const JointsJob& job, const JointsOutcome& outcome, const data::Trial& trial) {
+std::string joints_page(const JointsJob& job, const JointsOutcome& outcome, std::int64_t first_frame) {
   return report::result_report_html(
       {.kind = "joints",
        .trial = job.input.filename().string(),
@@ -73,9 +73,9 @@ std::string joints_page(const JointsJob& job, const JointsOutcome& outcome, cons
        .groups = groups_of(outcome),
        .inputs = {outcome.input},
        .result = joints_json(job, outcome),
-       .scene = report::Scene{.markers = &trial.markers,
+       .scene = report::Scene{.markers = &outcome.used,
                               .skeleton = outcome.skeleton.joints.empty() ? nullptr : &outcome.skeleton},
-       .first_frame = trial.first_frame});
+       .first_frame = first_frame});
 }
 
 }  // namespace kinemark::pipeline

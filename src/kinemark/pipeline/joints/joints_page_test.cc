@@ -13,6 +13,7 @@ using ::testing::Not;
 /// A joint that one of four frames does not place.
 JointsOutcome outcome_of_a_knee() {
   JointsOutcome out;
+  out.used = data::Trajectories::all_missing({"A"}, {.rate_hz = 50.0, .t0_s = 0.0, .frames = 4});
   auto& s = out.skeleton;
   s.time = {.rate_hz = 50.0, .t0_s = 0.0, .frames = 4};
   s.markers = {"A"};
@@ -30,24 +31,18 @@ JointsOutcome outcome_of_a_knee() {
   return out;
 }
 
-data::Trial four_frames() {
-  data::Trial trial;
-  trial.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 50.0, .t0_s = 0.0, .frames = 4});
-  return trial;
-}
-
 TEST(JointsPage, FoldsWhatStandsOut) {
   JointsJob job;
   job.input = "folder/walk.c3d";
   auto outcome = outcome_of_a_knee();
-  const auto page = joints_page(job, outcome, four_frames());
+  const auto page = joints_page(job, outcome, 1);
   EXPECT_THAT(page, HasSubstr(R"("trial":"walk.c3d")"));
   EXPECT_THAT(page, HasSubstr(R"("verdict":"good")"));
   EXPECT_THAT(page, HasSubstr("1 joint not placed in some frames"));
   EXPECT_THAT(page, HasSubstr("knee: not placed in 1 of 4 frames."));
   EXPECT_THAT(page, Not(HasSubstr("left out as no body's")));
   outcome.skeleton.warnings = {"The fit is doubtful."};
-  const auto doubtful = joints_page(job, outcome, four_frames());
+  const auto doubtful = joints_page(job, outcome, 1);
   EXPECT_THAT(doubtful, HasSubstr(R"("verdict":"attention")"));
   EXPECT_THAT(doubtful, HasSubstr("1 doubt about the fit"));
 }
@@ -55,7 +50,7 @@ TEST(JointsPage, FoldsWhatStandsOut) {
 TEST(JointsPage, SaysNothingOfJointsThatAreAlwaysPlaced) {
   auto outcome = outcome_of_a_knee();
   outcome.skeleton.state[3] = data::CentreState::bridged;
-  EXPECT_THAT(joints_page({}, outcome, four_frames()), Not(HasSubstr("not placed in some frames")));
+  EXPECT_THAT(joints_page({}, outcome, 1), Not(HasSubstr("not placed in some frames")));
 }
 
 }  // namespace

@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/core/version.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/model_input.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/report/live_report.h"
 #include "kinemark/stages/simulation/subject.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -51,7 +51,7 @@ Status take_settings(std::string_view source, std::string_view text, std::vector
     if (setting == settings.end())
       return fail(Code::usage, fmt::format("{}: '{}' is no setting of it; those are {}", source,
                                            one.substr(0, equals), join(known)));
-    const auto value = io::parse_number(one.substr(std::min(equals + 1, one.size())));
+    const auto value = parse_number(one.substr(std::min(equals + 1, one.size())));
     if (!value || !(*value >= setting->low && *value <= setting->high))
       return fail(Code::usage, fmt::format("{}: {} must be a number from {:g} to {:g}", source, setting->name,
                                            setting->low, setting->high));
@@ -103,7 +103,7 @@ Result<LiveSource> open_simulation(std::string_view argument, const fs::path& mo
   auto subject = simulation::simulate_subject(*out.model, options);
   if (!subject) return fail_at(std::string(argument), subject.error());
   out.markers = std::move(subject->markers);
-  if (const auto up = up_of(*out.model)) {
+  if (const auto up = workflow::up_of(*out.model)) {
     out.up = *up;
     out.up_from = "the model's gravity";
   }
@@ -133,7 +133,7 @@ Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_
     if (!model) return std::unexpected(model.error());
     out.model = std::move(*model);
   }
-  const auto found = out.model ? find_vertical(input->trial, *out.model) : std::nullopt;
+  const auto found = out.model ? workflow::find_vertical(input->trial, *out.model) : std::nullopt;
   const auto vertical = found ? *found : vertical_without_model(input->trial);
   out.up = vertical.up;
   out.up_from = vertical.from;

@@ -9,19 +9,19 @@
 #include <utility>
 
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/recording_name.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 
 void add_recorded_kinetics(const Recording& recording, const analysis::Gait& gait,
                            std::vector<SheetInput>& out) {
   add_kinetic_channels(recording.trial, gait.cycles, out);
-  const auto vertical = vertical_of_plates(recording.trial);
+  const auto vertical = workflow::vertical_of_plates(recording.trial);
   if (recording.plates && vertical) add_ground_reaction(*recording.plates, vertical->up, gait, out);
 }
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 std::optional<std::int64_t> parse_end(std::string_view text, const TimeBase& time) {
   const bool seconds = text.ends_with('s');
   if (seconds) text.remove_suffix(1);
-  const auto value = io::parse_number(text);
+  const auto value = parse_number(text);
   constexpr double kMost = 1e15;
   if (!value || !(std::abs(*value) < kMost)) return std::nullopt;
   if (seconds) return time.number(time.nearest_frame(*value));

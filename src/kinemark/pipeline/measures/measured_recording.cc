@@ -8,9 +8,9 @@
 #include <iterator>
 #include <utility>
 
-#include "kinemark/pipeline/files/marker_screening.h"
-#include "kinemark/pipeline/files/screen_axes.h"
 #include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/screen_axes.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -36,8 +36,8 @@ Result<std::vector<data::Region>> prepare(const MeasuresJob& job, Recording& rec
                                           MeasuresOutcome& outcome) {
   std::ranges::move(recording.notes, std::back_inserter(outcome.warnings));
   std::ranges::move(std::exchange(recording.trial.warnings, {}), std::back_inserter(outcome.warnings));
-  if (auto s = leave_out_defects(recording.trial, !job.drops_doubtful(true), recording.edits.swapped,
-                                 outcome.warnings);
+  if (auto s = workflow::leave_out_defects(recording.trial, !job.drops_doubtful(true),
+                                           recording.edits.swapped, outcome.warnings);
       !s)
     return std::unexpected(s.error());
   return regions_of(job, recording.trial, std::move(recording.edits.regions));
@@ -125,12 +125,14 @@ Status measure_all(const MeasuresJob& job, const AskedMeasures& asked, const Rec
   if (asked.walking) walking = measure_walking(job, asked, recording, outcome);
   if (!walking.ends_job) return walking.ends_job;
   const bool others = asked.paths || asked.by_name;
-  if (asked.forces)
-    if (auto s = take_failure(measure_plates(asked, recording, outcome), "Force plates", asked.forces_by_name,
-                              !others && !asked.muscles_by_name, outcome);
-        !s)
-      return s;
+  const Status plates = asked.forces ? measure_plates(asked, recording, outcome) : Status();
+  if (auto s = take_failure(plates, "Force plates", asked.forces_by_name, !others && !asked.muscles_by_name,
+                            outcome);
+      !s)
+    return s;
   if (const auto& late = walking.ends_job_without_plates; !late) {
+    if (outcome.measures.empty() && !plates && recording.plates)
+      return fail(late.error().code, late.error().message + "; " + plates.error().message);
     if (outcome.measures.empty()) return late;
     outcome.warnings.push_back("Walking is not measured: " + late.error().message);
   }
@@ -220,9 +222,10 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasure
   const std::string name = job.input.string();
   if (ending_of(job.gait.write_events) == ".c3d") out.recorded = trial;
   if (auto s = prepare_recording(source, job, out.recording); !s) return std::unexpected(s.error());
-  if (out.recording.edits.file) outcome.beside.push_back(*out.recording.edits.file);
+  if (out.recording.journal.file) outcome.beside.push_back(*out.recording.journal.file);
   std::ranges::move(out.recording.forces, std::back_inserter(outcome.beside));
-  if (const auto up = stated_vertical(job.axes); up && out.recorded) set_screen_up(*out.recorded, up->up);
+  if (const auto up = workflow::stated_vertical(job.axes); up && out.recorded)
+    workflow::set_screen_up(*out.recorded, up->up);
   auto regions = prepare(job, out.recording, outcome);
   if (!regions) return fail_at(name, regions.error());
   asked.path.regions = asked.gait.regions = std::move(*regions);

@@ -14,8 +14,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/version.h"
-#include "kinemark/io/number.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 
 namespace kinemark::pipeline {
@@ -59,12 +59,10 @@ WhoseColumns whose_columns(const std::vector<Row>& rows) {
       out.more[m].texts.push_back(m < row.name->more.size() ? row.name->more[m].second : std::string());
   }
   for (auto& column : out.more) {
-    const bool numbers = std::ranges::all_of(column.texts, [](const std::string& text) {
-      return text.empty() || io::parse_number(text).has_value();
-    });
+    const bool numbers = std::ranges::all_of(
+        column.texts, [](const std::string& text) { return text.empty() || parse_number(text).has_value(); });
     if (!numbers || std::ranges::all_of(column.texts, &std::string::empty)) continue;
-    for (const auto& text : column.texts)
-      column.numbers.push_back(text.empty() ? kNaN : *io::parse_number(text));
+    for (const auto& text : column.texts) column.numbers.push_back(text.empty() ? kNaN : *parse_number(text));
     column.texts.clear();
   }
   return out;

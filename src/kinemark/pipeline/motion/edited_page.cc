@@ -11,6 +11,7 @@
 #include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/stages/report/markers_report.h"
+#include "kinemark/workflow/prepare/resample_forces.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/page_forces.h"
@@ -41,7 +42,7 @@ data::Wrenches forces_of(const EditSession& session, std::vector<std::string>& r
   const auto& recorded = session.recorded().trial;
   if (recorded.force_plates.empty()) return {};
   const auto forces = io::plate_forces(recorded, {.contact_force_n = internal::kContact_n});
-  if (forces) return resample(forces->wrenches, session.now().markers.time);
+  if (forces) return workflow::resample(forces->wrenches, session.now().markers.time);
   remarks.push_back(internal::no_forces(forces.error().message));
   return {};
 }

@@ -23,7 +23,7 @@ motion::IkResult in_terms_of_ik(motion::SmootherResult smooth) {
 
 Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                        const data::Trajectories& markers, const data::ImageTracks* images,
-                                       const Axes& axes) {
+                                       const workflow::Axes& axes) {
   MotionEstimate estimate;
   motion::RateErrors errors;
   if (job.estimator == Estimator::smoother) {

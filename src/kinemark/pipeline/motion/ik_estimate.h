@@ -25,6 +25,6 @@ struct MotionEstimate {
 [[nodiscard]] Result<MotionEstimate> estimate_motion(const IkJob& job, const model::Model& model,
                                                      const data::Trajectories& markers,
                                                      const data::ImageTracks* images = nullptr,
-                                                     const Axes& axes = {});
+                                                     const workflow::Axes& axes = {});
 
 }  // namespace kinemark::pipeline

@@ -11,12 +11,12 @@
 
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/motion/marker_locations.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -219,7 +219,7 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
       .summary = outcome.summary,
       .set = internal::name_set(motion, outcome.summary.run),
       .edits = inputs->edits.in_force,
-      .digest = inputs->edits.file ? inputs->edits.digest : io::digest_of({})};
+      .digest = inputs->journal.file ? inputs->journal.digest : io::digest_of({})};
 }
 
 }  // namespace kinemark::pipeline

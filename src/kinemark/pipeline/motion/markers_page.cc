@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "kinemark/core/version.h"
-#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/stages/report/markers_report.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/page_forces.h"
@@ -43,7 +43,7 @@ std::optional<Vector3d> extent_in(const data::Trajectories& markers, std::int64_
 }
 
 /// The axis of the longest extent in 8 of 10 frames of those that are looked at.
-std::optional<Vertical> vertical_of_extent(const data::Trajectories& markers) {
+std::optional<workflow::Vertical> vertical_of_extent(const data::Trajectories& markers) {
   std::array<std::int64_t, 3> longest{};
   std::int64_t looked = 0;
   const std::int64_t step = std::max<std::int64_t>(1, markers.frames() / kFramesLookedAt);
@@ -60,16 +60,16 @@ std::optional<Vertical> vertical_of_extent(const data::Trajectories& markers) {
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (looked > 0 && 10 * longest[axis] >= 8 * looked)
-      return Vertical{Vector3d::Unit(static_cast<Eigen::Index>(axis)),
-                      "the shape of what the markers outline"};
+      return workflow::Vertical{Vector3d::Unit(static_cast<Eigen::Index>(axis)),
+                                "the shape of what the markers outline"};
   return std::nullopt;
 }
 
 }  // namespace
 
-Vertical vertical_without_model(const data::Trial& trial) {
-  if (auto plates = vertical_of_plates(trial)) return *plates;
-  if (auto screen = vertical_of_screen(trial)) return *screen;
+workflow::Vertical vertical_without_model(const data::Trial& trial) {
+  if (auto plates = workflow::vertical_of_plates(trial)) return *plates;
+  if (auto screen = workflow::vertical_of_screen(trial)) return *screen;
   if (auto extent = vertical_of_extent(trial.markers)) return *extent;
   return {Vector3d::UnitZ(), ""};
 }
@@ -86,7 +86,7 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
   auto& trial = recording->trial;
   std::vector<std::string> notes = recording->notes;
   if (options.recording.drops_doubtful(false))
-    if (auto s = leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
+    if (auto s = workflow::leave_out_defects(trial, false, recording->edits.swapped, notes); !s)
       return fail_at(path.string(), s.error());
   report::MarkersReport report{.trial = path.filename().string(),
                                .version = std::string(kVersion),
@@ -96,14 +96,14 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
                                .inputs = {recording->file},
                                .cycles = internal::cycle_spans(trial.events, trial.markers.time),
                                .editing = options.editing};
-  if (recording->edits.file) report.inputs.push_back(*recording->edits.file);
+  if (recording->journal.file) report.inputs.push_back(*recording->journal.file);
   report.warnings = std::move(notes);
   if (!recording->plates_fault.empty()) report.warnings.push_back(no_forces(recording->plates_fault));
   if (recording->plates && !recording->plates->items.empty()) report.forces = &*recording->plates;
   const auto vertical = vertical_without_model(trial);
   report.up = vertical.up;
   report.up_from = vertical.from;
-  if (const auto stated = stated_vertical(options.recording.axes)) {
+  if (const auto stated = workflow::stated_vertical(options.recording.axes)) {
     report.up = stated->up;
     report.up_from = stated->from;
   }

@@ -10,7 +10,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/recording.h"
-#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 
@@ -26,7 +26,7 @@ struct MarkersPageOptions {
 /// Which way is up in a recording without a model: its plates, POINT:Y_SCREEN of a C3D file, else the axis
 /// along which the markers reach farthest in most frames, when they reach over 0.8 m there and 1.2 times as
 /// far as along the others; else z, and `from` is empty.
-[[nodiscard]] Vertical vertical_without_model(const data::Trial& trial);
+[[nodiscard]] workflow::Vertical vertical_without_model(const data::Trial& trial);
 
 /// HTML of a marker file as it is: any that read_marker_input() reads, decided by its content. Forces of
 /// plates that cannot be read are a remark on the page. Fails as the reader.

@@ -16,12 +16,12 @@
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::pipeline::internal {
 
@@ -76,10 +76,10 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
                                  .threads = job.threads},
                                 options);
   if (!markers) return std::unexpected(markers.error());
-  auto made = note_on_upsampling(markers->trial.markers);
+  auto made = workflow::note_on_upsampling(markers->trial.markers);
   if (!made) return fail_at(job.markers.string(), made.error());
   if (!made->empty()) markers->trial.warnings.push_back(std::move(*made));
-  auto axes = bring_into_axes(job.axes, job.markers, markers->trial, model->model);
+  auto axes = workflow::bring_into_axes(job.axes, job.markers, markers->trial, model->model);
   if (!axes) return std::unexpected(axes.error());
   if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))
     return fail(
@@ -88,10 +88,12 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
   MotionInputs inputs{.model = std::move(model->model),
                       .trial = std::move(markers->trial),
                       .edits = std::move(markers->edits),
+                      .journal = std::move(markers->journal),
+                      .notes = std::move(markers->notes),
                       .axes = std::move(*axes),
                       .images = {},
                       .files = {std::move(model->file), std::move(markers->file)}};
-  if (inputs.edits.file) inputs.files.push_back(*inputs.edits.file);
+  if (inputs.journal.file) inputs.files.push_back(*inputs.journal.file);
   if (auto s = add_images(job, inputs); !s) return std::unexpected(s.error());
   return inputs;
 }
@@ -106,11 +108,11 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   run.seed = job.seed;
   run.threads = job.threads;
   run.inputs = inputs.files;
-  run.options = edit_options(inputs.edits);
+  run.options = edit_options(inputs.edits, inputs.journal);
   run.warnings = inputs.trial.warnings;
   if (auto note = data::note_on_noise(inputs.trial.markers); !note.empty())
     run.warnings.push_back(std::move(note));
-  run.warnings.insert(run.warnings.end(), inputs.edits.notes.begin(), inputs.edits.notes.end());
+  run.warnings.insert(run.warnings.end(), inputs.notes.begin(), inputs.notes.end());
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)
     if (coordinate.locked)

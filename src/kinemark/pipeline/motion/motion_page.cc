@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/marker_input.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 #include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
@@ -58,7 +58,7 @@ std::string motion_page(const MotionJob& job, const model::Model& model, const r
   return report::report_html({.summary = summary,
                               .motion = &motion,
                               .markers = markers,
-                              .up = up_of(model),
+                              .up = workflow::up_of(model),
                               .bodies = &bodies,
                               .cycles = cycle_overlays(recording.events, recording.markers.time, motion)});
 }

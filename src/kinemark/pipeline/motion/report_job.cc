@@ -21,12 +21,12 @@
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -69,12 +69,12 @@ void read_open_frames(const Json& json, data::JointMotion& motion) {
 }
 
 /// The edits of a run applied to its recording once more; false where their journal is another by now.
-bool edit_again(const report::IkRun& run, const fs::path& recording, data::Trial& trial) {
+bool edit_again(const report::IkRun& run, const fs::path& path, data::Recording& recording) {
   const auto was = std::ranges::find(run.inputs, "edits", &data::InputFile::role);
   if (was == run.inputs.end()) return true;
   const auto is = record_input("edits", was->path);
   return is && is->bytes == was->bytes && is->hash == was->hash &&
-         take_edits({.edits = was->path, .recording = recording, .seed = run.seed}, trial).has_value();
+         take_edits({.edits = was->path, .recording = path, .seed = run.seed}, recording).has_value();
 }
 
 /// What is still known of a recording.
@@ -88,8 +88,10 @@ std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointM
   for (const auto& input : run.inputs) {
     if (input.role != "markers") continue;
     auto markers = read_marker_input({.path = input.path});
-    if (!markers || !edit_again(run, input.path, markers->trial)) return std::nullopt;
-    const auto& recorded = markers->trial.markers;
+    if (!markers) return std::nullopt;
+    data::Recording recording{.trial = std::move(markers->trial)};
+    if (!edit_again(run, input.path, recording)) return std::nullopt;
+    const auto& recorded = recording.trial.markers;
     const auto first = recorded.time.nearest_frame(motion.time.t0_s);
     if (first < 0 || first + motion.frames() > recorded.frames()) return std::nullopt;
     std::vector<std::int64_t> from;
@@ -105,7 +107,7 @@ std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointM
         states.set_missing(f, marker, data::SampleState::rejected);
     }
     return Recorded{.states = std::move(states),
-                    .cycles = internal::cycle_overlays(markers->trial.events, recorded.time, motion)};
+                    .cycles = internal::cycle_overlays(recording.trial.events, recorded.time, motion)};
   }
   return std::nullopt;
 }
@@ -217,7 +219,7 @@ Result<Page> solved_page(const fs::path& solved, std::span<const fs::path> geome
                            .motion = &*motion,
                            .markers = states,
                            .in_model_axes = !turned,
-                           .up = model ? up_of(*model) : std::nullopt,
+                           .up = model ? workflow::up_of(*model) : std::nullopt,
                            .bodies = bodies ? &*bodies : nullptr,
                            .cycles = recorded ? recorded->cycles : std::vector<report::CycleOverlay>{}});
   return page;
@@ -238,6 +240,9 @@ Result<Page> make_page(const fs::path& path, const MarkersPageOptions& options) 
     return fail(Code::usage,
                 fmt::format("{}: --geometry is for joint angles, which have a model, not for marker files",
                             path.string()));
+  if (!options.skeleton.empty() && ending_of(path) != ".amc")
+    return fail(Code::usage,
+                fmt::format("--skeleton: {} has none beside it; it is for .amc files", path.string()));
   auto html = markers_page(path, options);
   if (!html) return std::unexpected(html.error());
   return Page{.html = std::move(*html), .read = files_of(path, options.recording)};

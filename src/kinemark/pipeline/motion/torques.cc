@@ -14,8 +14,8 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/files/external_forces.h"
-#include "kinemark/pipeline/files/turn.h"
-#include "kinemark/pipeline/files/vertical.h"
+#include "kinemark/workflow/prepare/turn.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -56,7 +56,7 @@ double distance_m(const model::Model& model, const data::JointMotion& motion, co
   const auto body = std::ranges::find(bodies, contact.body, [&](const auto& one) {
     return model.description().bodies[at(one.description_idx)].name;
   });
-  const Vector3d up = up_of(model).value_or(Vector3d::Zero());
+  const Vector3d up = workflow::up_of(model).value_or(Vector3d::Zero());
   model::Workspace w(model);
   double sum = 0.0, force_n = 0.0, most_n = 0.0;
   const std::int64_t stride = 1 + (contact.last_frame - contact.first_frame) / 20;
@@ -141,13 +141,13 @@ void tell_unmeasured(const motion::DynamicsSummary& dynamics, const TimeBase& ti
 void check_posture(const model::Model& model, const motion::DynamicsSummary& dynamics,
                    TorqueAccount& account) {
   if (dynamics.feet_to_centre.isZero()) return;
-  const auto up = up_of(model);
+  const auto up = workflow::up_of(model);
   const Vector3d body = dynamics.feet_to_centre.normalized();
   if (!up || body.dot(*up) > std::cos(45.0 * kRadPerDeg)) return;
   account.warnings.push_back(fmt::format(
       "the body stands along {} on average, from its feet to its mass centre, and up in the model is {}: "
       "either it lies, or markers and model have different axes (--up) and the torques a wrong gravity",
-      name_of_direction(body), name_of_direction(*up)));
+      workflow::name_of_direction(body), workflow::name_of_direction(*up)));
 }
 
 void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, TorqueAccount& account) {
@@ -174,7 +174,7 @@ void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, Torqu
 
 Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
                                   const std::filesystem::path& forces, const motion::DynamicsOptions& options,
-                                  const motion::RateErrors* errors, const Axes& axes) {
+                                  const motion::RateErrors* errors, const workflow::Axes& axes) {
   TorqueAccount account;
   ExternalForces external;
   const bool with_forces = !forces.empty();
@@ -185,8 +185,8 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     account.files = external.files;
     for (const auto& warning : external.warnings)
       account.warnings.push_back(fmt::format("{}: {}", forces.filename().string(), warning));
-    turn(external.wrenches, axes.model_from_recording);
-    const auto off = check_forces(external.wrenches, axes, model);
+    workflow::turn(external.wrenches, axes.model_from_recording);
+    const auto off = workflow::check_forces(external.wrenches, axes, model);
     if (!off) return fail_at(forces.string(), off.error());
     if (!off->empty()) account.warnings.push_back(*off);
   }

@@ -10,8 +10,8 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/files/axes.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/prepare/axes.h"
 
 namespace kinemark::pipeline {
 
@@ -32,6 +32,6 @@ struct TorqueAccount {
                                                 const std::filesystem::path& forces,
                                                 const motion::DynamicsOptions& options,
                                                 const motion::RateErrors* errors = nullptr,
-                                                const Axes& axes = {});
+                                                const workflow::Axes& axes = {});
 
 }  // namespace kinemark::pipeline

@@ -258,7 +258,8 @@ TEST(Torques, ForcesInOtherAxesAreNoticed) {
   EXPECT_EQ(refused.error().code, Code::bad_input);
   EXPECT_THAT(refused.error().message,
               HasSubstr("stand.c3d: the forces push along z on average, 90 deg off y"));
-  const Axes chosen{.model_from_recording = Eigen::Matrix3d::Identity(), .chosen = true, .note = ""};
+  const workflow::Axes chosen{
+      .model_from_recording = Eigen::Matrix3d::Identity(), .chosen = true, .note = ""};
   const auto account =
       add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}, nullptr, chosen).value();
   EXPECT_THAT(account.warnings, Contains(HasSubstr("90 deg off y")));

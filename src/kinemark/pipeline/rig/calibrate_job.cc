@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/files/output_check.h"
@@ -45,7 +45,7 @@ struct Known {
     for (std::size_t from = 0; from < at->second.size();) {
       const auto to = std::min(at->second.find_first_of(" \n", from), at->second.size());
       if (to > from) {
-        const auto value = io::parse_number(std::string_view(at->second).substr(from, to - from));
+        const auto value = parse_number(std::string_view(at->second).substr(from, to - from));
         if (!value)
           return fail(Code::bad_input,
                       fmt::format("{}: '{}' of '{}' is no number", path.string(), at->second, key));

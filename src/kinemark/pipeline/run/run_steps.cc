@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "kinemark/core/name_pattern.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/pipeline/files/edit_input.h"
 
 namespace kinemark::pipeline {
@@ -112,7 +112,7 @@ class Planner {
       step.inputs.push_back(folder / "joints" / "skeleton.json");
       step.after.push_back(functional);
     }
-    if (subject.mass_kg > 0.0) step.words.push_back("--mass=" + io::format_number(subject.mass_kg));
+    if (subject.mass_kg > 0.0) step.words.push_back("--mass=" + format_number(subject.mass_kg));
     const fs::path out = folder / "model.osim";
     step.words.push_back("--output=" + out.string());
     step.outputs = {out, folder / "model_report.json"};

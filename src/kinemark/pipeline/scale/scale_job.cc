@@ -333,7 +333,7 @@ class ScaleRun {
     if (!recording) return std::unexpected(recording.error());
     const auto model = model::Model::compile(out_.model);
     if (!model) return fail_at(job_.model.string(), model.error());
-    const auto axes = bring_into_axes(job_.axes, path, recording->trial, *model);
+    const auto axes = workflow::bring_into_axes(job_.axes, path, recording->trial, *model);
     if (!axes) return std::unexpected(axes.error());
     if (const auto note = data::note_on_noise(recording->trial.markers); !note.empty()) say(path, note);
     for (const auto& note : recording->notes) say(path, note);

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "kinemark/pipeline/files/marker_screening.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::pipeline {
 
@@ -32,7 +32,9 @@ Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, c
     options.selection = job.selection.names_in(recording->trial);
   if (auto s = prepare_recording(source, options, *recording); !s) return std::unexpected(s.error());
   if (!job.drops_doubtful(false)) return recording;
-  if (auto s = leave_out_defects(recording->trial, false, recording->edits.swapped, recording->notes); !s)
+  if (auto s =
+          workflow::leave_out_defects(recording->trial, false, recording->edits.swapped, recording->notes);
+      !s)
     return fail_at(path.string(), s.error());
   return recording;
 }

@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rig/toml_fields.h"
 #include "kinemark/io/rig/toml_text.h"
 #include "kinemark/pipeline/segments/internal/definition_fields.h"

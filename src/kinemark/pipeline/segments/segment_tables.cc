@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/pipeline/segments/subject_values.h"
 
 namespace kinemark::pipeline {
@@ -124,12 +124,12 @@ std::vector<analysis::CycleSeries> cycle_series(const SeriesList& list, const Ti
 
 std::string series_csv(const SeriesList& list, const TimeBase& time) {
   std::string out = "time_s,name,component,value,sd,unit,state\n";
-  const auto cell = [](double x) { return std::isfinite(x) ? io::format_number(x) : std::string(); };
+  const auto cell = [](double x) { return std::isfinite(x) ? format_number(x) : std::string(); };
   for (const auto* series : list)
     for (std::int64_t f = 0; f < time.frames; ++f)
       for (std::size_t k = 0; k < series->size(); ++k) {
         const auto i = static_cast<std::size_t>(f) * series->size() + k;
-        out += fmt::format("{},{},{},{},{},{},{}\n", io::format_number(time.time_s(f)), series->name,
+        out += fmt::format("{},{},{},{},{},{},{}\n", format_number(time.time_s(f)), series->name,
                            series->labels.empty() ? "" : series->labels[k],
                            cell(series->value[i] * per_si(*series)), cell(series->sd[i] * per_si(*series)),
                            table_unit(*series), data::to_string(series->state[static_cast<std::size_t>(f)]));

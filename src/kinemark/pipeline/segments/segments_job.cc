@@ -19,16 +19,16 @@
 
 #include "kinemark/data/name_index.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_screening.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/pipeline/files/vertical.h"
 #include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
 #include "kinemark/pipeline/segments/modelled_points.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/subject_values.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -74,12 +74,12 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
                              options);
   if (!read) return std::unexpected(read.error());
   outcome.inputs.push_back(std::move(read->file));
-  if (read->edits.file) outcome.inputs.push_back(*read->edits.file);
+  if (read->journal.file) outcome.inputs.push_back(*read->journal.file);
   std::ranges::move(read->forces, std::back_inserter(outcome.inputs));
   std::ranges::move(std::exchange(read->trial.warnings, {}), std::back_inserter(outcome.warnings));
   std::ranges::move(read->notes, std::back_inserter(outcome.warnings));
-  if (auto s =
-          leave_out_defects(read->trial, !job.drops_doubtful(true), read->edits.swapped, outcome.warnings);
+  if (auto s = workflow::leave_out_defects(read->trial, !job.drops_doubtful(true), read->edits.swapped,
+                                           outcome.warnings);
       !s)
     return fail_at(path.string(), s.error());
   return read;
@@ -179,9 +179,9 @@ bool measures_offsets(const data::Trial& trial) {
 }
 
 Eigen::Vector3d up_of(const SegmentsJob& job, const data::Trial& trial) {
-  if (const auto stated = stated_vertical(job.axes)) return stated->up;
-  if (const auto plates = vertical_of_plates(trial)) return plates->up;
-  if (const auto screen_up = vertical_of_screen(trial)) return screen_up->up;
+  if (const auto stated = workflow::stated_vertical(job.axes)) return stated->up;
+  if (const auto plates = workflow::vertical_of_plates(trial)) return plates->up;
+  if (const auto screen_up = workflow::vertical_of_screen(trial)) return screen_up->up;
   return Eigen::Vector3d::UnitZ();
 }
 

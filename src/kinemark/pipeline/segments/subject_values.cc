@@ -14,9 +14,9 @@
 #include <optional>
 
 #include "kinemark/core/nearest_name.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/length_unit.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -71,7 +71,7 @@ Result<analysis::SubjectValue> parse_subject_value(const std::string& text,
   const auto equals = text.find('=');
   const auto plus = equals == std::string::npos ? equals : text.find("+-", equals + 1);
   const auto number = [&](std::size_t begin, std::size_t end) {
-    return io::parse_number(std::string_view(text).substr(begin, end - begin));
+    return parse_number(std::string_view(text).substr(begin, end - begin));
   };
   const auto value =
       equals == std::string::npos ? std::nullopt : number(equals + 1, std::min(plus, text.size()));
@@ -126,13 +126,13 @@ Result<std::vector<analysis::SubjectValue>> parse_mp(std::string_view text, cons
   bool some = false;
   while (!text.empty()) {
     const auto end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = io::trim(text.substr(0, end));
+    const std::string_view line = trim(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     const auto equals = line.find('=');
     if (!line.starts_with('$') || equals == std::string_view::npos) continue;
-    const auto value = io::parse_number(io::trim(line.substr(equals + 1)));
+    const auto value = parse_number(trim(line.substr(equals + 1)));
     some = some || value;
-    const auto* known = find_parameter(definition, std::string(io::trim(line.substr(1, equals - 1))));
+    const auto* known = find_parameter(definition, std::string(trim(line.substr(1, equals - 1))));
     if (known == nullptr || !value || !std::isfinite(*value)) continue;
     out.push_back({known->name, *value * (known->quantity == SubjectQuantity::length ? 1e-3 : 1.0), name});
   }

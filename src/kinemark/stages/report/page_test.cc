@@ -35,7 +35,7 @@ TEST(Page, TemplateIsTheCommittedFileByteForByte) {
   std::stringstream file;
   file << in.rdbuf();
   EXPECT_EQ(page_template(), file.str());
-  EXPECT_LT(page_template().size(), 900'000U);
+  EXPECT_LT(page_template().size(), 400'000U) << "with its script packed";
 }
 
 TEST(Page, DataGoIntoTheirElementAndNothingElseChanges) {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::io::animation {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 
 #include "kinemark/io/mesh/internal/mesh_builder.h"
 #include "kinemark/io/mesh/internal/mesh_formats.h"

@@ -12,8 +12,8 @@
 #include <cstring>
 #include <string>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 
 #include "kinemark/io/mesh/internal/words.h"
 

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
+#include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::io::internal {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 
 namespace kinemark::io::osim {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 
 namespace kinemark::io::osim {
 namespace {

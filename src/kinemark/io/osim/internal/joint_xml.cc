@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/osim/internal/function_xml.h"
 
 namespace kinemark::io::osim {

@@ -10,9 +10,9 @@
 #include <span>
 #include <sstream>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/osim/internal/shift_jis.h"
 
 namespace kinemark::io::osim {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 #include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {

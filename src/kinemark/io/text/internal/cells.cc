@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 
 namespace kinemark::io::internal {
 

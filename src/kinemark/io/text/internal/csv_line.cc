@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "kinemark/io/number.h"
+#include "kinemark/core/number.h"
 
 namespace kinemark::io::internal {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/vendor_headers.h"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/vendor_headers.h"
 

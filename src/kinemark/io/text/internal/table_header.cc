@@ -8,8 +8,8 @@
 #include <array>
 #include <unordered_map>
 
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 
 namespace kinemark::io::internal {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "kinemark/core/distinct_names.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/number.h"
 #include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {

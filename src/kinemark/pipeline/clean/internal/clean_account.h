@@ -16,7 +16,7 @@ inline constexpr double kRejectConfidence = 0.8;
 
 [[nodiscard]] report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial);
 /// What becomes of samples that the recorder made; nothing where there are none.
-void settle_upsampling(RecorderMade made, data::UpsamplingAccount& upsampling);
+void settle_upsampling(workflow::RecorderMade made, data::UpsamplingAccount& upsampling);
 /// What becomes of what screening found: sure label swaps are exchanged back, other sure defects taken out,
 /// as the job says, except clock jumps, which have no wrong samples.
 [[nodiscard]] std::vector<data::Defect> settle_defects(std::vector<data::Finding> found,

@@ -25,8 +25,10 @@ namespace kinemark::pipeline::internal {
 struct MotionInputs {
   model::Model model;
   data::Trial trial;                        ///< in the model's axes
-  EditsTaken edits;                         ///< what was applied to it before
-  Axes axes;                                ///< how it came there
+  data::EditsInForce edits;                 ///< what was applied to it before
+  UsedJournal journal;                      ///< whose edits these are
+  std::vector<std::string> notes;           ///< what was done to it
+  workflow::Axes axes;                      ///< how it came there
   std::optional<data::ImageTracks> images;  ///< at the frames of the trial
   std::vector<data::InputFile> files;       ///< all that were read, for the record
 };

@@ -193,7 +193,7 @@ const std::array kDefinitions{
                     "from 50 ms before onset to 50 ms after the end", kDefinition},
                    Applies::discrete,
                    Pivot::plain,
-                   Weakness::upper_if_discrete,
+                   Weakness::of_instants,
                    [](const PathFacts& f) { return f.moving_speed().mean(); }},
     PathDefinition{{"submovements", "time", Quantity::count, "Submovements",
                     "peaks of |v| above 10 % of the largest, prominence 5 % of it", kDefinition},

@@ -33,6 +33,7 @@ enum class Weakness : std::uint8_t {
   needs_change,             ///< says nothing of a speed that hardly changes
   upper_alone,              ///< the lower end fails: the least side of a box, which may have none
   upper_if_discrete,        ///< at most for discrete movements: noise at both rests can only lengthen them
+  of_instants,              ///< noise moves the instants between which it is taken: none if correlated
   upper_alone_if_discrete,  ///< likewise for discrete movements: a start has jerk that no filter passes
   approximate,              ///< covers less than its level in simulated movements
   approximate_if_discrete   ///< likewise for discrete movements alone

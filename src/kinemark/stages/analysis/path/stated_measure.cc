@@ -58,12 +58,11 @@ bool is_peak(const PathDefinition& definition) {
   return definition.weakness == Weakness::extreme_of_constant || definition.pivot == Pivot::of_derivative;
 }
 
-// Upper ends of discrete movements that hold too few of simulated ones where noise is correlated (70 and 93
-// %): jerk, and the speed between two instants that the noise moves.
+// What holds too few of simulated discrete movements where noise is correlated (70 and 93 %): upper ends of
+// jerk, and the speed between two instants that the noise moves.
 bool fails_under_correlation(const PathDefinition& definition) {
   return definition.weakness == Weakness::upper_alone_if_discrete ||
-         (definition.weakness == Weakness::upper_if_discrete &&
-          definition.what.quantity == data::Quantity::speed);
+         definition.weakness == Weakness::of_instants;
 }
 
 // Why there is no interval, or an empty text.
