@@ -6,8 +6,8 @@
 
 namespace kinemark::math {
 
-/// The least rotation that turns one direction into another, as Eigen's FromTwoVectors(), whose singular
-/// value decomposition for opposite directions takes half a minute to compile.
+/// The least rotation that turns one direction into another, as Eigen's FromTwoVectors(), but without its
+/// singular value decomposition for opposite directions, which is slow to compile.
 ///
 /// @param from  any length but 0, finite, any unit
 /// @param to    any length but 0, finite, any unit
