@@ -18,7 +18,7 @@
 
 namespace kinemark::pipeline {
 
-void add_recorded_kinetics(const Recording& recording, const analysis::Gait& gait,
+void add_recorded_kinetics(const data::Recording& recording, const analysis::Gait& gait,
                            std::vector<SheetInput>& out) {
   add_kinetic_channels(recording.trial, gait.cycles, out);
   const auto vertical = workflow::vertical_of_plates(recording.trial);
@@ -43,7 +43,7 @@ Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std
   return out;
 }
 
-Status GaitDrawing::find_walking(const Recording& recording) {
+Status GaitDrawing::find_walking(const data::Recording& recording) {
   auto options = gait_options(job_.gait, true);
   if (!options) return std::unexpected(options.error());
   options->refits = job_.refits;

@@ -34,7 +34,7 @@ struct GaitDrawingJob : JobSettings, GaitOutputs {
 
 /// Curves over the cycle with what else a recording has: joint kinetics among its channels, the force of
 /// plates under each foot.
-void add_recorded_kinetics(const Recording& recording, const analysis::Gait& gait,
+void add_recorded_kinetics(const data::Recording& recording, const analysis::Gait& gait,
                            std::vector<SheetInput>& out);
 
 /// The outputs of a gait report, begun before a long computation.
@@ -47,7 +47,7 @@ class GaitDrawing {
   static Result<GaitDrawing> begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others);
 
   /// Find walking in the recording. Code::bad_input as measure_gait().
-  [[nodiscard]] Status find_walking(const Recording& recording);
+  [[nodiscard]] Status find_walking(const data::Recording& recording);
   /// What was found; nothing before find_walking().
   [[nodiscard]] const std::optional<analysis::Gait>& gait() const { return gait_; }
 

@@ -92,7 +92,7 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool draw
   return out;
 }
 
-Result<analysis::Gait> measure_gait(const Recording& recording, const analysis::GaitOptions& options) {
+Result<analysis::Gait> measure_gait(const data::Recording& recording, const analysis::GaitOptions& options) {
   const auto& trial = recording.trial;
   const auto& plates = recording.plates;
   auto stated = options;

@@ -59,7 +59,7 @@ struct GaitOutputs {
 
 /// Walking in a recording: its markers as they are, its plates, its events.
 /// Code::bad_input as analysis::analyze_gait().
-[[nodiscard]] Result<analysis::Gait> measure_gait(const Recording& recording,
+[[nodiscard]] Result<analysis::Gait> measure_gait(const data::Recording& recording,
                                                   const analysis::GaitOptions& options);
 
 /// "type" (walk, run, sprint), "direction" (forward, backward, sideways,
