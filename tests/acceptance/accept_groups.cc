@@ -41,7 +41,7 @@ bool finds_a_difference(const Null& null, std::uint64_t seed) {
   const auto groups = draw(null, random);
   const auto mapping =
       analysis::map_curves(groups, {.design = null.design, .arrangements = kArrangements, .seed = seed});
-  return mapping && !mapping->stretches.empty();
+  return mapping && !mapping->spans.empty();
 }
 
 bool band_holds(const Null& null, std::uint64_t seed, bool of_one) {
