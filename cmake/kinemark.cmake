@@ -131,7 +131,7 @@ function(kinemark_library name)
     if(ARG_FUZZED)
       target_compile_options(kinemark_${name} PRIVATE ${KINEMARK_FUZZED_OPTIONS})
       kinemark_precompile(kinemark_${name} kinemark_fuzzed_headers)
-    elseif(ARG_PLAIN OR name MATCHES "^pipeline_")  # joins the stages, and counts little itself
+    elseif(ARG_PLAIN)
       target_compile_options(kinemark_${name} PRIVATE ${KINEMARK_PLAIN_OPTIONS})
       kinemark_precompile(kinemark_${name} kinemark_plain_headers)
     else()

@@ -21,7 +21,8 @@ using ::testing::Not;
 constexpr std::int64_t kSamples = 600;
 constexpr TimeBase kTime{.rate_hz = 100.0, .frames = kSamples};
 
-// Five points that swing at one cycle a second, with noise of 0.4 mm, correlated from sample to sample.
+// Five points that swing at one cycle a second and rest between, as feet do, with noise of 0.4 mm, correlated
+// from sample to sample.
 class GaitNoiseTest : public ::testing::Test {
  protected:
   GaitNoiseTest() { draw(0.0); }
@@ -33,7 +34,7 @@ class GaitNoiseTest : public ::testing::Test {
       for (int axis = 0; axis < 3; ++axis) {
         double e = random.gaussian();
         for (std::int64_t f = 0; f < kSamples; ++f, e = correlation * e + fresh * random.gaussian())
-          x(f, axis) = 0.3 * std::sin(0.0628 * static_cast<double>(f) + axis) + 4e-4 * e;
+          x(f, axis) = 0.1 * std::exp(2.0 * std::sin(0.0628 * static_cast<double>(f) + axis)) + 4e-4 * e;
       }
     points_.clear();
     for (const auto& x : series_) points_.push_back({.name = "P", .x = &x, .seen = &seen_});
