@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/word_list.h"
+#include "kinemark/core/number.h"
 
 namespace kinemark::cli {
 namespace {
@@ -123,7 +124,7 @@ std::string value_of(const CLI::Option& option) {
 bool is_met(const Need& need, const CLI::Option& choice) {
   if (need.values == kGiven || need.values == kNotGiven)
     return (choice.count() > 0) == (need.values == kGiven);
-  if (need.values == kNotZero) return value_of(choice) != "0";
+  if (need.values == kNotZero) return parse_number(value_of(choice)) != 0.0;
   return has_word(need.values, value_of(choice));
 }
 

@@ -127,6 +127,7 @@ SAME = {*((command, option) for command in ("convert", "clean", "joints", "ik", 
 
 # What is not for the others: words, the option that is refused, and what is said of it.
 REFUSED = [
+    *((f"simulate arm -o o --stagger {zero}", "--planar", f"is for markers beside the bone; --stagger is {zero}") for zero in ("0", "0.0", "0e3")),
     *((f"clean legs.trc o.csv --filter {name}", option, "is for") for name in ("none", "kalman", "gcv", "savgol", "classic")
       for option in ("--uncorrected-cutoff", "--cutoff-rule=challis")),
     ("clean legs.trc o.csv --filter none", "--cutoff=6", "is for positions that are smoothed; --filter is none"),

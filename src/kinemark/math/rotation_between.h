@@ -12,8 +12,7 @@ namespace kinemark::math {
 /// @param from  any length but 0, finite, any unit
 /// @param to    any length but 0, finite, any unit
 /// @return  a unit quaternion; for directions opposite to within 1.4e-6 rad half a turn about one of the axes
-/// across
-///   them. O(1).
+///          across them. O(1).
 [[nodiscard]] Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace kinemark::math
