@@ -128,7 +128,7 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
           "--estimator",
           [&job](const std::string& name) {
             if (name == "smoother")
-              job.estimator = pipeline::Estimator::smoother;
+              job.estimator = workflow::Estimator::smoother;
             else if (name != "least-squares")
               throw CLI::ValidationError("--estimator",
                                          fmt::format("'{}' is not least-squares or smoother", name));

@@ -35,6 +35,8 @@
 #include "kinemark/stages/trajectory/screening/screen.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "kinemark/workflow/joints/joints.h"
+#include "kinemark/workflow/motion/ik.h"
+#include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark {
@@ -66,8 +68,10 @@ using io::write_osim;
 using pipeline::find_definition;  // "pig", "isb-shoulder", or a .toml
 
 // As the commands do it: from a recording to what is found, with what there is to say of it.
+using workflow::ik;
 using workflow::joints;
 using workflow::prepare;
+using workflow::track;
 
 // Cleaning.
 using trajectory::fill_gaps;

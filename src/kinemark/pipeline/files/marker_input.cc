@@ -36,24 +36,4 @@ Result<MarkerInput> read_marker_input(const MarkerSource& source) {
   return input;
 }
 
-data::Trajectories select_markers(const data::Trajectories& recorded, std::span<const std::int64_t> from,
-                                  std::vector<std::string> names, std::int64_t first_frame,
-                                  const TimeBase& time) {
-  check(names.size() == from.size(), "select_markers() needs one name for each marker");
-  auto selected = data::Trajectories::all_missing(std::move(names), time);
-  if (!recorded.unfiltered_in_world.empty())
-    selected.unfiltered_in_world.assign(selected.x_in_world.size(), kNaN);
-  if (!recorded.filters.empty())
-    for (const std::int64_t m : from) selected.filters.push_back(recorded.filters[at(m)]);
-  for (std::int64_t m = 0; m < selected.markers(); ++m)
-    for (std::int64_t f = 0; f < selected.frames(); ++f) {
-      selected.x(f, m) = recorded.x(first_frame + f, from[at(m)]);
-      selected.state[selected.index(f, m)] = recorded.state[recorded.index(first_frame + f, from[at(m)])];
-      if (!recorded.unfiltered_in_world.empty())
-        std::copy_n(recorded.unfiltered_in_world.data() + 3 * recorded.index(first_frame + f, from[at(m)]), 3,
-                    selected.unfiltered_in_world.data() + 3 * selected.index(f, m));
-    }
-  return selected;
-}
-
 }  // namespace kinemark::pipeline

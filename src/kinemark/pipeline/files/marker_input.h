@@ -45,16 +45,4 @@ struct MarkerInput {
 /// Fails as io::read_markers(); Code::bad_input for a file without samples where they are needed.
 [[nodiscard]] Result<MarkerInput> read_marker_input(const MarkerSource& source);
 
-/// Some markers of a recording on some of its frames, with positions, states and what is known of their
-/// filters.
-///
-/// @param from         M indices into the recorded markers
-/// @param names        M names that they get
-/// @param first_frame  of the recording; time.frames frames from there must exist
-/// @param time         clock of the result
-[[nodiscard]] data::Trajectories select_markers(const data::Trajectories& recorded,
-                                                std::span<const std::int64_t> from,
-                                                std::vector<std::string> names, std::int64_t first_frame,
-                                                const TimeBase& time);
-
 }  // namespace kinemark::pipeline

@@ -97,20 +97,5 @@ TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
   EXPECT_EQ(read_marker_input({.path = scratch_ / "notes.docx"}).error().code, Code::not_supported);
 }
 
-TEST_F(ReadMarkerInput, SelectedMarkersKeepPositionsAndStatesUnderTheirNewNames) {
-  const auto recorded = read_marker_input({.path = trc_}).value().trial.markers;
-  const std::vector<std::int64_t> from{2, 1};
-  const TimeBase time{.rate_hz = 50.0, .t0_s = 0.02, .frames = 3};
-  const auto selected = select_markers(recorded, from, {"hand", "wrist"}, 1, time);
-  EXPECT_THAT(selected.names, ElementsAre("hand", "wrist"));
-  EXPECT_EQ(selected.time, time);
-  for (std::int64_t f = 0; f < 3; ++f) {
-    EXPECT_LT((selected.x(f, 0) - recorded.x(1 + f, 2)).norm(), 1e-15);
-    EXPECT_EQ(selected.present(f, 1), f != 1) << "the gap of B in frame 2";
-  }
-  EXPECT_TRUE(selected.validate());
-  EXPECT_EQ(select_markers(recorded, {}, {}, 0, time).markers(), 0);
-}
-
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -11,7 +11,6 @@
 
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/motion/ik_estimate.h"
 #include "kinemark/pipeline/motion/ik_setup_options.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
@@ -23,76 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One sentence on the offset between recording and model when they do not coincide.
-std::string offset_sentence(const motion::IkResult& result, const IkJob& job, const model::Model& model,
-                            const data::Trajectories& markers) {
-  const auto& mean = result.fit.mean_error_m;
-  if (!mean.allFinite()) return {};  // no marker is seen, which the gate says
-  if (mean.norm() <= job.max_offset_m)
-    return fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
-  const auto offset = motion::find_common_offset(model, markers, job.options);
-  if (!offset)
-    return fmt::format(
-        "The mean of all marker errors is {:.1f} mm long. Check that recording and model share origin, axes "
-        "and "
-        "unit.",
-        1e3 * mean.norm());
-  const auto& shift = offset->shift_m;
-  return fmt::format(
-      "The measured markers lie {:.3f} m away from the model: shifted by ({:+.3f}, {:+.3f}, {:+.3f}) m they "
-      "would fit with "
-      "{:.1f} mm RMS instead of {:.1f} mm. Check that recording and model share origin, axes and unit.",
-      shift.norm(), shift.x(), shift.y(), shift.z(), 1e3 * offset->rms_after_m, 1e3 * result.fit.rms_error_m);
-}
-
 constexpr const char* kOrSetup = " or a --setup that names one";
-constexpr double kMostFramesOff = 5.0;  // %: frames that fit worse than a recording may as a whole
-
-/// Gates of single frames and samples, which the RMS of a whole recording hides.
-void add_frame_gates(report::IkRun& run, const IkJob& job, const data::JointMotion& motion) {
-  const auto M = motion.markers.size();
-  std::int64_t off = 0, seen = 0;
-  for (std::int64_t f = 0; f < motion.frames(); ++f) {
-    double squares = 0.0;
-    int count = 0;
-    for (std::size_t m = 0; m < M; ++m) {
-      const double* error = motion.marker_error.data() + 3 * (static_cast<std::size_t>(f) * M + m);
-      if (std::isnan(error[0])) continue;
-      squares += error[0] * error[0] + error[1] * error[1] + error[2] * error[2];
-      ++count;
-    }
-    off += squares > count * job.max_rms_m * job.max_rms_m;
-    seen += count > 0;
-  }
-  const auto percent = [](std::int64_t part, std::int64_t all) {
-    return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
-  };
-  internal::add_gate(
-      run, "frames_off", percent(off, seen), kMostFramesOff, "%",
-      fmt::format("In {} of {} frames the RMS distance between measured and model markers is above "
-                  "{:.1f} mm; at most {:g} % are accepted.",
-                  off, seen, 1e3 * job.max_rms_m, kMostFramesOff));
-  internal::add_left_out_gate(run, motion);
-}
-
-void add_gates(report::IkRun& run, const IkJob& job, const internal::MotionInputs& inputs,
-               const motion::IkResult& result) {
-  internal::add_marker_gates(run, job, result.fit.mean_error_m.norm(),
-                             offset_sentence(result, job, inputs.model, inputs.trial.markers),
-                             result.fit.rms_error_m);
-  std::int64_t failed = 0;
-  for (const auto status : result.motion.status) failed += status == data::FrameStatus::not_converged;
-  internal::add_frames_gate(run, "not_converged", failed, result.motion.frames(), "did not converge");
-  add_frame_gates(run, job, result.motion);
-  if (!std::isnan(result.fit.max_loop_gap_m) && result.fit.max_loop_gap_m > 0.0)
-    internal::add_gate(
-        run, "loop_gap", 1e3 * result.fit.max_loop_gap_m, 1e-3, "mm",
-        fmt::format("The widest gap of a closed loop is {:.2g} mm; at most 0.001 mm is accepted.",
-                    1e3 * result.fit.max_loop_gap_m));
-}
-
 Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInputs& inputs,
-                                   const motion::IkResult& result, const TorqueAccount& torques) {
+                                   const workflow::IkFound& found) {
   auto run = internal::begin_run(job, inputs);
   if (auto s = internal::add_input(run, "setup", job.setup); !s) return std::unexpected(s.error());
   for (const auto& part : job.setup_parts)
@@ -100,7 +32,7 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
   if (auto s = internal::add_input(run, "tasks", job.tasks); !s) return std::unexpected(s.error());
   const auto& o = job.options;
   const char* losses[] = {"square", "huber", "cauchy"};
-  run.method = job.estimator == Estimator::smoother ? "whole-trajectory smoother" : "least squares";
+  run.method = job.estimator == workflow::Estimator::smoother ? "whole-trajectory smoother" : "least squares";
   run.options.insert(
       run.options.end(),
       {{"loss", losses[static_cast<int>(o.loss)]},
@@ -112,10 +44,8 @@ Result<report::IkRun> describe_run(const IkJob& job, const internal::MotionInput
        {"coordinate tasks", std::to_string(o.coordinate_tasks.size())},
        {"starts of the first frame", std::to_string(o.starts)}});
   if (job.images.any()) run.options.emplace_back("images in place of markers", describe_images(job.images));
-  run.solve_s = result.solve_seconds;
-  internal::add_fit(run, result.fit, result.motion.time);
-  add_gates(run, job, inputs, result);
-  if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
+  run.solve_s = found.result.solve_seconds;
+  internal::add_found(run, found.result.fit, found.torques, found.remarks);
   return run;
 }
 
@@ -124,7 +54,7 @@ Status complete(IkJob& job) {
   internal::take_recording_options(job, job.options);
   if (auto s = apply_setup(job); !s) return s;
   if (auto s = internal::check_named(job, kOrSetup); !s) return s;
-  if (job.images.any() && job.estimator != Estimator::smoother)
+  if (job.images.any() && job.estimator != workflow::Estimator::smoother)
     return fail(Code::usage, "least squares cannot use images; give --estimator smoother");
   job.options.threads = job.threads;
   job.options.seed = job.seed;
@@ -150,14 +80,19 @@ struct Solved {
 };
 
 Result<Solved> solve(const IkJob& job, const internal::MotionInputs& inputs) {
-  auto estimate = estimate_motion(job, inputs.model, inputs.trial.markers,
-                                  inputs.images ? &*inputs.images : nullptr, inputs.axes);
-  if (!estimate) return std::unexpected(estimate.error());
-  Solved solved;
-  auto& result = solved.outcome.result = std::move(estimate->ik);
-  solved.markers = internal::solved_markers(inputs.trial.markers, result.fit, result.motion);
-  auto run = describe_run(job, inputs, result, estimate->torques);
+  auto found = workflow::ik(inputs.model, inputs.recording,
+                            {.ik = job.options,
+                             .estimator = job.estimator,
+                             .torques = job.torques,
+                             .bounds = job,
+                             .images = inputs.image_tracks(),
+                             .progress = job.progress});
+  if (!found) return fail_at(job.markers.string(), found.error());
+  auto run = describe_run(job, inputs, *found);
   if (!run) return std::unexpected(run.error());
+  Solved solved;
+  solved.markers = std::move(found->used);
+  auto& result = solved.outcome.result = std::move(found->result);
   run->warnings.insert(run->warnings.begin(), job.setup_notes.begin(), job.setup_notes.end());
   if (auto s = internal::judge(std::move(*run), result.motion, &solved.markers, solved.outcome); !s)
     return std::unexpected(s.error());
@@ -174,7 +109,8 @@ Result<IkOutcome> run_ik(IkJob job) {
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
   const auto& model = inputs->model;
-  if (auto s = apply_tasks(job, model, inputs->trial.markers); !s) return std::unexpected(s.error());
+  if (auto s = apply_tasks(job, model, inputs->recording.trial.markers); !s)
+    return std::unexpected(s.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
   // Solve and judge.
@@ -189,7 +125,8 @@ Result<IkOutcome> run_ik(IkJob job) {
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(job, model, outcome.summary, motion, &solved->markers, inputs->trial);
+      return internal::motion_page(job, model, outcome.summary, motion, &solved->markers,
+                                   inputs->recording.trial);
     }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());
@@ -200,7 +137,7 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
   if (auto s = complete(job); !s) return std::unexpected(s.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
-  const auto& markers = inputs->trial.markers;
+  const auto& markers = inputs->recording.trial.markers;
   if (markers.frames() * markers.markers() > most_samples)
     return fail(
         Code::not_supported,
@@ -215,11 +152,12 @@ Result<IkPage> ik_page(IkJob job, std::int64_t most_samples) {
   if (job.progress && !job.progress(motion.frames(), motion.frames()))
     return fail(Code::cancelled, "inverse kinematics was stopped");
   return IkPage{
-      .html = internal::motion_page(job, inputs->model, outcome.summary, motion, &used, inputs->trial),
+      .html =
+          internal::motion_page(job, inputs->model, outcome.summary, motion, &used, inputs->recording.trial),
       .summary = outcome.summary,
       .set = internal::name_set(motion, outcome.summary.run),
-      .edits = inputs->edits.in_force,
-      .digest = inputs->journal.file ? inputs->journal.digest : io::digest_of({})};
+      .edits = inputs->recording.edits.in_force,
+      .digest = inputs->recording.journal.file ? inputs->recording.journal.digest : io::digest_of({})};
 }
 
 }  // namespace kinemark::pipeline

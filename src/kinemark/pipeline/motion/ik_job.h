@@ -9,11 +9,9 @@
 
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/ik.h"
+#include "kinemark/workflow/motion/ik.h"
 
 namespace kinemark::pipeline {
-
-/// How coordinates are found: frame by frame, or over the whole recording at once.
-enum class Estimator : std::uint8_t { least_squares, smoother };
 
 /// What `kinemark ik` is asked to do. Paths that are empty are not used. Writes Q.mot, Q_sd.sto,
 /// Q_marker_errors.sto and Q_report.json.
@@ -26,7 +24,7 @@ struct IkJob : MotionJob {
   std::vector<std::filesystem::path> setup_parts;  ///< files that the setup is put together from; likewise
   std::filesystem::path report;                    ///< page to write as well
   motion::IkOptions options;                       ///< of the least squares
-  Estimator estimator = Estimator::least_squares;  ///< which estimator
+  workflow::Estimator estimator = workflow::Estimator::least_squares;  ///< which estimator
   bool marker_locations =
       false;             ///< also Q_marker_locations.sto; a setup's report_marker_locations implies it
   bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it

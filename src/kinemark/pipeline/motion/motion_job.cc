@@ -21,6 +21,8 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::pipeline::internal {
@@ -32,7 +34,7 @@ namespace {
 /// Images at the frames of the trial; their files go into the record.
 Status add_images(const MotionJob& job, MotionInputs& inputs) {
   if (!job.images.any()) return {};
-  auto images = read_images(job.images, inputs.trial.markers.time);
+  auto images = read_images(job.images, inputs.recording.trial.markers.time);
   if (!images) return std::unexpected(images.error());
   inputs.images = std::move(*images);
   auto file = record_input("rig", job.images.rig);
@@ -68,32 +70,34 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
   if (!model) return std::unexpected(model.error());
   RecordingOptions options = job;
   options.selection = job.selection.without_times();
-  auto markers = open_recording({.path = job.markers,
-                                 .record = true,
-                                 .turns = false,
-                                 .force = job.force,
-                                 .seed = job.seed,
-                                 .threads = job.threads},
-                                options);
-  if (!markers) return std::unexpected(markers.error());
-  auto made = workflow::note_on_upsampling(markers->trial.markers);
+  auto recording = open_recording({.path = job.markers,
+                                   .record = true,
+                                   .plates = !job.forces.empty(),
+                                   .contact_force_n = motion::DynamicsOptions{}.contact_force_n,
+                                   .forces = job.forces,
+                                   .turns = false,
+                                   .force = job.force,
+                                   .seed = job.seed,
+                                   .threads = job.threads},
+                                  options);
+  if (!recording) return std::unexpected(recording.error());
+  const auto& markers = recording->trial.markers;
+  auto made = workflow::note_on_upsampling(markers);
   if (!made) return fail_at(job.markers.string(), made.error());
-  if (!made->empty()) markers->trial.warnings.push_back(std::move(*made));
-  auto axes = workflow::bring_into_axes(job.axes, job.markers, markers->trial, model->model);
+  if (!made->empty()) recording->trial.warnings.push_back(std::move(*made));
+  const auto axes = workflow::bring_into_axes(job.axes, job.markers.string(), *recording, model->model);
   if (!axes) return std::unexpected(axes.error());
   if (job.images.any() && !axes->model_from_recording.isIdentity(0.0))
     return fail(
         Code::usage,
         "images are seen in the axes of their rig, which --up and --rotate do not turn; turn the model");
   MotionInputs inputs{.model = std::move(model->model),
-                      .trial = std::move(markers->trial),
-                      .edits = std::move(markers->edits),
-                      .journal = std::move(markers->journal),
-                      .notes = std::move(markers->notes),
-                      .axes = std::move(*axes),
+                      .recording = std::move(*recording),
                       .images = {},
-                      .files = {std::move(model->file), std::move(markers->file)}};
-  if (inputs.journal.file) inputs.files.push_back(*inputs.journal.file);
+                      .files = {std::move(model->file)}};
+  inputs.files.push_back(inputs.recording.file);
+  if (inputs.recording.journal.file) inputs.files.push_back(*inputs.recording.journal.file);
+  std::ranges::copy(inputs.recording.forces, std::back_inserter(inputs.files));
   if (auto s = add_images(job, inputs); !s) return std::unexpected(s.error());
   return inputs;
 }
@@ -108,11 +112,11 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   run.seed = job.seed;
   run.threads = job.threads;
   run.inputs = inputs.files;
-  run.options = edit_options(inputs.edits, inputs.journal);
-  run.warnings = inputs.trial.warnings;
-  if (auto note = data::note_on_noise(inputs.trial.markers); !note.empty())
+  run.options = edit_options(inputs.recording.edits, inputs.recording.journal);
+  run.warnings = inputs.recording.trial.warnings;
+  if (auto note = data::note_on_noise(inputs.recording.trial.markers); !note.empty())
     run.warnings.push_back(std::move(note));
-  run.warnings.insert(run.warnings.end(), inputs.notes.begin(), inputs.notes.end());
+  run.warnings.insert(run.warnings.end(), inputs.recording.notes.begin(), inputs.recording.notes.end());
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)
     if (coordinate.locked)
@@ -131,14 +135,6 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   return run;
 }
 
-Status add_torque_account(report::IkRun& run, const TorqueAccount& account) {
-  run.options.insert(run.options.end(), account.facts.begin(), account.facts.end());
-  run.warnings.insert(run.warnings.end(), account.warnings.begin(), account.warnings.end());
-  for (const auto& file : account.files)
-    if (auto s = add_input(run, "forces", file); !s) return s;
-  return {};
-}
-
 Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   if (path.empty()) return {};
   auto file = record_input(role, path);
@@ -147,55 +143,14 @@ Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   return {};
 }
 
-void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time) {
-  run.fit = std::move(fit);
-  std::ranges::move(run.fit.warnings, std::back_inserter(run.warnings));
-  run.fit.warnings.clear();
-  std::ranges::move(data::describe_all(run.fit.findings, time), std::back_inserter(run.warnings));
-}
-
-void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
-              std::string sentence) {
-  const bool passed = value <= bound;
-  run.gates.push_back({.name = std::move(name),
-                       .passed = passed,
-                       .value = value,
-                       .bound = bound,
-                       .unit = std::move(unit),
-                       .sentence = std::move(sentence)});
-  if (!passed) run.exit_status = 1;
-}
-
-void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std::int64_t all,
-                     std::string_view what) {
-  constexpr double kMostBad = 0.1;  // %: three frames of 100,000 do not spoil a trial, one of 100 does
-  const double percent = all > 0 ? 100.0 * static_cast<double>(bad) / static_cast<double>(all) : 0.0;
-  add_gate(run, std::move(name), percent, kMostBad, "%",
-           fmt::format("{} of {} frames {}; at most {:g} % are accepted.", bad, all, what, kMostBad));
-}
-
-void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion) {
-  constexpr double kMostOut = 5.0;  // %: more bad samples are no accident
-  if (motion.marker_state.empty()) return;
-  const auto out = std::ranges::count(motion.marker_state, data::SampleState::rejected);
-  const auto there =
-      std::ssize(motion.marker_state) - std::ranges::count(motion.marker_state, data::SampleState::missing);
-  const double percent = there > 0 ? 100.0 * static_cast<double>(out) / static_cast<double>(there) : 0.0;
-  add_gate(run, "samples_left_out", percent, kMostOut, "%",
-           fmt::format("{} of {} samples were left out; at most {:g} % are accepted.", out, there, kMostOut));
-}
-
-void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
-                      double rms_m) {
-  add_gate(run, "mean_marker_offset", 1e3 * offset_m, 1e3 * job.max_offset_m, "mm",
-           std::isfinite(offset_m) ? std::move(offset_sentence) : "No marker is seen in the time range.");
-  add_gate(
-      run, "marker_rms", 1e3 * rms_m, 1e3 * job.max_rms_m, "mm",
-      std::isfinite(rms_m)
-          ? fmt::format("The RMS distance between measured and model markers is {:.1f} mm; at most {:.1f} mm "
-                        "is accepted.",
-                        1e3 * rms_m, 1e3 * job.max_rms_m)
-          : "How far measured and model markers are apart is not known: none is seen in the time range.");
+void add_found(report::IkRun& run, const data::MarkerFit& fit, const workflow::TorqueAccount& torques,
+               const workflow::Remarks& remarks) {
+  run.fit = fit;
+  run.fit.warnings.clear();  // they are among the remarks
+  std::ranges::copy(torques.facts, std::back_inserter(run.options));
+  std::ranges::copy(remarks.warnings, std::back_inserter(run.warnings));
+  run.gates = remarks.gates;
+  run.exit_status = remarks.passed() ? 0 : 1;
 }
 
 Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suffixes,

@@ -11,19 +11,18 @@
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/motion/image_files.h"
 #include "kinemark/stages/report/ik_summary.h"
+#include "kinemark/workflow/motion/gates.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark ik` and `track` are asked alike. Axes say how recording and forces are turned into those of
 /// the model; times of the selection take precedence over those of a setup.
-struct MotionJob : JobSettings, RecordingOptions {
+struct MotionJob : JobSettings, RecordingOptions, workflow::MarkerBounds {
   std::filesystem::path model, markers;  ///< .osim; and any marker file
   std::filesystem::path output;          ///< Q.mot; all other results go beside it
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes, for the page
   ImageFiles images;                            ///< seen besides the markers; none: nothing
-  double max_rms_m = 0.05;                      ///< quality gate: RMS distance of measured and model markers
-  double max_offset_m = 0.05;                   ///< quality gate: length of the mean distance vector
 };
 
 /// What `kinemark ik` and `track` answer alike.

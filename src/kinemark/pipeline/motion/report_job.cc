@@ -26,6 +26,7 @@
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
+#include "kinemark/workflow/motion/used_markers.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
@@ -97,8 +98,8 @@ std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointM
     std::vector<std::int64_t> from;
     for (const auto& name : motion.markers) from.push_back(recorded.find(name));
     if (std::ranges::find(from, -1) != from.end()) return std::nullopt;
-    auto states = select_markers(recorded, from, motion.markers, first, motion.time);
-    internal::exchange_as_found(run.fit, states);
+    auto states = workflow::select_markers(recorded, from, motion.markers, first, motion.time);
+    workflow::exchange_as_found(run.fit, states);
     for (const auto& left_out : run.fit.findings) {
       if (left_out.kind != data::FindingKind::outlier) continue;
       const auto marker = states.find(left_out.subject);

@@ -3,29 +3,24 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/motion/torques.h"
 #include "kinemark/workflow/prepare/axes.h"
 
 namespace kinemark::pipeline {
 
-/// Facts about the torques of a motion, for the report.
-struct TorqueAccount {
+/// Facts about the torques of a motion, and the files that they rest on.
+struct TorqueAccount : workflow::TorqueAccount {
   std::vector<std::filesystem::path> files;  ///< of forces, as read
-  std::vector<std::pair<std::string, std::string>>
-      facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
-              ///< root
-  std::vector<std::string> warnings;  ///< one sentence each
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics, with the forces of a file unless `forces` is empty.
-/// Forces in other axes than the model's: check_forces().
+/// Forces in other axes than the model's: workflow::check_forces().
 /// @param errors  of the motion's rates; null: estimated
 /// @param axes    how the recording was turned; the forces are turned alike
 [[nodiscard]] Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,

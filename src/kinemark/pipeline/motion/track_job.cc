@@ -13,8 +13,7 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
-#include "kinemark/stages/motion/control/camera_task.h"
-#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/motion/track.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -45,24 +44,15 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
 }
 
 Result<report::IkRun> describe_run(const TrackJob& job, const internal::MotionInputs& inputs,
-                                   const motion::TrackResult& result, const TorqueAccount& torques) {
+                                   const workflow::TrackFound& found) {
+  const auto& result = found.result;
   auto run = internal::begin_run(job, inputs);
   run.method = "direct marker control";
   std::ranges::move(describe_options(job, result), std::back_inserter(run.options));
   run.solve_s = result.solve_seconds;
-  internal::add_fit(run, result.fit, result.motion.time);
+  internal::add_found(run, result.fit, found.torques, found.remarks);
   run.locked_coordinates.insert(run.locked_coordinates.end(), result.locked_coordinates.begin(),
                                 result.locked_coordinates.end());
-  const double offset_m = result.fit.mean_error_m.norm();
-  internal::add_marker_gates(run, job, offset_m,
-                             fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
-                             result.fit.rms_error_m);
-  internal::add_frames_gate(run, "flagged", result.flagged_frames, result.motion.frames(),
-                            fmt::format("are flagged: goals out of reach, or a body that ran away ({} times "
-                                        "started anew)",
-                                        result.restarts));
-  internal::add_left_out_gate(run, result.motion);
-  if (auto s = internal::add_torque_account(run, torques); !s) return std::unexpected(s.error());
   return run;
 }
 
@@ -78,52 +68,6 @@ data::Table rank_table(const motion::TrackResult& result) {
                         {static_cast<double>(result.rank[i]), result.smallest_singular[i]});
   }
   return table;
-}
-
-/// Standard deviations of the torques, from inverse dynamics of the resulting motion. Where that is not
-/// possible (closed loops, few frames) they are absent, with a warning.
-void add_torque_deviations(const model::Model& model, const TrackJob& job, motion::TrackResult& result) {
-  auto motion = result.motion;
-  const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = job.options.threads});
-  if (dynamics)
-    result.motion.tau_sd = std::move(motion.tau_sd);
-  else
-    result.fit.warnings.push_back("standard deviations of torques are not known: " +
-                                  dynamics.error().message);
-}
-
-/// The images join the lowest level.
-Status add_images(const internal::MotionInputs& inputs, motion::TrackOptions& options) {
-  if (!inputs.images) return {};
-  const auto tasks = motion::camera_tasks(inputs.model, *inputs.images,
-                                          {.cutoff_hz = options.cutoff_hz, .fade_s = options.fade_s});
-  if (!tasks) return std::unexpected(tasks.error());
-  if (options.levels.empty()) options.levels.push_back({.markers = {"*"}, .tasks = {}});
-  auto& lowest = options.levels.back().tasks;
-  lowest.insert(lowest.end(), tasks->begin(), tasks->end());
-  return {};
-}
-
-/// What the controller pushes with knows nothing of the ground: with forces the torques are made anew, from
-/// the motion and the forces.
-Result<TorqueAccount> add_torques(const TrackJob& job, const internal::MotionInputs& inputs,
-                                  motion::TrackResult& result) {
-  const model::Model& model = inputs.model;
-  if (!job.forces.empty())
-    return pipeline::add_torques(model, result.motion, job.forces,
-                                 {.error_bars = job.options.error_bars, .threads = job.options.threads},
-                                 nullptr, inputs.axes);
-  if (job.options.error_bars) add_torque_deviations(model, job, result);
-  return TorqueAccount{};
-}
-
-/// The markers of the page, where each frame of the motion is one of the recording.
-std::optional<data::Trajectories> markers_of(const data::Trajectories& recorded,
-                                             const motion::TrackResult& result) {
-  const auto& motion = result.motion;
-  const auto last = result.fit.first_frame + motion.frames();
-  if (motion.time.rate_hz != recorded.time.rate_hz || last > recorded.frames()) return std::nullopt;
-  return internal::solved_markers(recorded, result.fit, motion);
 }
 
 Result<Staging> stage_files(const TrackJob& job) {
@@ -150,23 +94,20 @@ Result<TrackOutcome> run_track(TrackJob job) {
   if (!inputs) return std::unexpected(inputs.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
-  auto options = job.options;
-  if (auto s = add_images(*inputs, options); !s) return std::unexpected(s.error());
   // Solve.
-  auto result = motion::track_markers(inputs->model, inputs->trial.markers, options, job.progress);
-  if (!result) {
-    if (result.error().code == Code::usage) return std::unexpected(result.error());
-    return fail_at(job.markers.string(), result.error());
+  auto found = workflow::track(
+      inputs->model, inputs->recording,
+      {.track = job.options, .bounds = job, .images = inputs->image_tracks(), .progress = job.progress});
+  if (!found) {
+    if (found.error().code == Code::usage) return std::unexpected(found.error());
+    return fail_at(job.markers.string(), found.error());
   }
-  TrackOutcome outcome;
-  outcome.result = std::move(*result);
-  const auto torques = add_torques(job, *inputs, outcome.result);
-  if (!torques) return std::unexpected(torques.error());
   // Judge.
-  auto run = describe_run(job, *inputs, outcome.result, *torques);
+  auto run = describe_run(job, *inputs, *found);
   if (!run) return std::unexpected(run.error());
+  TrackOutcome outcome;
+  outcome.result = std::move(found->result);
   const auto& motion = outcome.result.motion;
-  const auto solved = markers_of(inputs->trial.markers, outcome.result);
   if (auto s = internal::judge(std::move(*run), motion, nullptr, outcome); !s)
     return std::unexpected(s.error());
   // Write.
@@ -174,8 +115,8 @@ Result<TrackOutcome> run_track(TrackJob job) {
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
-      return internal::motion_page(job, inputs->model, outcome.summary, motion, solved ? &*solved : nullptr,
-                                   inputs->trial);
+      return internal::motion_page(job, inputs->model, outcome.summary, motion,
+                                   found->used ? &*found->used : nullptr, inputs->recording.trial);
     }));
   if (auto s = internal::write(job, *staging, files, "direct marker control", motion, outcome); !s)
     return std::unexpected(s.error());

@@ -15,14 +15,6 @@
 
 namespace kinemark::pipeline::internal {
 
-/// The used markers on the frames that were solved, under the model's names: labels exchanged back, and
-/// without what was left out.
-[[nodiscard]] data::Trajectories solved_markers(const data::Trajectories& recorded,
-                                                const data::MarkerFit& fit, const data::JointMotion& motion);
-
-/// Exchange the samples of every two markers that carry each other's labels in the frames of these findings.
-void exchange_as_found(const data::MarkerFit& fit, data::Trajectories& markers);
-
 /// HTML with the model's bodies in space, as the meshes that its file names where they are found, and over
 /// the cycles that the recording's events mark.
 /// @param markers    on the motion's clock; nullptr: not known

@@ -15,22 +15,21 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/motion/motion_job.h"
-#include "kinemark/pipeline/motion/torques.h"
+#include "kinemark/workflow/motion/torques.h"
+#include "kinemark/workflow/remarks.h"
 
 namespace kinemark::pipeline::internal {
 
 struct MotionInputs {
   model::Model model;
-  data::Trial trial;                        ///< in the model's axes
-  data::EditsInForce edits;                 ///< what was applied to it before
-  UsedJournal journal;                      ///< whose edits these are
-  std::vector<std::string> notes;           ///< what was done to it
-  workflow::Axes axes;                      ///< how it came there
-  std::optional<data::ImageTracks> images;  ///< at the frames of the trial
+  Recording recording;                      ///< in the model's axes, with forces where the job names some
+  std::optional<data::ImageTracks> images;  ///< at the frames of the recording
   std::vector<data::InputFile> files;       ///< all that were read, for the record
+
+  [[nodiscard]] const data::ImageTracks* image_tracks() const { return images ? &*images : nullptr; }
 };
 
 /// What of a recording's options a solver has of its own: the range of time, and whether samples are judged.
@@ -51,30 +50,13 @@ void take_recording_options(const RecordingOptions& recording, Options& options)
 
 /// What is known of a run before anything is solved; its options are those of the edits.
 [[nodiscard]] report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs);
-/// Files of forces, and what there is to tell of the torques.
-[[nodiscard]] Status add_torque_account(report::IkRun& run, const TorqueAccount& account);
 /// No value when the path is empty.
 [[nodiscard]] Status add_input(report::IkRun& run, const char* role, const std::filesystem::path& path);
 
-/// The fit of the estimate; its warnings and what it found, in words, behind the warnings that are there.
-/// @param time  of the estimated motion
-void add_fit(report::IkRun& run, data::MarkerFit fit, const TimeBase& time);
-
-/// A gate on the share of `bad` frames: 0.1 %, so that a few of 100,000 do not spoil a trial.
-/// @param what  that they did, for the sentence: "did not converge"
-void add_frames_gate(report::IkRun& run, std::string name, std::int64_t bad, std::int64_t all,
-                     std::string_view what);
-
-/// A gate on the share of samples that were left out, where samples were judged: 5 %.
-void add_left_out_gate(report::IkRun& run, const data::JointMotion& motion);
-
-/// A gate that `value` passes when it is at most `bound`. One that fails ends the run with status 1.
-void add_gate(report::IkRun& run, std::string name, double value, double bound, std::string unit,
-              std::string sentence);
-/// The gates that all have: length of the mean marker error, described by `offset_sentence`, and marker RMS;
-/// NaN where no marker is seen, which is said instead.
-void add_marker_gates(report::IkRun& run, const MotionJob& job, double offset_m, std::string offset_sentence,
-                      double rms_m);
+/// What a verb found, for the record: its fit, facts of its torques, gates; its warnings behind those that
+/// are there. A gate that failed ends the run with status 1.
+void add_found(report::IkRun& run, const data::MarkerFit& fit, const workflow::TorqueAccount& torques,
+               const workflow::Remarks& remarks);
 
 /// The job's output, files beside it by their suffixes, and further ones: refused where they exist, and where
 /// they are files that the job reads.

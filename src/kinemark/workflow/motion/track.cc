@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/motion/track.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "kinemark/data/finding.h"
+#include "kinemark/stages/motion/control/camera_task.h"
+#include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/motion/used_markers.h"
+#include "kinemark/workflow/prepare/resample_forces.h"
+
+namespace kinemark::workflow {
+namespace {
+
+/// Standard deviations of the torques, from inverse dynamics of the resulting motion. Where that is not
+/// possible (closed loops, few frames) they are absent, with a warning.
+void add_torque_deviations(const model::Model& model, const TrackOptions& options,
+                           motion::TrackResult& result) {
+  auto motion = result.motion;
+  const auto dynamics = motion::inverse_dynamics(model, motion, {.threads = options.track.threads});
+  if (dynamics)
+    result.motion.tau_sd = std::move(motion.tau_sd);
+  else
+    result.fit.warnings.push_back("standard deviations of torques are not known: " +
+                                  dynamics.error().message);
+}
+
+/// The images join the lowest level.
+Status add_images(const model::Model& model, const data::ImageTracks* images, motion::TrackOptions& options) {
+  if (images == nullptr) return {};
+  const auto tasks =
+      motion::camera_tasks(model, *images, {.cutoff_hz = options.cutoff_hz, .fade_s = options.fade_s});
+  if (!tasks) return std::unexpected(tasks.error());
+  if (options.levels.empty()) options.levels.push_back({.markers = {"*"}, .tasks = {}});
+  auto& lowest = options.levels.back().tasks;
+  lowest.insert(lowest.end(), tasks->begin(), tasks->end());
+  return {};
+}
+
+Status find_torques(const model::Model& model, const data::Recording& recording, const TrackOptions& options,
+                    TrackFound& found) {
+  auto& motion = found.result.motion;
+  if (!recording.plates) {
+    if (options.track.error_bars) add_torque_deviations(model, options, found.result);
+    return {};
+  }
+  const auto forces = resample(*recording.plates, motion.time);
+  auto torques = add_torques(model, motion, &forces,
+                             {.error_bars = options.track.error_bars, .threads = options.track.threads});
+  if (!torques) return std::unexpected(torques.error());
+  found.torques = std::move(*torques);
+  return {};
+}
+
+std::optional<data::Trajectories> markers_of(const data::Trajectories& recorded,
+                                             const motion::TrackResult& result) {
+  const auto& motion = result.motion;
+  const auto last = result.fit.first_frame + motion.frames();
+  if (motion.time.rate_hz != recorded.time.rate_hz || last > recorded.frames()) return std::nullopt;
+  return solved_markers(recorded, result.fit, motion);
+}
+
+void add_gates(Gates& gates, const MarkerBounds& bounds, const motion::TrackResult& result) {
+  const double offset_m = result.fit.mean_error_m.norm();
+  add_marker_gates(gates, bounds, offset_m,
+                   fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * offset_m),
+                   result.fit.rms_error_m);
+  add_frames_gate(gates, "flagged", result.flagged_frames, result.motion.frames(),
+                  fmt::format("are flagged: goals out of reach, or a body that ran away ({} times "
+                              "started anew)",
+                              result.restarts));
+  add_left_out_gate(gates, result.motion);
+}
+
+}  // namespace
+
+Result<TrackFound> track(const model::Model& model, const data::Recording& recording,
+                         const TrackOptions& options) {
+  auto asked = options.track;
+  if (auto s = add_images(model, options.images, asked); !s) return std::unexpected(s.error());
+  const auto& markers = recording.trial.markers;
+  auto result = motion::track_markers(model, markers, asked, options.progress);
+  if (!result) return std::unexpected(result.error());
+  TrackFound found;
+  found.result = std::move(*result);
+  if (auto s = find_torques(model, recording, options, found); !s) return std::unexpected(s.error());
+  const auto& fit = found.result.fit;
+  found.used = markers_of(markers, found.result);
+  auto& warnings = found.remarks.warnings;
+  warnings = fit.warnings;
+  std::ranges::move(data::describe_all(fit.findings, found.result.motion.time), std::back_inserter(warnings));
+  std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
+  add_gates(found.remarks.gates, options.bounds, found.result);
+  return found;
+}
+
+}  // namespace kinemark::workflow
