@@ -67,7 +67,7 @@ int run_motion_measures(const CommonOptions& common, const DynamicsArguments& ar
                         const pipeline::MeasuresJob& measures) {
   pipeline::MotionMeasuresJob job;
   static_cast<pipeline::MotionFiles&>(job) = arguments.job;
-  static_cast<pipeline::MeasureChoice&>(job) = measures;
+  static_cast<workflow::MeasureChoice&>(job) = measures;
   static_cast<pipeline::GaitOutputs&>(job) = measures;
   job.select = measures.selection.select;
   job.couple = arguments.couple;

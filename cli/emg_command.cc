@@ -18,7 +18,7 @@ void add_emg(CLI::App& app, const CommonOptions& common, Run& run) {
       "walking.");
   const auto arguments = std::make_shared<MeasuresArguments>();
   auto& job = arguments->job;
-  job.of = pipeline::MeasuresOf::muscles;
+  job.of = workflow::MeasuresOf::muscles;
   command->add_option("IN", arguments->inputs, "A recording of markers, several, or a folder of them");
   add_recording_options(*command, job, pipeline::Doubtful::drop);
   add_emg_options(*command, job.emg, kOwnEmgNames);

@@ -20,7 +20,7 @@ void add_gait(CLI::App& app, const CommonOptions& common, Run& run) {
       "gait report.");
   const auto arguments = std::make_shared<MeasuresArguments>();
   auto& job = arguments->job;
-  job.of = pipeline::MeasuresOf::walking;
+  job.of = workflow::MeasuresOf::walking;
   command->add_option("IN", arguments->inputs, "A recording of markers, several, or a folder of them");
   add_recording_options(*command, job, pipeline::Doubtful::drop);
   add_forces_option(*command, job.forces);

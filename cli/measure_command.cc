@@ -20,7 +20,7 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
       "markers' own movements, or those that --region and --between name.");
   const auto arguments = std::make_shared<MeasuresArguments>();
   auto& job = arguments->job;
-  job.of = pipeline::MeasuresOf::paths;
+  job.of = workflow::MeasuresOf::paths;
   command->add_option("IN", arguments->inputs, "A recording of markers, several, or a folder of them");
   add_recording_options(*command, job, pipeline::Doubtful::drop);
   add_measures_options(*command, *arguments);

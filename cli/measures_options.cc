@@ -57,9 +57,9 @@ int run_one(const CommonOptions& common, MeasuresArguments& arguments) {
   return run_job(common, "markers", job, pipeline::run_measures,
                  [&job](const CommonOptions& options, const pipeline::MeasuresOutcome& outcome) {
                    const auto commands = pipeline::commands_for(outcome);
-                   if (job.of == pipeline::MeasuresOf::everything && !commands.empty())
+                   if (job.of == workflow::MeasuresOf::everything && !commands.empty())
                      say(options, fmt::format("This is {}.", commands));
-                   print_measures(options, outcome, job.of != pipeline::MeasuresOf::muscles);
+                   print_measures(options, outcome, job.of != workflow::MeasuresOf::muscles);
                  });
 }
 
@@ -78,7 +78,7 @@ int run_many(const CommonOptions& common, MeasuresArguments& arguments) {
   settle(common, "recordings", job);
   const auto outcome = pipeline::run_many_measures(job);
   if (!outcome) return report_error(outcome.error());
-  if (job.of == pipeline::MeasuresOf::everything)
+  if (job.of == workflow::MeasuresOf::everything)
     say(common, "This is what 'kinemark gait', 'kinemark emg' and 'kinemark measure' show of each.");
   return print_many(common, *outcome);
 }
@@ -111,7 +111,7 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
   add_interval_options(command, job);
 }
 
-void add_interval_options(CLI::App& command, pipeline::MeasureChoice& choice) {
+void add_interval_options(CLI::App& command, workflow::MeasureChoice& choice) {
   command.add_option("--refits", choice.refits, "Simulated recordings behind each interval; 0: no intervals")
       ->type_name("N")
       ->capture_default_str()

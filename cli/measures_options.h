@@ -24,7 +24,7 @@ struct MeasuresArguments {
 /// Which measures, over which spans, with which intervals; --list.
 void add_measures_options(CLI::App& command, MeasuresArguments& arguments);
 /// --refits and --level.
-void add_interval_options(CLI::App& command, pipeline::MeasureChoice& choice);
+void add_interval_options(CLI::App& command, workflow::MeasureChoice& choice);
 /// --noise of markers.
 void add_noise_option(CLI::App& command, double& noise_mm);
 /// The forces on the body from another file than the recording.

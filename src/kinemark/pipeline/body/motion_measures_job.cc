@@ -25,12 +25,13 @@
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/measures/gait_request.h"
-#include "kinemark/pipeline/measures/measure_regions.h"
 #include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/body/body_measures.h"
+#include "kinemark/workflow/measures/measure.h"
+#include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
@@ -149,7 +150,7 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionM
     return std::ranges::count(trial.events, label, &data::Event::label) > 1;
   };
   if (!std::ranges::all_of(job.between, two)) {
-    if (auto gait = measure_gait(*recording, {.refits = 0})) {
+    if (auto gait = workflow::measure_gait(*recording, {.refits = 0})) {
       const auto of_feet = pipeline::events_of(*gait, trial.markers.time);
       trial = with_events(std::move(trial), of_feet);
       out.warnings.push_back(
@@ -168,7 +169,7 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeas
   clock.markers.time = time;
   clock.events = std::move(*events);
   for (const auto& label : job.between) {
-    const auto cycles = regions_between(label, clock);
+    const auto cycles = workflow::regions_between(label, clock);
     if (!cycles) return fail_at(job.forces.string(), cycles.error());
     std::size_t outside = 0;
     for (const auto& region : *cycles) {
@@ -200,7 +201,7 @@ Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob&
                                                         MotionMeasuresOutcome& out) {
   std::vector<analysis::BodyStretch> stretches;
   for (const auto& text : job.regions) {
-    const auto region = parse_region(text, time);
+    const auto region = workflow::parse_region(text, time);
     if (!region) return std::unexpected(region.error());
     stretches.push_back(stretch_of(*region, time));
     const auto& one = stretches.back();

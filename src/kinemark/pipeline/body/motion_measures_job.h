@@ -12,15 +12,15 @@
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/measures/gait_request.h"
-#include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/motion/motion_files.h"
+#include "kinemark/workflow/measures/choice.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark dynamics MOTION --model M` is asked to measure: ids of analysis::body_definitions(),
 /// regions whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output
 /// is a .csv, .json or .nwb.
-struct MotionMeasuresJob : MotionFiles, MeasureChoice, GaitOutputs {
+struct MotionMeasuresJob : MotionFiles, workflow::MeasureChoice, GaitOutputs {
   std::vector<std::string> select;  ///< coordinates; * is any text, ? any letter; empty: all that can move
   std::vector<std::string> couple;  ///< "A,B": coordinates whose coupling is measured
   bool normalize = false;           ///< kinetics per mass, momentum over mass, speed and height

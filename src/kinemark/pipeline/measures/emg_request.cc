@@ -5,16 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <set>
+#include <memory>
+#include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/core/name_pattern.h"
-#include "kinemark/core/nearest_name.h"
-#include "kinemark/core/text.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/table_cell.h"
@@ -27,84 +23,6 @@ std::string lowered(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
-}
-
-// Volts of 1 in the unit; NaN where it is no voltage.
-double volts_of(const std::string& unit) {
-  const auto name = lowered(unit);
-  if (name == "v" || name == "volt" || name == "volts") return 1.0;
-  if (name == "mv") return 1e-3;
-  if (name == "uv" || name == "\xc2\xb5v" || name == "\xce\xbcv") return 1e-6;
-  return kNaN;
-}
-
-bool names_a_muscle(const std::string& name) {
-  constexpr std::array kParts{"quad", "ham",  "tib", "gas",  "sol",  "vas", "rec",  "bic",
-                              "tri",  "delt", "glu", "sem",  "calf", "add", "pero", "trap",
-                              "pect", "lat",  "abd", "obli", "erec", "ilio"};
-  const auto text = lowered(name);
-  return std::ranges::any_of(kParts, [&](const char* part) { return text.find(part) != std::string::npos; });
-}
-
-analysis::EmgStretch emg_stretch_of(const data::Region& region, const data::Trial& trial) {
-  const auto& time = trial.markers.time;
-  const double per_frame = trial.analog.rate_hz / time.rate_hz;
-  const auto sample = [&](std::int64_t number) {
-    return std::llround(static_cast<double>(number - time.number(0)) * per_frame);
-  };
-  analysis::EmgStretch out{.name = region.name,
-                           .first = sample(region.first_frame),
-                           .count = sample(region.last_frame + 1) - sample(region.first_frame)};
-  for (const char* side : {"Left", "Right"}) {
-    const auto at = region.name.rfind(fmt::format(" {} ", side));
-    if (at == std::string::npos) continue;
-    const auto number = region.name.substr(at + std::string_view(side).size() + 2);
-    std::int64_t cycle = 0;
-    if (std::from_chars(number.data(), number.data() + number.size(), cycle).ec != std::errc{}) continue;
-    out.context = side;
-    out.cycle = cycle - 1;
-  }
-  return out;
-}
-
-std::vector<analysis::EmgChannel> channels_of(const data::Trial& trial,
-                                              const std::vector<std::size_t>& which) {
-  std::vector<analysis::EmgChannel> out;
-  const auto& analog = trial.analog;
-  const auto k = analog.names.size();
-  for (const auto c : which) {
-    analysis::EmgChannel channel{.name = analog.names[c], .volts = Eigen::VectorXd(analog.samples)};
-    const double unit = volts_of(analog.units[c]);
-    for (std::int64_t s = 0; s < analog.samples; ++s)
-      channel.volts[s] = (std::isnan(unit) ? 1.0 : unit) * analog.values[at(s) * k + c];
-    out.push_back(std::move(channel));
-  }
-  return out;
-}
-
-// The largest envelope of each channel in another recording.
-Status put_maxima(const EmgRequest& request, std::vector<analysis::EmgChannel>& channels,
-                  const analysis::EmgOptions& options) {
-  auto input = read_marker_input({.path = request.maximum});
-  if (!input) return std::unexpected(input.error());
-  const auto& names = input->trial.analog.names;
-  for (auto& channel : channels) {
-    const auto found = std::ranges::find(names, channel.name);
-    if (found == names.end())
-      return fail(Code::bad_input, fmt::format("{}: has no analog channel '{}' for its maximum",
-                                               request.maximum, channel.name));
-    auto alone = options;
-    alone.refits = 0;
-    alone.stretches.clear();
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    const auto measured =
-        analysis::measure_emg(channels_of(input->trial, {index}), input->trial.analog.rate_hz, 0.0, alone);
-    if (!measured) return fail_at(request.maximum, measured.error());
-    channel.most_volts = measured->envelopes.front().maxCoeff();
-    if (!(channel.most_volts > 0.0))
-      return fail(Code::bad_input, fmt::format("{}: '{}' holds no signal", request.maximum, channel.name));
-  }
-  return {};
 }
 
 // "L...", "R...", or a name with left or right in it; empty: neither.
@@ -128,50 +46,15 @@ Status EmgRequest::check() const {
   return {};
 }
 
-Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial, const EmgRequest& request) {
-  const auto& names = trial.analog.names;
-  std::vector<std::size_t> out;
-  for (const auto& pattern : request.channels) {
-    bool any = false;
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      if (!matches_name_pattern(pattern, names[c])) continue;
-      any = true;
-      if (std::ranges::find(out, c) == out.end()) out.push_back(c);
-    }
-    if (any) continue;
-    const auto nearest = nearest_names(pattern, names);
-    return fail(Code::usage,
-                fmt::format("there is no analog channel '{}'{}", pattern,
-                            nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
-  }
-  if (!request.channels.empty()) return out;
-  std::set<std::size_t> of_plates;
-  for (const auto& plate : trial.force_plates)
-    for (const int c : plate.channel_idx) of_plates.insert(static_cast<std::size_t>(c));
-  const auto take = [&](const auto& is_one) {
-    for (std::size_t c = 0; c < names.size(); ++c)
-      if (!std::isnan(volts_of(trial.analog.units[c])) && !of_plates.contains(c) && is_one(names[c]))
-        out.push_back(c);
-  };
-  take([](const std::string& name) { return lowered(name).find("emg") != std::string::npos; });
-  if (out.empty()) take(names_a_muscle);
+Result<workflow::EmgChoice> emg_choice(const EmgRequest& request) {
+  workflow::EmgChoice out{
+      .channels = request.channels, .envelope = request.envelope, .to_maximum = request.maximum == "trial"};
+  if (request.maximum.empty() || out.to_maximum) return out;
+  auto input = read_marker_input({.path = request.maximum});
+  if (!input) return std::unexpected(input.error());
+  out.maximum = std::make_shared<const data::Trial>(std::move(input->trial));
+  out.maximum_name = request.maximum;
   return out;
-}
-
-Result<analysis::EmgMeasures> measure_emg_of(const data::Trial& trial, const EmgRequest& request,
-                                             const std::vector<data::Region>& regions,
-                                             analysis::EmgOptions options) {
-  const auto which = emg_channels(trial, request);
-  if (!which) return std::unexpected(which.error());
-  if (which->empty())
-    return fail(Code::bad_input, "no analog channel is known for an EMG by its name; name the channels");
-  auto channels = channels_of(trial, *which);
-  options.envelope = request.envelope;
-  options.to_maximum = request.maximum == "trial";
-  for (const auto& region : regions) options.stretches.push_back(emg_stretch_of(region, trial));
-  if (!request.maximum.empty() && !options.to_maximum)
-    if (auto s = put_maxima(request, channels, options); !s) return std::unexpected(s.error());
-  return analysis::measure_emg(channels, trial.analog.rate_hz, trial.markers.time.t0_s, options);
 }
 
 data::Table envelope_table(const data::Trial& trial, const analysis::EmgMeasures& measured, bool per_cent) {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/edit.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
 #include "kinemark/stages/analysis/gait/gait_facts.h"
+#include "kinemark/workflow/measures/emg_channels.h"
 
 namespace kinemark::pipeline {
 
@@ -21,7 +21,7 @@ namespace kinemark::pipeline {
 struct EmgRequest {
   std::vector<std::string> channels;   ///< names or patterns of analog channels; empty: found by their names
   analysis::EnvelopeOptions envelope;  ///< how they are prepared
-  std::string maximum;                 ///< "", "trial", or a .c3d whose largest envelopes are 100 %
+  std::string maximum;                 ///< "", "trial", or a recording whose largest envelopes are 100 %
   std::filesystem::path write;         ///< .sto or .csv: envelopes at the frames of the recording
   std::filesystem::path write_cycles;  ///< .csv: envelopes over the cycles of walking
 
@@ -33,21 +33,8 @@ struct EmgRequest {
   [[nodiscard]] Status check() const;
 };
 
-/// Indices of the analog channels that hold electromyograms: those of `request.channels`, else those in volts
-/// that belong to no force plate and whose names hold "EMG", else the name of a muscle (quad, ham, tib, gas,
-/// sol, vas, rec, bic, tri, del, glut, sem, calf ...). Code::usage for a name that no channel has, with the
-/// nearest ones.
-[[nodiscard]] Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
-                                                            const EmgRequest& request);
-
-/// Electromyograms of a recording, prepared and measured; stretches are those of `regions` in the numbers of
-/// its frames
-/// ("Foot Strike Left 2" is a cycle of the left), or the whole of it. Code::bad_input as
-/// analysis::measure_emg() and the reader of the file of maxima.
-[[nodiscard]] Result<analysis::EmgMeasures> measure_emg_of(const data::Trial& trial,
-                                                           const EmgRequest& request,
-                                                           const std::vector<data::Region>& regions,
-                                                           analysis::EmgOptions options);
+/// The choice of workflow::measure(): the recording of maxima is read. Fails as its reader.
+[[nodiscard]] Result<workflow::EmgChoice> emg_choice(const EmgRequest& request);
 
 /// The envelopes at the frames of the recording, in V or, to a maximum, in per cent.
 [[nodiscard]] data::Table envelope_table(const data::Trial& trial, const analysis::EmgMeasures& measured,

@@ -31,43 +31,10 @@ data::Trial muscles() {
   return trial;
 }
 
-std::vector<std::size_t> which(const data::Trial& trial, const EmgRequest& request = {}) {
-  return emg_channels(trial, request).value();
-}
-
-TEST(EmgRequest, ChannelsAreFoundByName) {
-  auto trial = muscles();
-  EXPECT_THAT(which(trial), ElementsAre(1, 2)) << "soleus";
-  trial.analog.names[3] = "my EMG 1";
-  EXPECT_THAT(which(trial), ElementsAre(3)) << "what is called EMG goes before what sounds like a muscle";
-  trial.analog.units[3] = "N";
-  EXPECT_THAT(which(trial), ElementsAre(1, 2)) << "a force is no EMG";
-  EXPECT_THAT(which(trial, {.channels = {"RSOL", "*SOL"}}), ElementsAre(2, 1));
-  EXPECT_THAT(emg_channels(trial, {.channels = {"RSQL"}}).error().message,
-              HasSubstr("no analog channel 'RSQL' (nearest: RSOL"));
-}
-
-TEST(EmgRequest, ValuesAreVoltsAndStretchesThoseOfTheFrames) {
-  const auto trial = muscles();
-  const auto out =
-      measure_emg_of(trial, {}, {{.name = "Foot Strike Left 2", .first_frame = 151, .last_frame = 200}},
-                     {.measures = {"emg_rms"}, .refits = 0})
-          .value();
-  ASSERT_EQ(out.measures.size(), 2u);
-  const auto& rms = out.measures[0];
-  EXPECT_EQ(rms.subject, "LSOL");
-  EXPECT_EQ(rms.context, "Left");
-  EXPECT_EQ(rms.cycle, 1);
-  EXPECT_NEAR(rms.start_s, 1.5, 1e-9);
-  EXPECT_NEAR(rms.end_s, 1.999, 1e-9);
-  EXPECT_GT(rms.uncorrected, 1e-4);
-  EXPECT_LT(rms.uncorrected, 1.5e-3) << "millivolts";
-}
-
 TEST(EmgRequest, EnvelopesAreWrittenAtTheFrames) {
   const auto trial = muscles();
-  const EmgRequest request{.maximum = "trial"};
-  const auto out = measure_emg_of(trial, request, {}, {.refits = 0}).value();
+  const auto choice = emg_choice({.maximum = "trial"}).value();
+  const auto out = workflow::measure_channels(trial, choice, {}, {.refits = 0}).value();
   const auto table = envelope_table(trial, out, true);
   EXPECT_TRUE(table.validate());
   EXPECT_EQ(table.rows(), 200);
@@ -94,12 +61,8 @@ TEST(EmgRequest, RefusesInOneSentence) {
   EXPECT_THAT((EmgRequest{.write = "a.txt"}.check().error().message), HasSubstr("written as .sto or .csv"));
   EXPECT_THAT((EmgRequest{.write_cycles = "a.sto"}.check().error().message), HasSubstr("written as .csv"));
   EXPECT_EQ((EmgRequest{.envelope = {.low_pass_hz = 5.0}}.check().error().code), Code::usage);
-  auto trial = muscles();
-  trial.analog.names = {"a", "b", "c", "d"};
-  EXPECT_THAT(measure_emg_of(trial, {}, {}, {}).error().message, HasSubstr("name the channels"));
-  EXPECT_EQ(
-      measure_emg_of(trial, {.channels = {"b"}, .maximum = "/nowhere.c3d"}, {}, {.refits = 0}).error().code,
-      Code::io);
+  EXPECT_EQ(emg_choice({.maximum = "/nowhere.c3d"}).error().code, Code::io);
+  EXPECT_FALSE(emg_choice({}).value().to_maximum);
 }
 
 }  // namespace

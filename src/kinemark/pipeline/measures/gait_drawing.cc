@@ -15,6 +15,7 @@
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/workflow/prepare/vertical.h"
+#include "kinemark/workflow/measures/measure.h"
 
 namespace kinemark::pipeline {
 
@@ -51,7 +52,7 @@ Status GaitDrawing::find_walking(const data::Recording& recording) {
   options->noise_sd_m = job_.noise_sd_m;
   options->seed = job_.seed;
   options->threads = job_.threads;
-  auto gait = measure_gait(recording, *options);
+  auto gait = workflow::measure_gait(recording, *options);
   if (!gait) return std::unexpected(gait.error());
   gait_ = std::move(*gait);
   return {};

@@ -46,7 +46,7 @@ class GaitDrawing {
   ///          PageFile::begin()
   static Result<GaitDrawing> begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others);
 
-  /// Find walking in the recording. Code::bad_input as measure_gait().
+  /// Find walking in the recording. Code::bad_input as workflow::measure_gait().
   [[nodiscard]] Status find_walking(const data::Recording& recording);
   /// What was found; nothing before find_walking().
   [[nodiscard]] const std::optional<analysis::Gait>& gait() const { return gait_; }

@@ -92,15 +92,6 @@ Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool draw
   return out;
 }
 
-Result<analysis::Gait> measure_gait(const data::Recording& recording, const analysis::GaitOptions& options) {
-  const auto& trial = recording.trial;
-  const auto& plates = recording.plates;
-  auto stated = options;
-  if (recording.up) stated.up = recording.up;
-  return analysis::analyze_gait(trial.markers,
-                                {.plates = plates ? &*plates : nullptr, .events = trial.events}, stated);
-}
-
 nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
   Json out;
   const auto& kind = gait.kind;

@@ -57,11 +57,6 @@ struct GaitOutputs {
 /// @param drawn  as GaitRequest::check()
 [[nodiscard]] Result<analysis::GaitOptions> gait_options(const GaitRequest& request, bool drawn = false);
 
-/// Walking in a recording: its markers as they are, its plates, its events.
-/// Code::bad_input as analysis::analyze_gait().
-[[nodiscard]] Result<analysis::Gait> measure_gait(const data::Recording& recording,
-                                                  const analysis::GaitOptions& options);
-
 /// "type" (walk, run, sprint), "direction" (forward, backward, sideways,
 /// unknown), "turning_deg", "turning", "speed" (mm/s over the ground or belt), "stride_time_s", "person"
 /// (null: one), "plates_out_of_step", "treadmill", "belt_speed" (mm/s; null over ground), "events".

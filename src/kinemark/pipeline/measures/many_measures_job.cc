@@ -21,7 +21,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/pipeline/measures/measures_asked.h"
+#include "kinemark/pipeline/measures/measure_request.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 
@@ -66,9 +66,9 @@ Status join_participants(ManyMeasuresJob& job, std::vector<std::string>& notes) 
 }
 
 // A recording that is too large for the memory, or that trips a check, is one that failed.
-Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const AskedMeasures& asked) {
+Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const workflow::MeasureOptions& options) {
   try {
-    return measure_recording(job, asked);
+    return measure_recording(job, options);
   } catch (const std::bad_alloc&) {
     return fail(Code::io, fmt::format("{}: out of memory", job.input.string()));
   } catch (const std::exception& error) {
@@ -76,10 +76,11 @@ Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const AskedMea
   }
 }
 
-std::optional<RecordingRows> run_trial(const MeasuresJob& job, AskedMeasures asked, TrialOutcome& trial) {
-  asked.path.threads = asked.gait.threads = asked.emg.threads = job.threads;
+std::optional<RecordingRows> run_trial(const MeasuresJob& job, workflow::MeasureOptions options,
+                                       TrialOutcome& trial) {
+  options.threads = job.threads;
   const auto begin = std::chrono::steady_clock::now();
-  auto measured = measure_guarded(job, asked);
+  auto measured = measure_guarded(job, options);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!measured) {
     trial.status = TrialStatus::failed;
@@ -144,8 +145,8 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
   ManyMeasuresJob job = given;
   if (auto s = check_many(job); !s) return std::unexpected(s.error());
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
-  const auto asked = asked_measures(job);
-  if (!asked) return std::unexpected(asked.error());
+  const auto options = measure_options(job);
+  if (!options) return std::unexpected(options.error());
   ManyMeasuresOutcome out;
   if (auto s = join_participants(job, out.notes); !s) return std::unexpected(s.error());
   auto list = list_recordings(job.inputs);
@@ -180,7 +181,7 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
       if (!io::needs_rate(one.input)) one.rate_hz = 0.0;
       one.threads = std::max(1, thread_count(job.threads) / at_a_time);
       one.progress = {};
-      each[i] = run_trial(one, *asked, out.trials[i]);
+      each[i] = run_trial(one, *options, out.trials[i]);
       const std::lock_guard lock(mutex);
       ++done;
       if (job.progress && !job.progress(done, std::ssize(out.trials))) stopped = true;

@@ -11,10 +11,10 @@
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_cycles.h"
-#include "kinemark/pipeline/measures/measures_asked.h"
 #include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
+#include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
 
@@ -31,6 +31,8 @@ struct MeasuredRecording {
 
 /// Read, screen, measure. Files that the job writes are looked at for what they need alone. Errors as
 /// run_measures().
-[[nodiscard]] Result<MeasuredRecording> measure_recording(const MeasuresJob& job, AskedMeasures asked);
+/// @param options  measure_options() of the job
+[[nodiscard]] Result<MeasuredRecording> measure_recording(const MeasuresJob& job,
+                                                          const workflow::MeasureOptions& options);
 
 }  // namespace kinemark::pipeline

@@ -18,8 +18,8 @@
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
+#include "kinemark/pipeline/measures/measure_request.h"
 #include "kinemark/pipeline/measures/measured_recording.h"
-#include "kinemark/pipeline/measures/measures_asked.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
@@ -157,7 +157,7 @@ Result<std::vector<ResultFile>> other_files(const MeasuresJob& job, MeasuredReco
 Result<std::unique_ptr<GaitReport>> draw_walking(const MeasuresJob& job, const Recording& recording,
                                                  const GaitNorms& norms, MeasuresOutcome& outcome) {
   if (job.figures.empty() && job.report.empty()) return nullptr;
-  if (job.of == MeasuresOf::walking && !outcome.gait)
+  if (job.of == workflow::MeasuresOf::walking && !outcome.gait)
     outcome.warnings.push_back("no gait report is drawn, as there is no walking");
   if (!outcome.gait) return nullptr;
   std::vector<SheetInput> inputs;
@@ -195,8 +195,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
-  auto asked = asked_measures(job);
-  if (!asked) return std::unexpected(asked.error());
+  const auto options = measure_options(job);
+  if (!options) return std::unexpected(options.error());
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   if (!job.participants_file.empty() && !job.participants) {
@@ -217,13 +217,13 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   others.insert(others.end(), targets.begin(), targets.end());
   auto page = PageFile::begin(job.report, job, others);
   if (!page) return std::unexpected(page.error());
-  auto measured = measure_recording(job, std::move(*asked));
+  auto measured = measure_recording(job, *options);
   if (!measured) return std::unexpected(measured.error());
   staging->add_inputs(inputs_of(measured->outcome));
   page->add_inputs(inputs_of(measured->outcome));
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
-  if (job.of == MeasuresOf::muscles) measured->outcome.gait.reset();  // walking only gave the cycles
+  if (job.of == workflow::MeasuresOf::muscles) measured->outcome.gait.reset();  // walking only gave the cycles
   const auto report = draw_walking(job, measured->recording, *norms, measured->outcome);
   if (!report) return fail_at(job.input.string(), report.error());
   if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)

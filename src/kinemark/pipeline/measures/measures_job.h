@@ -18,10 +18,10 @@
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/emg_request.h"
 #include "kinemark/pipeline/measures/gait_request.h"
-#include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/stages/analysis/path/path_noise.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
+#include "kinemark/workflow/measures/choice.h"
 
 namespace kinemark::pipeline {
 
@@ -29,13 +29,13 @@ namespace kinemark::pipeline {
 /// paths, of walking ("gait": all of these), of plates ("plates") and of EMG ("emg"), regions beside those of
 /// the journal; figures and page are of paths, too. Paths that are empty are not used. Doubtful samples are
 /// dropped unless they are to be kept.
-struct MeasuresJob : JobSettings, RecordingOptions, MeasureChoice, GaitOutputs {
+struct MeasuresJob : JobSettings, RecordingOptions, workflow::MeasureChoice, GaitOutputs {
   std::filesystem::path input;   ///< marker file
   std::filesystem::path output;  ///< .csv, .json or .nwb
   std::filesystem::path forces;  ///< read_external_forces() instead of the recording's plates; empty: these
-  MeasuresOf of = MeasuresOf::everything;            ///< measures of others are refused
-  double noise_sd_m = 0.0;                           ///< per axis; 0: found from the samples
-  EmgRequest emg;                                    ///< electromyograms
+  workflow::MeasuresOf of = workflow::MeasuresOf::everything;  ///< measures of others are refused
+  double noise_sd_m = 0.0;                                     ///< per axis; 0: found from the samples
+  EmgRequest emg;                                              ///< electromyograms
   std::filesystem::path participants_file;           ///< table to join to the rows, as read_participants()
   std::shared_ptr<const Participants> participants;  ///< the same, read; null: run_measures() reads it
 };
@@ -61,9 +61,9 @@ struct MeasuresOutcome : JobOutcome {
 /// screening rejects are not measured; nothing is written where nothing can be measured. Progress counts
 /// nothing.
 ///
-/// Code::usage as analysis::PathMeasureOptions::check(), parse_region(), parse_figure_formats() and for
-/// another ending than .csv, .json and .nwb; Code::bad_input as the readers, take_selection(),
-/// regions_between() and analysis::measure_paths(), and where no marker can be measured.
+/// Code::usage as analysis::PathMeasureOptions::check(), workflow::parse_region(), parse_figure_formats() and
+/// for another ending than .csv, .json and .nwb; Code::bad_input as the readers, take_selection(),
+/// workflow::regions_between() and analysis::measure_paths(), and where no marker can be measured.
 [[nodiscard]] Result<MeasuresOutcome> run_measures(const MeasuresJob& job);
 
 /// Code::usage for a table of measures of another ending than .csv, .json and .nwb.

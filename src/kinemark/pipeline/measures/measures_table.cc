@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/table_cell.h"
-#include "kinemark/pipeline/measures/measures_asked.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
 #include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
+#include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -78,8 +78,8 @@ std::string value_text(const data::Measure& measure) {
   return out;
 }
 
-bool is_of(const data::MeasureDefinition& what, MeasuresOf of) {
-  return of == MeasuresOf::everything || measures_of(std::string(what.id)) == of;
+bool is_of(const data::MeasureDefinition& what, workflow::MeasuresOf of) {
+  return of == workflow::MeasuresOf::everything || workflow::measures_of(std::string(what.id)) == of;
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ std::string measures_text(std::span<const data::Measure> measures) {
   return out;
 }
 
-std::string measure_list(MeasuresOf of) {
+std::string measure_list(workflow::MeasuresOf of) {
   std::string out;
   for (const auto& what : all_definitions()) {
     if (!is_of(what, of)) continue;
@@ -192,7 +192,7 @@ std::string measure_list(MeasuresOf of) {
   return out;
 }
 
-nlohmann::ordered_json measure_list_json(MeasuresOf of) {
+nlohmann::ordered_json measure_list_json(workflow::MeasuresOf of) {
   Json out = Json::array();
   for (const auto& what : all_definitions()) {
     if (!is_of(what, of)) continue;

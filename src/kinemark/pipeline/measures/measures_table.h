@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "kinemark/data/measure.h"
-#include "kinemark/pipeline/measures/measure_choice.h"
 #include "kinemark/pipeline/measures/recording_name.h"
+#include "kinemark/workflow/measures/choice.h"
 
 namespace kinemark::pipeline {
 
@@ -44,8 +44,9 @@ namespace kinemark::pipeline {
 [[nodiscard]] const data::MeasureDefinition* find_measure_definition(std::string_view id);
 
 /// What each measure is that a command is about, one line each: id, what it is, unit, formula, source.
-[[nodiscard]] std::string measure_list(MeasuresOf of = MeasuresOf::everything);
+[[nodiscard]] std::string measure_list(workflow::MeasuresOf of = workflow::MeasuresOf::everything);
 /// The same as a list of objects.
-[[nodiscard]] nlohmann::ordered_json measure_list_json(MeasuresOf of = MeasuresOf::everything);
+[[nodiscard]] nlohmann::ordered_json measure_list_json(
+    workflow::MeasuresOf of = workflow::MeasuresOf::everything);
 
 }  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/workflow/measures/regions.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 // A frame's number of "120" or "1.2s".
@@ -75,4 +75,4 @@ Result<std::vector<data::Region>> regions_between(const std::string& label, cons
                                          : fmt::format("the recording has {}", join_names(labels, 8))));
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

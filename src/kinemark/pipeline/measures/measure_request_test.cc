@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/measures/measures_asked.h"
+#include "kinemark/pipeline/measures/measure_request.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,13 +12,20 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-AskedMeasures asked_for(std::vector<std::string> measures) {
+/// What the verb makes of the job.
+Result<workflow::AskedMeasures> asked_measures(const MeasuresJob& job) {
+  const auto options = measure_options(job);
+  if (!options) return std::unexpected(options.error());
+  return workflow::asked_measures(*options);
+}
+
+workflow::AskedMeasures asked_for(std::vector<std::string> measures) {
   MeasuresJob job;
   job.measures = std::move(measures);
   return asked_measures(job).value();
 }
 
-TEST(AskedMeasures, OfNothingAreAllThatApply) {
+TEST(MeasureRequest, OfNothingAreAllThatApply) {
   const auto asked = asked_for({});
   EXPECT_TRUE(asked.paths && asked.walking);
   EXPECT_FALSE(asked.by_name);  // a recording without feet is none that lacks something
@@ -26,14 +33,14 @@ TEST(AskedMeasures, OfNothingAreAllThatApply) {
   EXPECT_THAT(asked.gait.measures, IsEmpty());
 }
 
-TEST(AskedMeasures, AreSortedIntoPathsAndWalking) {
+TEST(MeasureRequest, AreSortedIntoPathsAndWalking) {
   const auto asked = asked_for({"cadence", "path_length", "step_width", "peak_speed"});
   EXPECT_TRUE(asked.paths && asked.walking && asked.by_name);
   EXPECT_THAT(asked.path.measures, ElementsAre("path_length", "peak_speed"));
   EXPECT_THAT(asked.gait.measures, ElementsAre("cadence", "step_width"));
 }
 
-TEST(AskedMeasures, OfOneKindLeaveTheOtherAlone) {
+TEST(MeasureRequest, OfOneKindLeaveTheOtherAlone) {
   const auto path = asked_for({"path_length"});
   EXPECT_TRUE(path.paths);
   EXPECT_FALSE(path.walking || path.by_name);
@@ -42,37 +49,38 @@ TEST(AskedMeasures, OfOneKindLeaveTheOtherAlone) {
   EXPECT_TRUE(walking.walking && walking.by_name);
 }
 
-TEST(AskedMeasures, OfACommandAreThoseThatItIsAbout) {
-  const auto asked_by = [](MeasuresOf of, std::vector<std::string> measures = {}) {
+TEST(MeasureRequest, OfACommandAreThoseThatItIsAbout) {
+  const auto asked_by = [](workflow::MeasuresOf of, std::vector<std::string> measures = {}) {
     MeasuresJob job;
     job.of = of;
     job.measures = std::move(measures);
     return asked_measures(job);
   };
-  const auto paths = asked_by(MeasuresOf::paths).value(), walking = asked_by(MeasuresOf::walking).value(),
-             muscles = asked_by(MeasuresOf::muscles).value();
+  const auto paths = asked_by(workflow::MeasuresOf::paths).value(),
+             walking = asked_by(workflow::MeasuresOf::walking).value(),
+             muscles = asked_by(workflow::MeasuresOf::muscles).value();
   EXPECT_TRUE(paths.paths);
   EXPECT_FALSE(paths.walking || paths.forces || paths.muscles);
   EXPECT_TRUE(walking.walking && walking.forces);
   EXPECT_FALSE(walking.paths || walking.muscles || walking.by_name || walking.forces_by_name);
   EXPECT_TRUE(muscles.muscles && muscles.muscles_by_name);
   EXPECT_FALSE(muscles.paths || muscles.walking || muscles.forces);
-  EXPECT_TRUE(asked_by(MeasuresOf::walking, {"cadence", "plates"}).value().forces_by_name);
-  EXPECT_EQ(asked_by(MeasuresOf::paths, {"cadence"}).error().message,
+  EXPECT_TRUE(asked_by(workflow::MeasuresOf::walking, {"cadence", "plates"}).value().forces_by_name);
+  EXPECT_EQ(asked_by(workflow::MeasuresOf::paths, {"cadence"}).error().message,
             "cadence is no measure of 'kinemark measure'; 'kinemark gait' measures it");
-  EXPECT_EQ(asked_by(MeasuresOf::walking, {"emg"}).error().message,
+  EXPECT_EQ(asked_by(workflow::MeasuresOf::walking, {"emg"}).error().message,
             "emg is no measure of 'kinemark gait'; 'kinemark emg' measures it");
-  EXPECT_EQ(asked_by(MeasuresOf::muscles, {"path_length"}).error().message,
+  EXPECT_EQ(asked_by(workflow::MeasuresOf::muscles, {"path_length"}).error().message,
             "path_length is no measure of 'kinemark emg'; 'kinemark measure' measures it");
-  EXPECT_EQ(asked_by(MeasuresOf::paths, {"nothing"}).error().code, Code::usage);
+  EXPECT_EQ(asked_by(workflow::MeasuresOf::paths, {"nothing"}).error().code, Code::usage);
   MeasuresJob own;
   own.gait.events = "movement";
   EXPECT_TRUE(asked_measures(own));
-  own.of = MeasuresOf::walking;
+  own.of = workflow::MeasuresOf::walking;
   EXPECT_EQ(asked_measures(own).error().code, Code::usage);
 }
 
-TEST(AskedMeasures, AllOfWalkingIsMoreThanOneOfIt) {
+TEST(MeasureRequest, AllOfWalkingIsMoreThanOneOfIt) {
   for (const auto& measures : {std::vector<std::string>{"gait"}, {"gait", "cadence"}, {"cadence", "gait"}}) {
     const auto asked = asked_for(measures);
     EXPECT_TRUE(asked.walking && asked.by_name);
@@ -81,7 +89,7 @@ TEST(AskedMeasures, AllOfWalkingIsMoreThanOneOfIt) {
   }
 }
 
-TEST(AskedMeasures, EventsThatAreToBeWrittenLookForWalkingFirst) {
+TEST(MeasureRequest, EventsThatAreToBeWrittenLookForWalkingFirst) {
   MeasuresJob job;
   job.measures = {"path_length"};
   job.gait.write_events = "events.csv";
@@ -98,7 +106,7 @@ TEST(AskedMeasures, EventsThatAreToBeWrittenLookForWalkingFirst) {
   EXPECT_FALSE(asked->walking);
 }
 
-TEST(AskedMeasures, MeasuresOfRepetitionsAreOfPaths) {
+TEST(MeasureRequest, MeasuresOfRepetitionsAreOfPaths) {
   MeasuresJob job;
   job.measures = {"cycle_duration"};
   const auto asked = asked_measures(job);
@@ -108,7 +116,7 @@ TEST(AskedMeasures, MeasuresOfRepetitionsAreOfPaths) {
   EXPECT_THAT(asked->path.measures, ::testing::ElementsAre("cycle_duration"));
 }
 
-TEST(AskedMeasures, BothKindsHaveTheIntervalsOfTheJob) {
+TEST(MeasureRequest, BothKindsHaveTheIntervalsOfTheJob) {
   MeasuresJob job;
   job.refits = 199, job.noise_sd_m = 0.002, job.level = 0.9, job.seed = 17, job.threads = 3;
   const auto asked = asked_measures(job).value();
@@ -126,7 +134,7 @@ TEST(AskedMeasures, BothKindsHaveTheIntervalsOfTheJob) {
   EXPECT_TRUE(asked_measures(job)->path.curves);
 }
 
-TEST(AskedMeasures, PlatesAndMuscles) {
+TEST(MeasureRequest, PlatesAndMuscles) {
   MeasuresJob job;
   EXPECT_TRUE(asked_measures(job)->forces && asked_measures(job)->muscles) << "where there are any";
   EXPECT_FALSE(asked_measures(job)->forces_by_name || asked_measures(job)->muscles_by_name);
@@ -146,7 +154,7 @@ TEST(AskedMeasures, PlatesAndMuscles) {
               ::testing::HasSubstr("is measured of a motion, not of markers"));
 }
 
-TEST(AskedMeasures, RefuseWhatIsNone) {
+TEST(MeasureRequest, RefuseWhatIsNone) {
   MeasuresJob job;
   job.measures = {"path_length", "cadense"};
   const auto unknown = asked_measures(job);

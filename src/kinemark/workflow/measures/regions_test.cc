@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/measures/measure_regions.h"
+#include "kinemark/workflow/measures/regions.h"
 
 #include <gtest/gtest.h>
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 const TimeBase kTime{.rate_hz = 100.0, .t0_s = 0.4, .frames = 400, .first_number = 41};
@@ -65,4 +65,4 @@ TEST_F(RegionsBetween, TwoEventsInOneFrameAreOne) {
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

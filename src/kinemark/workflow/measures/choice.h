@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 
 /// What of a recording is measured: all that it holds, or what one command is about.
 enum class MeasuresOf : std::uint8_t {
@@ -26,4 +26,4 @@ struct MeasureChoice {
   double level = 0.95;                ///< of the intervals
 };
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/measures/asked.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "kinemark/stages/analysis/gait/spatiotemporal.h"
+#include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/path_rhythm.h"
+
+namespace kinemark::workflow {
+namespace {
+
+bool is_path_measure(const std::string& id) {
+  return std::ranges::any_of(analysis::path_definitions(), [&](const auto& d) { return d.what.id == id; }) ||
+         analysis::find_rhythm_definition(id) != nullptr;
+}
+
+Status check_kinds(const MeasureOptions& options) {
+  for (const auto& id : options.measures) {
+    const auto kind = measures_of(id);
+    if (!kind) return fail(Code::usage, fmt::format("there is no measure '{}' of a recording", id));
+    if (options.of != MeasuresOf::everything && options.of != *kind)
+      return fail(Code::usage, fmt::format("{} is measured of something else than what is asked for", id));
+  }
+  return {};
+}
+
+/// Each measure goes to the stage that takes it; a word for all of a kind stands for none of its own.
+void sort_measures(const MeasureOptions& options, AskedMeasures& out) {
+  bool all_of_walking = false, all_of_plates = false, all_of_emg = false;
+  for (const auto& id : options.measures) {
+    if (id == "gait")
+      all_of_walking = true;
+    else if (id == "plates")
+      all_of_plates = true;
+    else if (id == "emg")
+      all_of_emg = true;
+    else if (analysis::find_force_definition(id) != nullptr)
+      out.plates.measures.push_back(id);
+    else if (analysis::find_emg_definition(id) != nullptr)
+      out.emg.measures.push_back(id);
+    else if (analysis::find_gait_definition(id) != nullptr)
+      out.gait.measures.push_back(id);
+    else
+      out.path.measures.push_back(id);
+  }
+  out.by_name = all_of_walking || !out.gait.measures.empty();
+  out.forces_by_name = all_of_plates || !out.plates.measures.empty();
+  out.muscles_by_name = all_of_emg || !out.emg.measures.empty();
+  if (all_of_walking) out.gait.measures.clear();
+  if (all_of_plates) out.plates.measures.clear();
+  if (all_of_emg) out.emg.measures.clear();
+}
+
+void spread_intervals(const MeasureOptions& options, AskedMeasures& out) {
+  const auto put = [&options](auto& stage) {
+    stage.refits = options.refits;
+    stage.level = options.level;
+    stage.seed = options.seed;
+  };
+  put(out.path), put(out.gait), put(out.plates), put(out.emg);
+  out.path.noise_sd_m = out.gait.noise_sd_m = options.noise_sd_m;
+  out.path.threads = out.gait.threads = out.emg.threads = options.threads;
+}
+
+}  // namespace
+
+std::optional<MeasuresOf> measures_of(const std::string& id) {
+  if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;
+  if (id == "gait" || id == "plates" || analysis::find_force_definition(id) != nullptr ||
+      analysis::find_gait_definition(id) != nullptr)
+    return MeasuresOf::walking;
+  if (is_path_measure(id)) return MeasuresOf::paths;
+  return std::nullopt;
+}
+
+Result<AskedMeasures> asked_measures(const MeasureOptions& options) {
+  if (auto s = options.emg.envelope.check(); !s) return std::unexpected(s.error());
+  if (auto s = check_kinds(options); !s) return std::unexpected(s.error());
+  AskedMeasures out{.path = {.curves = options.curves, .keep_outliers = options.keep_doubtful},
+                    .gait = options.gait};
+  sort_measures(options, out);
+  const auto& needs = options.needs;
+  const auto by_itself = [&options](MeasuresOf kind) {
+    return options.measures.empty() && (options.of == MeasuresOf::everything || options.of == kind);
+  };
+  out.by_name = out.by_name || needs.walking || needs.strides;
+  out.paths = by_itself(MeasuresOf::paths) || !out.path.measures.empty();
+  out.walking = (out.by_name || by_itself(MeasuresOf::walking) || needs.events) && !needs.own_movements &&
+                options.of != MeasuresOf::paths;
+  out.forces = out.forces_by_name || by_itself(MeasuresOf::walking);
+  out.muscles_by_name =
+      out.muscles_by_name || needs.emg || (options.of == MeasuresOf::muscles && options.measures.empty());
+  out.muscles = out.muscles_by_name || by_itself(MeasuresOf::muscles);
+  spread_intervals(options, out);
+  if (auto s = out.path.check(); !s) return std::unexpected(s.error());
+  return out;
+}
+
+}  // namespace kinemark::workflow

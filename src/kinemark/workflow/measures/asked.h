@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What is asked of the measures of a recording, and which of it is of paths, of walking, of plates, of
+// muscles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/stages/analysis/emg/emg_measures.h"
+#include "kinemark/stages/analysis/forces/force_measures.h"
+#include "kinemark/stages/analysis/gait/gait.h"
+#include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/workflow/measures/choice.h"
+#include "kinemark/workflow/measures/emg_channels.h"
+
+namespace kinemark::workflow {
+
+/// What has to be found besides measures. Each makes the verb look for it, even where no measure needs it.
+struct MeasureNeeds {
+  bool events = false;  ///< events and cycles: of walking, where there is none of the markers' movements
+  bool own_movements =
+      false;               ///< events and cycles are those of the markers' movements, even where feet step
+  bool walking = false;    ///< walking is asked for by name: what it lacks is said
+  bool strides = false;    ///< cycles of walking are needed: without them the verb fails
+  bool emg = false;        ///< electromyograms are asked for by name
+  bool envelopes = false;  ///< envelopes are needed: without them the verb fails
+};
+
+/// What is asked of measure(), gait() and emg().
+struct MeasureOptions : MeasureChoice {
+  MeasuresOf of = MeasuresOf::everything;  ///< measures of others are not taken
+  analysis::GaitOptions gait = {};  ///< whose events, which markers are feet; the rest of it is filled in
+  EmgChoice emg = {};               ///< which channels
+  double noise_sd_m = 0.0;          ///< of positions, per axis; 0: found from the samples
+  std::uint64_t seed = 1;           ///< of refits
+  int threads = 1;                  ///< 0: all cores. Any number gives the same bits.
+  bool keep_doubtful = false;       ///< samples that screening rejects are measured too
+  bool curves = false;              ///< curves of paths for figures
+  MeasureNeeds needs = {};          ///< what else has to be found
+};
+
+/// The options, sorted by the stage that measures.
+struct AskedMeasures {
+  analysis::PathMeasureOptions path;     ///< without regions
+  analysis::GaitOptions gait;            ///< without regions
+  analysis::ForceMeasureOptions plates;  ///< without regions and events
+  analysis::EmgOptions emg;              ///< without stretches
+  bool paths = true;                     ///< whether paths are measured
+  bool walking = true;                   ///< whether walking is measured, where there is any
+  bool by_name = false;                  ///< walking is asked for: what it lacks has to be said
+  bool forces = true;                    ///< whether plates are measured, where there are any
+  bool forces_by_name = false;           ///< plates are asked for
+  bool muscles = true;                   ///< whether EMG are measured, where there are any
+  bool muscles_by_name = false;          ///< EMG are asked for
+
+  /// Whether forces of plates have a use.
+  [[nodiscard]] bool uses_forces() const { return walking || forces; }
+};
+
+/// What a measure is of, by its id or the word for all of a kind ("gait", "plates", "emg"); nothing for one
+/// that is of a motion or does not exist.
+[[nodiscard]] std::optional<MeasuresOf> measures_of(const std::string& id);
+
+/// Code::usage for a measure that does not exist or is not of `options.of`, and as
+/// analysis::PathMeasureOptions::check() and analysis::EnvelopeOptions::check().
+[[nodiscard]] Result<AskedMeasures> asked_measures(const MeasureOptions& options);
+
+}  // namespace kinemark::workflow

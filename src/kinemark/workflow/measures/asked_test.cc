@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/measures/asked.h"
+
+#include <gmock/gmock.h>
+
+namespace kinemark::workflow {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+AskedMeasures asked_for(MeasuresOf of, std::vector<std::string> measures = {}, MeasureNeeds needs = {}) {
+  MeasureOptions options;
+  options.of = of;
+  options.measures = std::move(measures);
+  options.needs = needs;
+  return asked_measures(options).value();
+}
+
+TEST(AskedMeasures, GoToTheStageThatTakesThem) {
+  const auto asked = asked_for(MeasuresOf::everything, {"cadence", "path_length", "grf_peak", "emg_rms"});
+  EXPECT_THAT(asked.gait.measures, ElementsAre("cadence"));
+  EXPECT_THAT(asked.path.measures, ElementsAre("path_length"));
+  EXPECT_THAT(asked.plates.measures, ElementsAre("grf_peak"));
+  EXPECT_THAT(asked.emg.measures, ElementsAre("emg_rms"));
+  EXPECT_TRUE(asked.paths && asked.by_name && asked.forces_by_name && asked.muscles_by_name);
+  EXPECT_THAT(asked_for(MeasuresOf::everything, {"gait", "cadence"}).gait.measures, IsEmpty()) << "all of it";
+}
+
+TEST(AskedMeasures, WithoutNamesAreThoseOfTheVerb) {
+  const auto paths = asked_for(MeasuresOf::paths);
+  EXPECT_TRUE(paths.paths);
+  EXPECT_FALSE(paths.walking || paths.muscles || paths.uses_forces());
+  const auto walking = asked_for(MeasuresOf::walking);
+  EXPECT_TRUE(walking.walking && walking.uses_forces());
+  EXPECT_FALSE(walking.paths || walking.by_name);
+  const auto all = asked_for(MeasuresOf::everything);
+  EXPECT_TRUE(all.paths && all.walking && all.muscles && all.forces);
+  EXPECT_FALSE(all.by_name || all.muscles_by_name);
+}
+
+TEST(AskedMeasures, WhatIsNeededIsLookedFor) {
+  EXPECT_FALSE(asked_for(MeasuresOf::everything, {"path_length"}).walking);
+  EXPECT_TRUE(asked_for(MeasuresOf::everything, {"path_length"}, {.events = true}).walking);
+  EXPECT_FALSE(asked_for(MeasuresOf::everything, {}, {.events = true, .own_movements = true}).walking);
+  EXPECT_TRUE(asked_for(MeasuresOf::muscles, {}, {.strides = true}).by_name);
+  EXPECT_FALSE(asked_for(MeasuresOf::paths, {}, {.events = true}).walking) << "paths have their own";
+}
+
+TEST(AskedMeasures, RefuseWhatIsNoneOrOfAnotherVerb) {
+  MeasureOptions options;
+  options.of = MeasuresOf::paths;
+  for (const char* id : {"nothing", "cadence", "joint_range"}) {
+    options.measures = {id};
+    EXPECT_EQ(asked_measures(options).error().code, Code::usage) << id;
+  }
+  options.measures = {"path_length"};
+  EXPECT_TRUE(asked_measures(options));
+  options.refits = 12;
+  EXPECT_EQ(asked_measures(options).error().code, Code::usage);
+}
+
+}  // namespace
+}  // namespace kinemark::workflow

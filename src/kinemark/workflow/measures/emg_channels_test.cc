@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/measures/emg_channels.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::workflow {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Two seconds of four channels at ten samples a frame: a plate's, two of muscles in mV, a switch.
+data::Trial muscles() {
+  data::Trial trial;
+  trial.markers.time = {.rate_hz = 100.0, .t0_s = 1.0, .frames = 200, .first_number = 101};
+  auto& analog = trial.analog;
+  analog.names = {"Fz1", "LSOL", "RSOL", "Switch"};
+  analog.units = {"V", "mV", "mV", "V"};
+  analog.rate_hz = 1000.0;
+  analog.samples = 2000;
+  Random random(1, 0);
+  for (int s = 0; s < 2000; ++s)
+    for (int c = 0; c < 4; ++c) analog.values.push_back(random.gaussian());
+  trial.force_plates.push_back({.type = 1, .channel_idx = {0}});
+  return trial;
+}
+
+TEST(EmgChannels, ChannelsAreFoundByName) {
+  auto trial = muscles();
+  EXPECT_THAT(emg_channels(trial).value(), ElementsAre(1, 2)) << "soleus";
+  trial.analog.names[3] = "my EMG 1";
+  EXPECT_THAT(emg_channels(trial).value(), ElementsAre(3))
+      << "what is called EMG goes before what sounds like a muscle";
+  trial.analog.units[3] = "N";
+  EXPECT_THAT(emg_channels(trial).value(), ElementsAre(1, 2)) << "a force is no EMG";
+  EXPECT_THAT(emg_channels(trial, {"RSOL", "*SOL"}).value(), ElementsAre(2, 1));
+  EXPECT_THAT(emg_channels(trial, {"RSQL"}).error().message,
+              HasSubstr("no analog channel 'RSQL' (nearest: RSOL"));
+}
+
+TEST(EmgChannels, ValuesAreVoltsAndSpansThoseOfTheFrames) {
+  const auto trial = muscles();
+  const auto out =
+      measure_channels(trial, {}, {{.name = "Foot Strike Left 2", .first_frame = 151, .last_frame = 200}},
+                       {.measures = {"emg_rms"}, .refits = 0})
+          .value();
+  ASSERT_EQ(out.measures.size(), 2u);
+  const auto& rms = out.measures[0];
+  EXPECT_EQ(rms.subject, "LSOL");
+  EXPECT_EQ(rms.context, "Left");
+  EXPECT_EQ(rms.cycle, 1);
+  EXPECT_NEAR(rms.start_s, 1.5, 1e-9);
+  EXPECT_NEAR(rms.end_s, 1.999, 1e-9);
+  EXPECT_GT(rms.uncorrected, 1e-4);
+  EXPECT_LT(rms.uncorrected, 1.5e-3) << "millivolts";
+}
+
+TEST(EmgChannels, MaximaAreThoseOfTheRecordingItselfOrOfAnother) {
+  const auto trial = muscles();
+  const auto most = [&](const EmgChoice& choice) {
+    return measure_channels(trial, choice, {}, {.refits = 0}).value().envelopes[0].maxCoeff();
+  };
+  EXPECT_NEAR(most({.to_maximum = true}), 1.0, 1e-12);
+  auto strong = std::make_shared<data::Trial>(trial);
+  for (auto& value : strong->analog.values) value *= 2.0;
+  EXPECT_NEAR(most({.maximum = strong}), 0.5, 1e-9);
+  strong->analog.names[1] = "other";
+  EXPECT_THAT(measure_channels(trial, {.maximum = strong, .maximum_name = "max.c3d"}, {}, {.refits = 0})
+                  .error()
+                  .message,
+              HasSubstr("max.c3d: has no analog channel 'LSOL' for its maximum"));
+  strong->analog.names[1] = "LSOL";
+  std::fill(strong->analog.values.begin(), strong->analog.values.end(), 0.0);
+  EXPECT_FALSE(measure_channels(trial, {.maximum = strong}, {}, {.refits = 0}));
+}
+
+TEST(EmgChannels, WithoutANameThatIsOfAMuscleNothingIsMeasured) {
+  auto trial = muscles();
+  trial.analog.names = {"a", "b", "c", "d"};
+  EXPECT_THAT(measure_channels(trial, {}, {}, {}).error().message, HasSubstr("name the channels"));
+}
+
+}  // namespace
+}  // namespace kinemark::workflow

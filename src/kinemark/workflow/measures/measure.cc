@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/measures/measure.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/workflow/measures/regions.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+
+namespace kinemark::workflow {
+namespace {
+
+/// Regions of the edits, those that the options name, and spans between events.
+Result<std::vector<data::Region>> regions_of(const MeasureOptions& options,
+                                             const data::Recording& recording) {
+  const auto& trial = recording.trial;
+  auto regions = recording.edits.regions;
+  for (const auto& text : options.regions) {
+    auto region = parse_region(text, trial.markers.time);
+    if (!region) return std::unexpected(region.error());
+    regions.push_back(std::move(*region));
+  }
+  for (const auto& label : options.between) {
+    auto cycles = regions_between(label, trial);
+    if (!cycles) return std::unexpected(cycles.error());
+    std::ranges::move(*cycles, std::back_inserter(regions));
+  }
+  if (auto s = analysis::check_regions(trial.markers.time, regions); !s) return std::unexpected(s.error());
+  return regions;
+}
+
+// Steps and standing on plates.
+Status measure_plates(const AskedMeasures& asked, const data::Recording& recording, Measured& found) {
+  const auto& plates = recording.plates;
+  if (!plates) return fail(Code::bad_input, "there are no force plates whose forces can be read");
+  auto of_plates = asked.plates;
+  of_plates.regions = asked.path.regions;
+  if (found.gait) of_plates.events = found.gait->events;
+  auto measured = analysis::measure_forces(*plates, of_plates);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::move(measured->measures, std::back_inserter(found.measures));
+  std::ranges::move(measured->notes, std::back_inserter(found.remarks.warnings));
+  return {};
+}
+
+// Electromyograms, where channels are named or known by their names.
+Status measure_muscles(const MeasureOptions& options, const AskedMeasures& asked, const data::Trial& trial,
+                       Measured& found) {
+  auto measured = measure_channels(trial, options.emg, asked.path.regions, asked.emg);
+  if (!measured) return std::unexpected(measured.error());
+  std::ranges::copy(measured->measures, std::back_inserter(found.measures));
+  std::ranges::copy(measured->notes, std::back_inserter(found.remarks.warnings));
+  found.emg = std::move(*measured);
+  return {};
+}
+
+// A failure of what was asked for by name ends the verb where nothing else is measured, and is a remark else;
+// what was not asked for is simply not there.
+Status take_failure(const Status& status, const char* what, bool by_name, bool needed, Measured& found) {
+  if (status || !by_name) return {};
+  if (needed || status.error().code == Code::usage) return status;
+  found.remarks.warnings.push_back(fmt::format("{} are not measured: {}", what, status.error().message));
+  return {};
+}
+
+// The first sentence on why there is no measure.
+std::string why_nothing(const analysis::PathMeasures& measured) {
+  if (!measured.warnings.empty()) return measured.warnings.front();
+  if (!measured.rhythms.empty())
+    return fmt::format("{}: {}", measured.rhythms.front().subject, measured.rhythms.front().verdict);
+  return "no measure applies";
+}
+
+// Why walking is not measured.
+struct NoWalking {
+  Status ends_all;             ///< a failure that ends it
+  Status ends_without_plates;  ///< one that does so only where plates show nothing either
+};
+
+NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& asked,
+                          const data::Recording& recording, Measured& found) {
+  const auto& needs = options.needs;
+  const bool events_needed = needs.events || needs.strides;
+  auto gait = measure_gait(recording, asked.gait);
+  if (gait) {
+    std::ranges::copy(gait->notes, std::back_inserter(found.remarks.warnings));
+    if (options.of != MeasuresOf::muscles) found.measures = gait->measures;
+    found.gait = std::move(*gait);
+    return {};
+  }
+  auto failure = std::unexpected(gait.error());
+  const bool alone = options.of == MeasuresOf::walking;
+  if (asked.by_name && (!asked.paths || events_needed || gait.error().code == Code::usage))
+    return {.ends_all = failure};
+  if (alone && events_needed) return {.ends_all = failure};
+  if (alone && options.measures.empty()) return {.ends_without_plates = failure};
+  if (asked.by_name || recording.up)  // who states which way is up hears what came of it
+    found.remarks.warnings.push_back("Walking is not measured: " + gait.error().message);
+  else if (needs.events)
+    found.remarks.warnings.push_back(
+        "events and cycles are those of the markers' own movements, as there is no walking: " +
+        gait.error().message);
+  return {};
+}
+
+// Walking, plates, EMG, then paths; what fails is reported where something else is measured.
+Status measure_all(const MeasureOptions& options, const AskedMeasures& asked,
+                   const data::Recording& recording, Measured& found) {
+  const auto& trial = recording.trial;
+  NoWalking walking;
+  if (asked.walking) walking = measure_walking(options, asked, recording, found);
+  if (!walking.ends_all) return walking.ends_all;
+  const bool others = asked.paths || asked.by_name;
+  const Status plates = asked.forces ? measure_plates(asked, recording, found) : Status();
+  if (auto s = take_failure(plates, "Force plates", asked.forces_by_name, !others && !asked.muscles_by_name,
+                            found);
+      !s)
+    return s;
+  if (const auto& late = walking.ends_without_plates; !late) {
+    if (found.measures.empty() && !plates && recording.plates)
+      return fail(late.error().code, late.error().message + "; " + plates.error().message);
+    if (found.measures.empty()) return late;
+    found.remarks.warnings.push_back("Walking is not measured: " + late.error().message);
+  }
+  if (asked.muscles)
+    if (auto s = take_failure(measure_muscles(options, asked, trial, found), "EMG", asked.muscles_by_name,
+                              (!others && found.measures.empty()) || options.needs.envelopes, found);
+        !s)
+      return s;
+  // Where no foot steps, or nobody asks whether one does, events and cycles are those of the markers' own
+  // movements.
+  const bool own = (options.needs.events || options.needs.own_movements) && !found.gait;
+  if (!asked.paths && !own) return {};
+  auto of_paths = asked.path;
+  of_paths.rhythms = own;
+  if (!asked.paths)
+    for (const auto& definition : analysis::rhythm_definitions())
+      of_paths.measures.emplace_back(definition.id);
+  auto measured = analysis::measure_paths(trial.markers, of_paths);
+  if (!measured) return std::unexpected(measured.error());
+  if (measured->measures.empty() && found.measures.empty())
+    return fail(Code::bad_input, fmt::format("nothing can be measured: {}", why_nothing(*measured)));
+  found.curves = std::move(measured->curves);
+  found.rhythms = std::move(measured->rhythms);
+  found.noises = std::move(measured->noises);
+  std::ranges::move(measured->measures, std::back_inserter(found.measures));
+  std::ranges::move(measured->warnings, std::back_inserter(found.remarks.warnings));
+  return {};
+}
+
+Result<Measured> measure_as(MeasuresOf of, data::Recording recording, MeasureOptions options) {
+  options.of = of;
+  return measure_recording(std::move(recording), options);
+}
+
+}  // namespace
+
+Result<analysis::Gait> measure_gait(const data::Recording& recording, const analysis::GaitOptions& options) {
+  auto stated = options;
+  if (recording.up) stated.up = recording.up;
+  return analysis::analyze_gait(
+      recording.trial.markers,
+      {.plates = recording.plates ? &*recording.plates : nullptr, .events = recording.trial.events}, stated);
+}
+
+Result<Measured> measure_recording(data::Recording recording, const MeasureOptions& options) {
+  auto asked = asked_measures(options);
+  if (!asked) return std::unexpected(asked.error());
+  Measured found;
+  found.recording = std::move(recording);
+  if (auto s = leave_out_defects(found.recording.trial, options.keep_doubtful, found.recording.edits.swapped,
+                                 found.remarks.warnings);
+      !s)
+    return std::unexpected(s.error());
+  auto regions = regions_of(options, found.recording);
+  if (!regions) return std::unexpected(regions.error());
+  asked->path.regions = asked->gait.regions = std::move(*regions);
+  if (auto s = measure_all(options, *asked, found.recording, found); !s) return std::unexpected(s.error());
+  return found;
+}
+
+Result<Measured> measure(data::Recording recording, const MeasureOptions& options) {
+  return measure_as(MeasuresOf::paths, std::move(recording), options);
+}
+
+Result<Measured> gait(data::Recording recording, const MeasureOptions& options) {
+  return measure_as(MeasuresOf::walking, std::move(recording), options);
+}
+
+Result<Measured> emg(data::Recording recording, const MeasureOptions& options) {
+  return measure_as(MeasuresOf::muscles, std::move(recording), options);
+}
+
+}  // namespace kinemark::workflow

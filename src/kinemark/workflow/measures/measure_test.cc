@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/measures/measure.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kinemark/core/random.h"
+
+namespace kinemark::workflow {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Four seconds of a hand on a circle of 0.2 m, once a second, under noise of 0.3 mm.
+data::Recording circle() {
+  auto markers = data::Trajectories::all_missing({"hand"}, {.rate_hz = 100.0, .frames = 400});
+  Random random(7, 0);
+  for (std::int64_t f = 0; f < markers.frames(); ++f) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(f) / 100.0;
+    markers.x(f, 0) = Eigen::Vector3d(0.2 * std::cos(turn), 0.2 * std::sin(turn), 1.0);
+    for (int axis = 0; axis < 3; ++axis) markers.x(f, 0)[axis] += 3e-4 * random.gaussian();
+    markers.state[markers.index(f, 0)] = data::SampleState::measured;
+  }
+  return {.trial = {.markers = std::move(markers)}};
+}
+
+const data::Measure* find(const Measured& found, const std::string& id) {
+  const auto one = std::ranges::find(found.measures, id, &data::Measure::id);
+  return one == found.measures.end() ? nullptr : &*one;
+}
+
+TEST(Measure, APathInMemoryHasItsMeasuresWithIntervals) {
+  const auto recording = circle();
+  MeasureOptions options;
+  options.measures = {"path_length"};
+  const auto found = measure(recording, options).value();
+  const auto* length = find(found, "path_length");
+  ASSERT_NE(length, nullptr);
+  const double truth = 2.0 * std::numbers::pi * 0.2 * (length->end_s - length->start_s);
+  EXPECT_NEAR(length->value, truth, 0.003 * truth);
+  EXPECT_LT(length->interval.low, length->interval.high);
+  EXPECT_EQ(found.noises.size(), 1U);
+  EXPECT_FALSE(found.gait.has_value());
+  EXPECT_EQ(recording.trial.markers.x(5, 0), found.recording.trial.markers.x(5, 0));
+}
+
+TEST(Measure, RegionsAreThoseOfTheEditsAndOfTheOptions) {
+  auto recording = circle();
+  recording.edits.regions = {{.name = "first", .first_frame = 0, .last_frame = 99}};
+  MeasureOptions options;
+  options.measures = {"path_length"};
+  options.regions = {"second=100-199"};
+  options.refits = 0;
+  const auto found = measure(recording, options).value();
+  std::vector<std::string> regions;
+  for (const auto& one : found.measures) regions.push_back(one.region);
+  EXPECT_THAT(regions, AllOf(Contains("first"), Contains("second")));
+  options.regions = {"never"};
+  EXPECT_EQ(measure(recording, options).error().code, Code::usage);
+}
+
+TEST(Measure, WhatIsNotThereIsAFailureOrARemark) {
+  const auto recording = circle();
+  EXPECT_EQ(gait(recording).error().code, Code::bad_input) << "a hand does not walk";
+  EXPECT_EQ(emg(recording).error().code, Code::bad_input) << "no channels";
+  MeasureOptions options;
+  options.measures = {"path_length", "cadence", "emg_rms"};
+  options.refits = 0;
+  const auto found = measure_recording(recording, options).value();
+  EXPECT_THAT(found.remarks.warnings, AllOf(Contains(HasSubstr("Walking is not measured: ")),
+                                            Contains(HasSubstr("EMG are not measured: "))));
+  options.measures = {"path_length"};
+  EXPECT_THAT(measure_recording(recording, options).value().remarks.warnings,
+              Not(Contains(HasSubstr("not measured"))));
+}
+
+TEST(Measure, EventsOfTheMarkersOwnMovements) {
+  MeasureOptions options;
+  options.refits = 0;
+  options.needs = {.own_movements = true};
+  const auto found = measure(circle(), options).value();
+  ASSERT_EQ(found.rhythms.size(), 1U);
+  EXPECT_TRUE(found.rhythms[0].periodic);
+  options.needs = {};
+  EXPECT_THAT(measure(circle(), options).value().rhythms, IsEmpty());
+}
+
+}  // namespace
+}  // namespace kinemark::workflow
