@@ -200,7 +200,7 @@ TEST_F(JointsJobTest, SegmentsOfTwoMarkersAreNoBodies) {
     EXPECT_TRUE(json["segmentation"]["known"].empty());
     EXPECT_EQ(json["segmentation"]["from"], "data");
     EXPECT_TRUE(std::ranges::any_of(outcome->gates, [](const auto& gate) {
-      return gate.name == "determined" && gate.sentence.starts_with("No joint is determined");
+      return gate.name == "any_joint" && gate.sentence.starts_with("No joint is determined");
     }));
     EXPECT_NE(io::read_text(job.report).value().find("No joint is determined"), std::string::npos);
   }

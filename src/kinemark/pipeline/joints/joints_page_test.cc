@@ -53,5 +53,15 @@ TEST(JointsPage, SaysNothingOfJointsThatAreAlwaysPlaced) {
   EXPECT_THAT(joints_page({}, outcome, 1), Not(HasSubstr("not placed in some frames")));
 }
 
+TEST(JointsPage, CountsJointsAndNotWhatIsSaidOfAllOfThem) {
+  auto outcome = outcome_of_a_knee();
+  EXPECT_THAT(joints_page({}, outcome, 1), Not(HasSubstr("not determined")));
+  for (const char* name : {"determined", "determined", "any_joint"})
+    outcome.gates.push_back({.name = name, .passed = false, .unit = "joints", .sentence = "Not determined."});
+  const auto page = joints_page({}, outcome, 1);
+  EXPECT_THAT(page, HasSubstr("2 joints not determined"));
+  EXPECT_THAT(page, HasSubstr("1 quality check missed"));
+}
+
 }  // namespace
 }  // namespace kinemark::pipeline

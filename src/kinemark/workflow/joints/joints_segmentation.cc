@@ -243,7 +243,7 @@ void settle_segmentation(JointsFound& outcome) {
   }
   if (skeleton.joints.empty()) {
     outcome.remarks.gates.push_back(
-        {.name = "determined",
+        {.name = "any_joint",
          .passed = false,
          .value = 0.0,
          .bound = 1.0,

@@ -221,6 +221,8 @@ TEST(SettleSegmentation, WithoutAJointItSaysWhatToDo) {
            "No joint is determined. Name the segments of the body in a file (--segments), or record a "
            "movement of the joint with three markers or more"));
   EXPECT_TRUE(says(out, "0 of 2 joints are known"));
+  EXPECT_EQ(std::ranges::count(out.remarks.gates, "determined", &data::Gate::name), 2) << "one a joint";
+  EXPECT_EQ(std::ranges::count(out.remarks.gates, "any_joint", &data::Gate::name), 1);
   EXPECT_TRUE(out.layout.joints.empty() && out.layout.segments.empty());
 }
 

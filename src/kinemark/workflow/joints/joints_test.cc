@@ -115,6 +115,34 @@ TEST_F(JointsVerb, AJointThatTheMotionLeavesOpenIsNotKnown) {
   EXPECT_THAT(wide.segmentation->joints[0].reason, HasSubstr("21 mm"));
 }
 
+TEST_F(JointsVerb, AJointWithoutMarkersOnOneSideIsPlacedInNoFrame) {
+  auto chain = simulation::simulate_chain({.frames = 200,
+                                           .lengths_m = {0.15, 0.16, 0.14},
+                                           .markers_per_segment = 4,
+                                           .stagger_m = 0.03,
+                                           .noise_sd_m = 0.0005})
+                   .value();
+  const auto found = [&] {
+    return joints({.trial = {.markers = chain.markers}}, JointsOptions{{.method = "score"}, chain.layout});
+  };
+  const auto whole = found();
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_TRUE(whole->remarks.passed());
+  EXPECT_THAT(whole->remarks.warnings, Not(Contains(HasSubstr("was placed in no frame."))));
+  for (std::int64_t f = 0; f < 200; ++f)
+    for (const int m : chain.layout.segments[2].markers) {
+      chain.markers.x(f, m).setConstant(kNaN);
+      chain.markers.state[chain.markers.index(f, m)] = data::SampleState::missing;
+    }
+  const auto part = found();
+  ASSERT_TRUE(part) << part.error().message;
+  ASSERT_EQ(part->skeleton.joints.size(), 2U);
+  EXPECT_FALSE(part->remarks.passed());
+  EXPECT_THAT(part->remarks.warnings,
+              Contains("Joint '" + part->skeleton.joints[1].name + "' was placed in no frame."));
+  EXPECT_EQ(part->remarks.gates.size(), 1U) << "the other joint has all that it had";
+}
+
 TEST_F(JointsVerb, WhatCannotBeAskedIsRefused) {
   options.method = "guess";
   EXPECT_EQ(joints(recording, options).error().code, Code::usage);

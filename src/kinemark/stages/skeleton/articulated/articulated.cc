@@ -36,7 +36,6 @@ using Eigen::Vector3d;
 constexpr double kRobustDof =
     30.0;  // of Student's t: lowers weights beyond some five SDs, costs nothing below
 constexpr double kMm = 1e3;
-constexpr double kKnown_m = 0.01;  // a centre with a larger SD is not known
 constexpr std::size_t kSegmentsNamed = 8;
 
 /// Everything that is known on the direction, in the chain's order of segments and joints.
@@ -109,22 +108,6 @@ data::SkeletonSegment describe_segment(const Work& w, int chain_segment) {
   return out;
 }
 
-/// What the motion shows of a joint.
-std::string describe_motion(const articulated::ObservedMotion& seen, bool hinge, double common_sd_m) {
-  const double deg = seen.range_rad * kDegPerRad;
-  if (seen.frames == 0) return "no frame determines it by its own markers";
-  if (seen.still)
-    return fmt::format("{:.1f} deg of motion, no more than noise: neither axis nor centre known", deg);
-  if (hinge)
-    return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
-                       seen.axis_sd_rad * kDegPerRad);
-  if (common_sd_m >= kKnown_m)
-    return fmt::format("{:.0f} deg of motion: centre not known in its segments ({:.0f} mm)", deg,
-                       kMm * common_sd_m);
-  return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
-                     kMm * common_sd_m);
-}
-
 /// An axis that can be named: lines show none, and noise alone has none.
 bool shows_axis(const articulated::ObservedMotion& seen) {
   return !seen.still && seen.axis_in_parent.squaredNorm() > 0.0;
@@ -161,7 +144,7 @@ data::SkeletonJoint describe_joint(const Work& w, int j, const articulated::Obse
   out.kind = hinge ? data::JointKind::hinge : data::JointKind::ball;
   out.range_of_motion_rad = seen.range_rad;
   out.method = "articulated";
-  out.description = describe_motion(seen, hinge, common_sd_m);
+  out.description = articulated::describe_motion(seen, hinge, common_sd_m);
   // The chain may see the joint from its other side.
   const bool reversed = w.tree.holder[at(layout_joint)] != named.parent;
   Vector3d above = w.fit.chain.joint.col(j), below = Vector3d::Zero();

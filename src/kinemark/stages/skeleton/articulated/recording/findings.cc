@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/articulated/recording/findings.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/units.h"
 #include "kinemark/math/euler.h"
 #include "kinemark/stages/skeleton/articulated/frame/chain_solver.h"
 
@@ -23,6 +26,7 @@ constexpr std::size_t kSwapFrames = 12;  // frames that are examined for exchang
 constexpr std::size_t kStretches = 20;   // of a series, to see how it scatters beside a step
 constexpr double kAtOnce = 0.5;          // share of a step that must happen from one sample to the next
 constexpr double kApart = 5.0;           // standard errors by these that make a step
+constexpr double kKnown_m = 0.01;        // a centre with a larger SD is not known
 constexpr double kSwapFar = 4.0;         // SDs from its predicted position that make a marker suspect
 
 double angle_of(const Matrix3d& R) { return Eigen::AngleAxisd(R).angle(); }
@@ -200,6 +204,21 @@ ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass,
   seen.axis_sd_rad = std::max(seen.second_rad, seen.second_noise_rad) /
                      (std::max(first, 1e-12) * std::sqrt(static_cast<double>(rotations.size())));
   return seen;
+}
+
+std::string describe_motion(const ObservedMotion& seen, bool hinge, double common_sd_m) {
+  const double deg = seen.range_rad * kDegPerRad;
+  if (seen.frames == 0) return "no frame determines it by its own markers";
+  if (seen.still)
+    return fmt::format("{:.1f} deg of motion, no more than noise: neither axis nor centre known", deg);
+  if (hinge)
+    return fmt::format("{:.0f} deg of motion: axis direction known to {:.1f} deg, position along it not", deg,
+                       seen.axis_sd_rad * kDegPerRad);
+  if (common_sd_m >= kKnown_m)
+    return fmt::format("{:.0f} deg of motion: centre not known in its segments ({:.0f} mm)", deg,
+                       1e3 * common_sd_m);
+  return fmt::format("{:.0f} deg of motion: centre known to {:.1f} mm in its segments", deg,
+                     1e3 * common_sd_m);
 }
 
 std::vector<SlippedMarker> find_slipped_markers(const FittedChain& fit, const ChainSamples& samples,

@@ -25,6 +25,10 @@ struct ObservedMotion {
 
 [[nodiscard]] ObservedMotion observe_motion(const FittedChain& fit, const RecordingPass& pass, int joint);
 
+/// What the motion shows of a joint, a phrase: range, and how well the axis of a hinge or the centre is known
+/// in its segments (common_sd_m, m).
+[[nodiscard]] std::string describe_motion(const ObservedMotion& seen, bool hinge, double common_sd_m);
+
 /// A marker that sits elsewhere on its segment after some frame.
 struct SlippedMarker {
   int marker = 0;          ///< of the chain

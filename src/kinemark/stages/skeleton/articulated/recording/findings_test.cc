@@ -72,6 +72,17 @@ TEST(ObservedMotion, ABallHasNoAxisAndAStillJointNeither) {
   EXPECT_EQ(observe_motion(known_geometry(limb, 0.0005), RecordingPass{}, 0).frames, 0);
 }
 
+TEST(ObservedMotion, WithoutAFrameThatDeterminesItNothingIsSaidOfItsMotion) {
+  const RandomChain limb = make_random_chain({.frames = 1});
+  const FittedChain fit = known_geometry(limb, 0.0005);
+  RecordingPass pass = rotated({about_x(0.0), about_x(60.0)});
+  EXPECT_EQ(describe_motion(observe_motion(fit, pass, 0), false, 0.002),
+            "60 deg of motion: centre known to 2.0 mm in its segments");
+  for (auto& pose : pass.sampled) pose.known[0] = false;  // mirrored places in each of them
+  EXPECT_EQ(describe_motion(observe_motion(fit, pass, 0), false, 0.002),
+            "no frame determines it by its own markers");
+}
+
 TEST(SlippedMarkers, AStepInTimeHasItsMarkerItsFrameAndItsSize) {
   RandomChain limb = make_random_chain({.markers_per_segment = 5, .frames = 120});
   const FittedChain fit = known_geometry(limb, 0.001);
