@@ -38,7 +38,7 @@ Status check_many(const ManyMeasuresJob& job) {
   };
   if (!job.figures.empty()) return alone("--figures", job.figures);
   if (!job.report.empty()) return alone("--report", job.report);
-  const bool own = job.of == MeasuresOf::muscles;
+  const bool own = job.of == workflow::MeasuresOf::muscles;
   if (!job.emg.write.empty()) return alone(own ? "--write-envelopes" : "--write-emg", job.emg.write);
   if (!job.emg.write_cycles.empty())
     return alone(own ? "--write-cycles" : "--write-emg-cycles", job.emg.write_cycles);

@@ -37,15 +37,15 @@ struct Headings {
   const char* rows;
 };
 
-Headings headings(MeasuresOf of) {
+Headings headings(workflow::MeasuresOf of) {
   switch (of) {
-    case MeasuresOf::walking:
+    case workflow::MeasuresOf::walking:
       return {.page = "Walking and force plates", .rows = "Walking or plate"};
-    case MeasuresOf::muscles:
+    case workflow::MeasuresOf::muscles:
       return {.page = "Electromyograms", .rows = "Channel"};
-    case MeasuresOf::paths:
+    case workflow::MeasuresOf::paths:
       return {.page = "Paths of markers", .rows = "Marker"};
-    case MeasuresOf::everything:
+    case workflow::MeasuresOf::everything:
       break;
   }
   return {.page = "All measures of a recording", .rows = "Marker, plate or channel"};

@@ -33,16 +33,16 @@ TEST(MeasuresPage, HoldsTheTableTheFiguresAndWhatStandsOut) {
 }
 
 TEST(MeasuresPage, IsHeadedByWhatItIsOf) {
-  const auto heading = [](MeasuresOf of) {
+  const auto heading = [](workflow::MeasuresOf of) {
     MeasuresJob job{.input = "sign.c3d"};
     job.of = of;
     const auto page = measures_page(job, outcome(), {});
     return page.substr(page.find("\"heading\":\""), 80);
   };
-  EXPECT_THAT(heading(MeasuresOf::paths), HasSubstr("\"Paths of markers\",\"rows\":\"Marker\""));
-  EXPECT_THAT(heading(MeasuresOf::muscles), HasSubstr("\"Electromyograms\",\"rows\":\"Channel\""));
-  EXPECT_THAT(heading(MeasuresOf::walking), HasSubstr("\"Walking and force plates\""));
-  EXPECT_THAT(heading(MeasuresOf::everything), HasSubstr("\"All measures of a recording\""));
+  EXPECT_THAT(heading(workflow::MeasuresOf::paths), HasSubstr("\"Paths of markers\",\"rows\":\"Marker\""));
+  EXPECT_THAT(heading(workflow::MeasuresOf::muscles), HasSubstr("\"Electromyograms\",\"rows\":\"Channel\""));
+  EXPECT_THAT(heading(workflow::MeasuresOf::walking), HasSubstr("\"Walking and force plates\""));
+  EXPECT_THAT(heading(workflow::MeasuresOf::everything), HasSubstr("\"All measures of a recording\""));
 }
 
 TEST(MeasuresPage, NamesAreTextInIt) {

@@ -85,10 +85,10 @@ TEST(MeasureList, HasALineForEachWithFormulaAndSource) {
   EXPECT_NE(text.find("sum of |x[i+1] - x[i]|"), std::string::npos);
   EXPECT_NE(text.find("(Poizner, Wooten & Salot 1986)"), std::string::npos);
   EXPECT_EQ(measure_list_json().size(), all);
-  EXPECT_EQ(measure_list_json(MeasuresOf::muscles).size(), analysis::emg_definitions().size());
-  EXPECT_EQ(measure_list_json(MeasuresOf::walking).size(),
+  EXPECT_EQ(measure_list_json(workflow::MeasuresOf::muscles).size(), analysis::emg_definitions().size());
+  EXPECT_EQ(measure_list_json(workflow::MeasuresOf::walking).size(),
             analysis::gait_definitions().size() + analysis::force_definitions().size());
-  EXPECT_EQ(measure_list(MeasuresOf::paths).find("cadence"), std::string::npos);
+  EXPECT_EQ(measure_list(workflow::MeasuresOf::paths).find("cadence"), std::string::npos);
 }
 
 }  // namespace
