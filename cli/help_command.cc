@@ -7,9 +7,8 @@
 #include "cli/console.h"
 #include "cli/hints.h"
 #include "cli/manual.h"
-#include "kinemark/io/file.h"
 #include "kinemark/io/markers/lost_parts.h"
-#include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/result_files.h"
 
 namespace kinemark::cli {
 namespace {
@@ -48,16 +47,22 @@ int print_help(const CLI::App& app, const HelpArguments& arguments) {
   return 0;
 }
 
-int write_manual(const CLI::App& app, const CommonOptions& common, const std::string& folder) {
+int write_manual(const CLI::App& app, const CommonOptions& common, const std::filesystem::path& folder) {
   const auto top = command_tree(app);
+  std::vector<std::filesystem::path> targets;
+  std::vector<pipeline::ResultFile> pages;
   for (const auto* command : all_commands(top)) {
-    const auto path = std::filesystem::path(folder) / (manual_name(*command) + ".1");
-    if (const auto apart = pipeline::check_apart({path}, common.kept); !apart)
-      return report_error(apart.error());
-    if (const auto written = io::write_text(path, manual_page(*command, top), common.force); !written)
-      return report_error(written.error());
+    targets.push_back(folder / (manual_name(*command) + ".1"));
+    pages.push_back(
+        pipeline::text_file(targets.back(), [command, &top] { return manual_page(*command, top); }));
   }
-  return 0;
+  pipeline::JobSettings job;
+  job.force = common.force;
+  job.kept = common.kept;
+  auto staging = pipeline::Staging::create(targets, job, {});
+  if (!staging) return report_error(staging.error());
+  const auto written = pipeline::write_results(*staging, pages, {}, "the manual");
+  return written ? 0 : report_error(written.error());
 }
 
 }  // namespace

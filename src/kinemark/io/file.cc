@@ -88,6 +88,8 @@ OutputFile::OutputFile(std::filesystem::path name, std::filesystem::path target,
     : name_(std::move(name)), target_(std::move(target)), force_(force), temporary_(std::move(temporary)) {}
 
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path, bool force) {
+  const auto parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!is_temporary(parent)) remove_leftovers(parent);  // they may be in the way
   auto target = find_target(path, force);
   if (!target) return std::unexpected(target.error());
   auto temporary = Temporary::file_for(*target);

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/io/placement.h"
+
 namespace kinemark::io {
 namespace {
 
@@ -198,7 +200,9 @@ void remove_leftovers(const fs::path& folder) {
     struct stat info{};
     const bool ours = ::fstat(fd, &info) == 0 && info.st_uid == ::geteuid() &&
                       (S_ISREG(info.st_mode) || S_ISDIR(info.st_mode));
-    if (ours && lock(fd, LOCK_NB) && same_file(fd, path)) remove_path(path);
+    if (ours && lock(fd, LOCK_NB) && same_file(fd, path) &&
+        (S_ISREG(info.st_mode) || take_back_placement(path, folder)))
+      remove_path(path);
     ::close(fd);
   }
 }

@@ -239,30 +239,51 @@ Status add_inputs(const char* role, const std::vector<std::filesystem::path>& pa
 }
 
 // The motion over the cycles of the recording's feet.
-Status draw_walking(const MotionMeasuresJob& job, const RatedMotion& read, const BodyInput& input,
-                    GaitDrawing& drawing, MotionMeasuresOutcome& out) {
+Result<std::vector<ResultFile>> draw_walking(const MotionMeasuresJob& job, const RatedMotion& read,
+                                             const BodyInput& input, GaitDrawing& drawing, Staging& staging,
+                                             MotionMeasuresOutcome& out) {
   const auto recording = open_recording(recording_of(job), {});
   if (!recording) return std::unexpected(recording.error());
   if (auto s = drawing.find_walking(*recording); !s) {
-    if (s.error().code == Code::usage) return s;
+    if (s.error().code == Code::usage) return std::unexpected(s.error());
     out.warnings.push_back("walking is not drawn: " + s.error().message);
-    return {};
+    return std::vector<ResultFile>();
   }
   const auto& gait = *drawing.gait();
   std::ranges::copy(gait.notes, std::back_inserter(out.warnings));
   std::vector<SheetInput> inputs;
   std::vector<data::CycleCurves> curves;
-  if (auto s = add_motion_cycles(read.motion, input, gait.cycles, inputs); !s) return s;
+  if (auto s = add_motion_cycles(read.motion, input, gait.cycles, inputs); !s)
+    return std::unexpected(s.error());
   for (const auto& one : inputs)
     if (one.curves.quantity == data::Quantity::angle || one.curves.quantity == data::Quantity::length)
       curves.push_back(one.curves);
   const auto vertical = workflow::vertical_of_plates(recording->trial);
   if (recording->plates && vertical) add_ground_reaction(*recording->plates, vertical->up, gait, inputs);
-  return drawing.write(job.forces, recording->trial, curves, inputs,
-                       {.angles_from = fmt::format("coordinates of {} in {}", job.model.filename().string(),
-                                                   job.motion.filename().string()),
-                        .inputs = out.inputs},
-                       out);
+  return drawing.draw(job.forces, recording->trial, curves, inputs,
+                      {.angles_from = fmt::format("coordinates of {} in {}", job.model.filename().string(),
+                                                  job.motion.filename().string()),
+                       .inputs = out.inputs},
+                      staging, out);
+}
+
+// The table of measures, and `files` with it.
+Status write_all(const MotionMeasuresJob& job, std::vector<ResultFile> files, Staging& staging,
+                 MotionMeasuresOutcome& out) {
+  staging.add_inputs(out.inputs);
+  for (const auto& file : files) out.written.push_back(file.target);  // as the table has them
+  const auto ending = ending_of(job.output);
+  const auto name = name_of_recording(job.motion);
+  if (ending == ".csv")
+    files.push_back(text_file(job.output, [&] { return measures_csv(out.measures, name); }));
+  else if (ending == ".json")
+    files.push_back(json_file(job.output, [json = motion_measures_json(out)] { return json; }));
+  else if (!job.output.empty())
+    files.push_back(nwb_file(job.output, {{.name = name, .measures = out.measures}}, out.inputs, job));
+  auto written = write_results(staging, files, {}, "the measures");
+  if (!written) return std::unexpected(written.error());
+  out.written = std::move(*written);
+  return {};
 }
 
 }  // namespace
@@ -275,9 +296,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   if (!staging) return std::unexpected(staging.error());
   std::optional<GaitDrawing> drawing;
   if (auto walking = drawing_of(job); walking.wanted()) {
-    auto others = files_of(job);
-    others.push_back(job.output);
-    auto begun = GaitDrawing::begin(std::move(walking), others);
+    auto begun = GaitDrawing::begin(std::move(walking), *staging);
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
   } else if (auto s = job.gait.check_idle(); !s) {
@@ -331,19 +350,13 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
     return fail(Code::bad_input, fmt::format("{}: nothing of what is asked for can be measured; torques need "
                                              "--forces or --torques, coupling needs --couple",
                                              job.motion.string()));
-  if (drawing)
-    if (auto s = draw_walking(job, *read, *input, *drawing, out); !s) return std::unexpected(s.error());
-  if (job.output.empty()) return out;
-  const auto ending = ending_of(job.output);
-  const auto name = name_of_recording(job.motion);
-  const auto file = ending == ".csv" ? text_file(job.output, [&] { return measures_csv(out.measures, name); })
-                    : ending == ".json"
-                        ? json_file(job.output, [&] { return motion_measures_json(out); })
-                        : nwb_file(job.output, {{.name = name, .measures = out.measures}}, out.inputs, job);
-  staging->add_inputs(out.inputs);
-  auto written = write_results(*staging, {file}, {}, "the measures");
-  if (!written) return std::unexpected(written.error());
-  std::ranges::move(*written, std::back_inserter(out.written));
+  std::vector<ResultFile> files;
+  if (drawing) {
+    auto drawn = draw_walking(job, *read, *input, *drawing, *staging, out);
+    if (!drawn) return std::unexpected(drawn.error());
+    files = std::move(*drawn);
+  }
+  if (auto s = write_all(job, std::move(files), *staging, out); !s) return std::unexpected(s.error());
   return out;
 }
 

@@ -21,7 +21,7 @@ struct JobSettings {
   std::uint64_t seed = 1;  ///< of everything random
   bool force = false;      ///< replace files that exist
   /// Files that stay as they are whatever the job writes, `force` or not: all that the caller gives to be
-  /// read. Staging, PageFile and check_apart() ask for them besides what the job itself names.
+  /// read. Staging and check_apart() ask for them besides what the job itself names.
   std::vector<std::filesystem::path> kept;
   std::string command_line;  ///< as typed, for the record
   Progress progress;         ///< may be empty; each run_x() says what it counts

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/files/motion_bids_files.h"
 
-#include <fmt/core.h>
-
 #include <utility>
 
 #include "kinemark/io/bids/motion_bids.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/staging.h"
-#include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 
@@ -21,10 +18,6 @@ Result<std::vector<fs::path>> write_motion_bids(const fs::path& path, const data
   if (!name) return std::unexpected(name.error());
   const auto files = io::motion_files(*name, trial);
   if (!files) return std::unexpected(files.error());
-  const NewFolder folder(name->folder);
-  if (folder.error())
-    return fail(Code::io,
-                fmt::format("{}: cannot be made ({})", name->folder.string(), folder.error().message()));
   std::vector<fs::path> targets;
   std::vector<ResultFile> results;
   for (const io::MotionFile& file : *files) {
@@ -33,8 +26,9 @@ Result<std::vector<fs::path>> write_motion_bids(const fs::path& path, const data
                          return file.write(staged);
                        }});
   }
-  auto staging = Staging::create(std::move(targets), job, inputs);
+  auto staging = Staging::create_in(name->folder, {}, job, inputs);
   if (!staging) return std::unexpected(staging.error());
+  if (auto s = staging->add(targets); !s) return std::unexpected(s.error());
   return write_results(*staging, results, {}, "convert");
 }
 

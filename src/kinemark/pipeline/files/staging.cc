@@ -5,13 +5,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <ranges>
-#include <set>
 #include <system_error>
 #include <utility>
 
 #include "kinemark/core/check.h"
 #include "kinemark/io/place.h"
+#include "kinemark/io/placement.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/internal/new_folder.h"
 
@@ -19,58 +20,93 @@ namespace kinemark::pipeline {
 
 namespace fs = std::filesystem;
 
-Status Staging::find_targets() {
+namespace {
+
+fs::path normal_path(const fs::path& path) {
   std::error_code ignored;
-  std::set<fs::path> seen;
-  for (const auto& target : targets_) {
-    auto resolved = io::find_target(target, force_);
-    if (!resolved) return std::unexpected(resolved.error());
-    if (!seen.insert(fs::absolute(*resolved, ignored).lexically_normal()).second)
-      return fail(Code::usage, fmt::format("{}: would be written twice; name another file", target.string()));
-    resolved_.push_back(std::move(*resolved));
+  return fs::absolute(path, ignored).lexically_normal();
+}
+
+}  // namespace
+
+Status Staging::add_target(const fs::path& target) {
+  // What a killed run left is no result that is in the way.
+  if (const auto parent = target.parent_path(); !folders_.contains(parent))
+    io::remove_leftovers(parent.empty() ? "." : parent);
+  auto resolved = io::find_target(target, force_);
+  if (!resolved) return std::unexpected(resolved.error());
+  const auto is_it = [&](const StagedFile& file) {
+    return normal_path(file.target) == normal_path(*resolved);
+  };
+  if (std::ranges::any_of(files_, is_it))
+    return fail(Code::usage, fmt::format("{}: would be written twice; name another file", target.string()));
+  const auto parent = resolved->parent_path();
+  if (!folders_.contains(parent)) {
+    auto folder = io::Temporary::folder_for(*resolved);
+    if (!folder) return std::unexpected(folder.error());
+    folders_.emplace(parent, std::move(*folder));
   }
+  auto staged = folders_.at(parent).path() / target.filename();
+  // Two links may lead to two files of one folder.
+  if (std::ranges::find(files_, staged, &StagedFile::staged) != files_.end() ||
+      target.filename() == io::kPlacementRecord)
+    staged = staged.parent_path() / fmt::format("{}-{}", files_.size(), target.filename().string());
+  targets_.push_back(target);
+  files_.push_back({.target = std::move(*resolved), .staged = std::move(staged)});
   return {};
+}
+
+Status Staging::add(const std::vector<fs::path>& targets) {
+  if (auto s = check_apart(targets, inputs_); !s) return s;
+  for (const auto& target : targets)
+    if (auto s = add_target(target); !s) return s;
+  return {};
+}
+
+Status Staging::add_in(const fs::path& folder, const std::vector<std::string>& names) {
+  made_.push_back(std::make_unique<NewFolder>(folder));
+  if (const auto& error = made_.back()->error())
+    return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), error.message()));
+  std::vector<fs::path> targets;
+  for (const auto& name : names) targets.push_back(folder / name);
+  return add(targets);
+}
+
+Status Staging::add_page(const fs::path& page) {
+  if (page.empty()) return {};
+  if (ending_of(page) != ".html")
+    return fail(Code::usage, fmt::format("{}: a page ends in .html; '{}' is another ending", page.string(),
+                                         ending_of(page)));
+  return add({page});
 }
 
 Result<Staging> Staging::create(std::vector<fs::path> targets, const JobSettings& job,
                                 const std::vector<fs::path>& inputs) {
-  if (auto s = check_apart(job, targets, inputs); !s) return std::unexpected(s.error());
   Staging staging;
   staging.force_ = job.force;
-  staging.inputs_ = job.kept;
-  staging.add_inputs(inputs);
-  staging.targets_ = std::move(targets);
-  if (auto s = staging.find_targets(); !s) return std::unexpected(s.error());
-  for (std::size_t i = 0; i < staging.resolved_.size(); ++i) {
-    const auto& target = staging.resolved_[i];
-    if (staging.folders_.contains(target.parent_path())) continue;
-    auto folder = io::Temporary::folder_for(target);
-    if (!folder) return std::unexpected(folder.error());
-    staging.folders_.emplace(target.parent_path(), std::move(*folder));
-  }
+  staging.inputs_ = inputs;
+  staging.add_inputs(job.kept);
+  if (auto s = staging.add(targets); !s) return std::unexpected(s.error());
   return staging;
 }
 
 Result<Staging> Staging::create_in(const fs::path& folder, const std::vector<std::string>& names,
                                    const JobSettings& job, const std::vector<fs::path>& inputs) {
-  auto made = std::make_unique<NewFolder>(folder);
-  if (made->error())
-    return fail(Code::io, fmt::format("{}: cannot be made ({})", folder.string(), made->error().message()));
-  std::vector<fs::path> targets;
-  for (const auto& name : names) targets.push_back(folder / name);
-  auto staging = create(std::move(targets), job, inputs);
-  if (staging) staging->made_ = std::move(made);
+  auto staging = create({}, job, inputs);
+  if (!staging) return staging;
+  if (auto s = staging->add_in(folder, names); !s) return std::unexpected(s.error());
   return staging;
 }
 
 Staging::Staging() = default;
 Staging::Staging(Staging&& other) noexcept = default;
-Staging::~Staging() = default;
 
-fs::path Staging::path(std::size_t i) const {
-  return folders_.at(resolved_.at(i).parent_path()).path() /
-         fmt::format("{}-{}", i, targets_[i].filename().string());
+Staging::~Staging() {
+  folders_.clear();
+  while (!made_.empty()) made_.pop_back();  // the inner before the outer
 }
+
+fs::path Staging::path(std::size_t i) const { return files_.at(i).staged; }
 
 fs::path Staging::path_of(const fs::path& target) const {
   const auto found = std::ranges::find(targets_, target);
@@ -102,30 +138,15 @@ void Staging::add_inputs(const std::vector<data::InputFile>& inputs) {
   for (const auto& input : inputs) inputs_.emplace_back(input.path);
 }
 
-Status Staging::place_all() {
-  std::vector<std::pair<std::size_t, io::Replaced>> done;
-  const auto held = io::hold_end();
-  // The first comes last: where it is, all are.
-  for (std::size_t i = targets_.size(); i-- > 0;) {
-    if (!fs::exists(path(i))) continue;
-    const auto placed = io::place_file(path(i), resolved_[i], force_, true);
-    if (placed) {
-      done.emplace_back(i, *placed);
-      continue;
-    }
-    for (const auto& [back, how] : std::views::reverse(done))
-      io::unplace_file(path(back), resolved_[back], how);
-    return std::unexpected(placed.error());
-  }
-  return {};
-}
-
 Status Staging::commit() {
   if (auto s = check_apart(targets_, inputs_); !s) return s;
-  if (auto s = place_all(); !s) return s;
-  for (const auto& [parent, hidden] : folders_)
-    if (auto s = io::sync_folder(parent); !s) return s;
-  return {};
+  std::vector<io::FileToPlace> files;
+  // The first comes last: where it is, all are.
+  for (const auto& file : std::views::reverse(files_))
+    if (fs::exists(file.staged)) files.push_back({.staged = file.staged, .target = file.target});
+  std::vector<fs::path> made;
+  for (const auto& folder : made_) std::ranges::copy(folder->made(), std::back_inserter(made));
+  return io::place_files(files, force_, made);
 }
 
 }  // namespace kinemark::pipeline

@@ -17,8 +17,9 @@ namespace kinemark::pipeline {
 
 class NewFolder;
 
-/// Several files that appear together or not at all: they are written into a hidden folder beside each target
-/// (one per folder) and moved into place by commit(). Without commit() nothing stays.
+/// All files of a job, which appear together or not at all: they are written into a hidden folder beside each
+/// target (one per folder) and moved into place by commit(). Without commit() nothing stays, and what a kill
+/// leaves half-way is taken back by the next run that writes there (io::place_files()).
 class Staging {
  public:
   /// Fails when a target exists (unless `job.force`), is one of the inputs or of `job.kept` (in any case), is
@@ -30,6 +31,13 @@ class Staging {
   /// @param names  of the files in it
   static Result<Staging> create_in(const std::filesystem::path& folder, const std::vector<std::string>& names,
                                    const JobSettings& job, const std::vector<std::filesystem::path>& inputs);
+  /// More files of the job, behind the targets that there are; fails as create().
+  [[nodiscard]] Status add(const std::vector<std::filesystem::path>& targets);
+  /// The same in a folder of their own; fails as create_in().
+  [[nodiscard]] Status add_in(const std::filesystem::path& folder, const std::vector<std::string>& names);
+  /// The page of the job, beside its results; an empty path is none. Code::usage for one that does not end in
+  /// .html; else as add().
+  [[nodiscard]] Status add_page(const std::filesystem::path& page);
   Staging(Staging&& other) noexcept;  ///< takes the targets over
   Staging& operator=(Staging&&) = delete;
   ~Staging();
@@ -55,16 +63,20 @@ class Staging {
 
  private:
   Staging();
-  /// Targets that exist, are folders, or come twice; where those go that are left.
-  [[nodiscard]] Status find_targets();
-  [[nodiscard]] Status place_all();
+  /// Where a target goes, whose folder gets its hidden one. Fails as create().
+  [[nodiscard]] Status add_target(const std::filesystem::path& target);
 
+  /// One of the files.
+  struct StagedFile {
+    std::filesystem::path target;  ///< with links followed
+    std::filesystem::path staged;  ///< in the hidden folder beside it
+  };
   bool force_ = false;
   std::vector<std::filesystem::path> inputs_;               ///< that no target may be
-  std::unique_ptr<NewFolder> made_;                         ///< goes last
+  std::vector<std::unique_ptr<NewFolder>> made_;            ///< go last
   std::map<std::filesystem::path, io::Temporary> folders_;  ///< hidden one in each parent folder
   std::vector<std::filesystem::path> targets_;              ///< as given
-  std::vector<std::filesystem::path> resolved_;             ///< with links followed
+  std::vector<StagedFile> files_;                           ///< one a target
 };
 
 }  // namespace kinemark::pipeline

@@ -197,6 +197,60 @@ TEST(StagingErrors, AFailureNamesTheTarget) {
   EXPECT_EQ(staging.failure({Code::io, "elsewhere: odd"}).error().message, "elsewhere: odd");
 }
 
+TEST(StagingMore, FilesThatAreAddedAppearWithTheOthers) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "in", "recorded", false));
+  {
+    auto staging = Staging::create({scratch / "a"}, {}, {scratch / "in"}).value();
+    ASSERT_TRUE(staging.add_in(scratch / "new/figures", {"one.svg", "two.svg"}));
+    ASSERT_TRUE(staging.add_page(scratch / "page.html"));
+    ASSERT_TRUE(staging.add_page(""));
+    EXPECT_EQ(staging.add({scratch / "x/../a"}).error().code, Code::usage) << "twice";
+    EXPECT_EQ(staging.add({scratch / "in"}).error().code, Code::usage) << "it is read";
+    EXPECT_THAT(staging.add_page(scratch / "page.pdf").error().message, HasSubstr("a page ends in .html"));
+    ASSERT_EQ(staging.targets().size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) ASSERT_TRUE(io::write_text(staging.path(i), "new", false));
+    EXPECT_EQ(scratch.count_files(), 5);
+    EXPECT_FALSE(fs::exists(scratch / "a"));
+    ASSERT_TRUE(staging.commit());
+  }
+  for (const char* name : {"a", "new/figures/one.svg", "new/figures/two.svg", "page.html"})
+    EXPECT_EQ(io::read_text(scratch / name).value(), "new");
+  EXPECT_EQ(scratch.count_files(), 5);
+}
+
+TEST(StagingMore, OneThatCannotAppearKeepsAllFromIt) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(io::write_text(scratch / "a", "old", false));
+  {
+    auto staging = Staging::create({scratch / "a"}, {.force = true}, {}).value();
+    ASSERT_TRUE(staging.add_in(scratch / "new/figures", {"one.svg"}));
+    ASSERT_TRUE(staging.add_page(scratch / "page.html"));
+    for (std::size_t i = 0; i < 3; ++i) ASSERT_TRUE(io::write_text(staging.path(i), "new", false));
+    fs::create_directories(scratch / "new/figures/one.svg/not empty");
+    ASSERT_FALSE(staging.commit());
+    fs::remove_all(scratch / "new/figures/one.svg");
+  }
+  EXPECT_EQ(io::read_text(scratch / "a").value(), "old");
+  EXPECT_FALSE(fs::exists(scratch / "page.html"));
+  EXPECT_FALSE(fs::exists(scratch / "new"));
+}
+
+TEST(StagingMore, AStagedFileHasTheNameOfItsTarget) {
+  const testing_support::ScratchFolder scratch;
+  fs::create_directory(scratch / "sub");
+  for (const char* name : {"x", "y"}) {
+    ASSERT_TRUE(io::write_text(scratch / "sub" / name, "old", false));
+    fs::create_directory(scratch / (std::string("from_") + name));
+    fs::create_symlink(std::string("../sub/") + name, scratch / (std::string("from_") + name) / "a.trc");
+  }
+  const auto staging =
+      Staging::create({scratch / "from_x/a.trc", scratch / "from_y/a.trc"}, {.force = true}, {}).value();
+  EXPECT_EQ(staging.path(0).filename(), "a.trc") << "some formats name themselves";
+  EXPECT_NE(staging.path(1), staging.path(0));
+  EXPECT_EQ(staging.path(1).extension(), ".trc");
+}
+
 TEST(Staging, WhatTheCallerKeepsIsNoTargetUnderAnyName) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "in", "recorded", false));

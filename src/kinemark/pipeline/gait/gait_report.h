@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/angle_angle.h"
 #include "kinemark/pipeline/gait/gait_norms.h"

@@ -32,6 +32,12 @@ class NewFolder {
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
   [[nodiscard]] const std::error_code& error() const { return error_; }
+  /// Those that were not there before, outermost first.
+  [[nodiscard]] std::vector<std::filesystem::path> made() const {
+    std::vector<std::filesystem::path> out;
+    for (const auto& folder : made_) out.push_back(folder.path());
+    return out;
+  }
 
  private:
   std::vector<io::Temporary> made_;  ///< outermost first

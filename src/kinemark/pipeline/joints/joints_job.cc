@@ -9,7 +9,6 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
 #include "kinemark/pipeline/joints/joints_page.h"
@@ -60,9 +59,9 @@ void take(workflow::JointsFound found, JointsOutcome& outcome) {
 
 Result<Staging> stage(const JointsJob& job) {
   const auto& output = job.output;
-  if (output.empty()) return Staging::create({}, job, {});
   auto inputs = files_of(job.input, job);
   inputs.push_back(job.segments);
+  if (output.empty()) return Staging::create({}, job, inputs);
   if (!into_folder(output)) return Staging::create({output, beside(output, "_skeleton.json")}, job, inputs);
   return Staging::create_in(output, {"centres.csv", "skeleton.json", "centres.c3d", "segments.toml"}, job,
                             inputs);
@@ -72,6 +71,10 @@ std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& ou
                                    const data::Trial& centres, const std::vector<fs::path>& targets) {
   std::vector<ResultFile> files;
   for (const auto& target : targets) {
+    if (target == job.report) {
+      files.push_back(text_file(target, [&] { return joints_page(job, outcome, centres.first_frame); }));
+      continue;
+    }
     if (outcome.skeleton.joints.empty() && target.extension() != ".json") continue;
     files.push_back(target.extension() == ".json"
                         ? json_file(target, [&] { return joints_json(job, outcome); })
@@ -115,12 +118,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
     return std::unexpected(s.error());
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
+  if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
   staging->add_inputs(std::vector{outcome.input});
-  auto others = staging->targets();
-  std::ranges::copy(files_of(job.input, job), std::back_inserter(others));
-  others.push_back(job.segments);
-  auto page = PageFile::begin(job.report, job, others);
-  if (!page) return std::unexpected(page.error());
   // Solve and judge.
   auto found = workflow::joints(*recording, options);
   if (!found) return fail_at(job.input.string(), found.error());
@@ -135,9 +134,6 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
                                "the search for joints", name_set(job, outcome, centres));
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);
-  if (page->wanted())
-    if (auto s = page->write(joints_page(job, outcome, centres.first_frame), outcome); !s)
-      return std::unexpected(s.error());
   return outcome;
 }
 

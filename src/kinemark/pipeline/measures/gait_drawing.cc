@@ -8,14 +8,13 @@
 #include <iterator>
 #include <utility>
 
-#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/event_table.h"
 #include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/recording_name.h"
-#include "kinemark/workflow/prepare/vertical.h"
 #include "kinemark/workflow/measures/measure.h"
+#include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
 
@@ -26,7 +25,7 @@ void add_recorded_kinetics(const data::Recording& recording, const analysis::Gai
   if (recording.plates && vertical) add_ground_reaction(*recording.plates, vertical->up, gait, out);
 }
 
-Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others) {
+Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, Staging& staging) {
   GaitDrawing out;
   if (auto s = job.gait.check(true); !s) return std::unexpected(s.error());
   auto formats = parse_figure_formats(job.figure_formats);
@@ -35,11 +34,11 @@ Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, const std::vector<std
   auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
   out.norms_ = std::move(*norms);
-  out.others_ = others;
-  std::ranges::move(files_of(job.gait), std::back_inserter(out.others_));
-  auto page = PageFile::begin(job.report, job, out.others_);
-  if (!page) return std::unexpected(page.error());
-  out.page_.emplace(std::move(*page));
+  staging.add_inputs(files_of(job.gait));
+  for (const auto& path : {job.gait.write_events, job.gait.write_cycles})
+    if (!path.empty())
+      if (auto status = staging.add({path}); !status) return std::unexpected(status.error());
+  if (auto status = staging.add_page(job.report); !status) return std::unexpected(status.error());
   out.job_ = std::move(job);
   return out;
 }
@@ -58,52 +57,42 @@ Status GaitDrawing::find_walking(const data::Recording& recording) {
   return {};
 }
 
-Status GaitDrawing::write(const std::filesystem::path& path, const data::Trial& trial,
-                          const std::vector<data::CycleCurves>& curves, const std::vector<SheetInput>& inputs,
-                          GaitPageFacts facts, JobOutcome& outcome) {
-  for (const auto& input : facts.inputs) others_.emplace_back(input.path);
-  page_->add_inputs(facts.inputs);
-  const auto name = path.filename().string();
+std::vector<ResultFile> GaitDrawing::tables(const std::filesystem::path& path, const data::Trial& trial,
+                                            const std::vector<data::CycleCurves>& curves) {
   const auto recording = name_of_recording(path);
   const auto events = events_of(*gait_, trial.markers.time);
-  std::vector<std::filesystem::path> targets;
   std::vector<ResultFile> files;
-  data::Trial recorded;
-  if (const auto& target = job_.gait.write_events; !target.empty()) {
-    targets.push_back(target);
-    if (ending_of(target) == ".c3d") {
-      recorded = with_events(trial, events);
-      files.push_back(marker_file(target, recorded));
-    } else {
-      files.push_back(text_file(target, [&] { return events_csv(events, recording); }));
-    }
+  if (const auto& target = job_.gait.write_events; ending_of(target) == ".c3d") {
+    recorded_ = with_events(trial, events);
+    files.push_back(marker_file(target, recorded_));
+  } else if (!target.empty()) {
+    files.push_back(text_file(target, [text = events_csv(events, recording)] { return text; }));
   }
-  if (const auto& target = job_.gait.write_cycles; !target.empty()) {
-    targets.push_back(target);
-    files.push_back(text_file(target, [&] { return curves_csv({{"", curves}}, recording); }));
-  }
-  if (!files.empty()) {
-    auto staging = Staging::create(targets, job_, others_);
-    if (!staging) return std::unexpected(staging.error());
-    auto written = write_results(*staging, files, {}, "walking");
-    if (!written) return std::unexpected(written.error());
-    std::ranges::move(*written, std::back_inserter(outcome.written));
-  }
-  if (job_.figures.empty() && !page_->wanted()) return {};
-  const auto report = make_gait_report(name, inputs, *gait_, norms_, job_.gait.sheet.angle_angle);
-  std::ranges::copy(report->sheet.remarks, std::back_inserter(outcome.warnings));
+  if (const auto& target = job_.gait.write_cycles; !target.empty())
+    files.push_back(text_file(target, [text = curves_csv({{"", curves}}, recording)] { return text; }));
+  return files;
+}
+
+Result<std::vector<ResultFile>> GaitDrawing::draw(const std::filesystem::path& path, const data::Trial& trial,
+                                                  const std::vector<data::CycleCurves>& curves,
+                                                  const std::vector<SheetInput>& inputs, GaitPageFacts facts,
+                                                  Staging& staging, JobOutcome& outcome) {
+  staging.add_inputs(facts.inputs);
+  auto files = tables(path, trial, curves);
+  if (job_.figures.empty() && job_.report.empty()) return files;
+  report_ = make_gait_report(path.filename().string(), inputs, *gait_, norms_, job_.gait.sheet.angle_angle);
+  std::ranges::copy(report_->sheet.remarks, std::back_inserter(outcome.warnings));
   if (!job_.figures.empty()) {
-    auto staging = Staging::create_in(job_.figures, gait_report_files(*report, formats_), job_, others_);
-    if (!staging) return std::unexpected(staging.error());
-    auto written =
-        write_results(*staging, gait_report_results(*report, job_.figures, formats_), {}, "the figures");
-    if (!written) return std::unexpected(written.error());
-    std::ranges::move(*written, std::back_inserter(outcome.written));
+    if (auto s = staging.add_in(job_.figures, gait_report_files(*report_, formats_)); !s)
+      return std::unexpected(s.error());
+    std::ranges::move(gait_report_results(*report_, job_.figures, formats_), std::back_inserter(files));
   }
-  if (!page_->wanted()) return {};
+  if (job_.report.empty()) return files;
   facts.command_line = job_.command_line;
   facts.warnings = outcome.warnings;
-  return page_->write(gait_report_page(*report, facts), outcome);
+  files.push_back(
+      text_file(job_.report, [this, facts = std::move(facts)] { return gait_report_page(*report_, facts); }));
+  return files;
 }
 
 }  // namespace kinemark::pipeline

@@ -12,8 +12,8 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/recording.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/gait_report.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -40,33 +40,41 @@ void add_recorded_kinetics(const data::Recording& recording, const analysis::Gai
 /// The outputs of a gait report, begun before a long computation.
 class GaitDrawing {
  public:
-  /// Reads the norms and begins the page, so that what cannot work is told at once.
-  /// @param others  files that the job reads or writes
+  /// Reads the norms, so that what cannot work is reported at once, and adds page, events and cycles to the
+  /// files of the job.
   /// @return  Code::usage as GaitRequest::check() and parse_figure_formats(); else as read_gait_norms() and
-  ///          PageFile::begin()
-  static Result<GaitDrawing> begin(GaitDrawingJob job, const std::vector<std::filesystem::path>& others);
+  ///          Staging::add_page()
+  static Result<GaitDrawing> begin(GaitDrawingJob job, Staging& staging);
 
   /// Find walking in the recording. Code::bad_input as workflow::measure_gait().
   [[nodiscard]] Status find_walking(const data::Recording& recording);
   /// What was found; nothing before find_walking().
   [[nodiscard]] const std::optional<analysis::Gait>& gait() const { return gait_; }
 
-  /// Draw and write what was asked for, and add it to what the job has written. Walking must have been found.
+  /// Draw what was asked for; remarks on it become warnings. Walking must have been found.
   /// @param path, trial  the recording
   /// @param curves       angles in SI units, for `write_cycles`
   /// @param inputs       all that is drawn, these curves among them
-  [[nodiscard]] Status write(const std::filesystem::path& path, const data::Trial& trial,
-                             const std::vector<data::CycleCurves>& curves,
-                             const std::vector<SheetInput>& inputs, GaitPageFacts facts, JobOutcome& outcome);
+  /// @param staging      gets the figures, too
+  /// @return             files for write_results(); this drawing must outlive them
+  [[nodiscard]] Result<std::vector<ResultFile>> draw(const std::filesystem::path& path,
+                                                     const data::Trial& trial,
+                                                     const std::vector<data::CycleCurves>& curves,
+                                                     const std::vector<SheetInput>& inputs,
+                                                     GaitPageFacts facts, Staging& staging,
+                                                     JobOutcome& outcome);
 
  private:
   GaitDrawing() = default;
+  [[nodiscard]] std::vector<ResultFile> tables(const std::filesystem::path& path, const data::Trial& trial,
+                                               const std::vector<data::CycleCurves>& curves);
+
   GaitDrawingJob job_;
   std::vector<std::string> formats_;
-  std::vector<std::filesystem::path> others_;
   GaitNorms norms_;
-  std::optional<PageFile> page_;
   std::optional<analysis::Gait> gait_;
+  data::Trial recorded_;  ///< with the events
+  std::unique_ptr<GaitReport> report_;
 };
 
 }  // namespace kinemark::pipeline

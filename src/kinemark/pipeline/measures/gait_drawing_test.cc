@@ -48,13 +48,20 @@ class GaitDrawingTest : public ::testing::Test {
   }
 
   Status draw(JobOutcome& outcome) {
-    auto drawing = GaitDrawing::begin(job_, {});
+    auto staging = Staging::create({}, job_, {}).value();
+    auto drawing = GaitDrawing::begin(job_, staging);
     if (!drawing) return std::unexpected(drawing.error());
     if (auto s = drawing->find_walking({.trial = trial_}); !s) return s;
     const auto inputs = angles(*drawing->gait());
     std::vector<data::CycleCurves> curves;
     for (const auto& one : inputs) curves.push_back(one.curves);
-    return drawing->write("walk.trc", trial_, curves, inputs, {.angles_from = "a test"}, outcome);
+    const auto files =
+        drawing->draw("walk.trc", trial_, curves, inputs, {.angles_from = "a test"}, staging, outcome);
+    if (!files) return std::unexpected(files.error());
+    auto written = write_results(staging, *files, {}, "walking");
+    if (!written) return std::unexpected(written.error());
+    outcome.written = std::move(*written);
+    return {};
   }
 
   [[nodiscard]] std::string text_of(const std::string& name) const {
@@ -115,17 +122,18 @@ TEST_F(GaitDrawingTest, EventsGoIntoACopyOfTheRecording) {
 }
 
 TEST_F(GaitDrawingTest, WhatCannotWorkIsReportedBeforeAnything) {
+  auto staging = Staging::create({}, job_, {}).value();
   job_.figure_formats = "pdf";
-  EXPECT_EQ(GaitDrawing::begin(job_, {}).error().code, Code::usage);
+  EXPECT_EQ(GaitDrawing::begin(job_, staging).error().code, Code::usage);
   job_.figure_formats = "svg";
   job_.gait.sheet.norms = {scratch_ / "none.csv"};
-  EXPECT_EQ(GaitDrawing::begin(job_, {}).error().code, Code::io);
+  EXPECT_EQ(GaitDrawing::begin(job_, staging).error().code, Code::io);
   job_.gait.sheet.norms.clear();
   job_.gait.sheet.angle_angle = {"hip"};
-  EXPECT_EQ(GaitDrawing::begin(job_, {}).error().code, Code::usage);
+  EXPECT_EQ(GaitDrawing::begin(job_, staging).error().code, Code::usage);
   job_.gait.sheet.angle_angle.clear();
   job_.report = scratch_ / "gait.pdf";
-  EXPECT_EQ(GaitDrawing::begin(job_, {}).error().code, Code::usage);
+  EXPECT_EQ(GaitDrawing::begin(job_, staging).error().code, Code::usage);
 }
 
 TEST_F(GaitDrawingTest, WhoDoesNotWalkIsNotDrawn) {
@@ -138,6 +146,18 @@ TEST_F(GaitDrawingTest, WhoDoesNotWalkIsNotDrawn) {
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Code::bad_input);
   EXPECT_FALSE(std::filesystem::exists(job_.figures));
+}
+
+TEST_F(GaitDrawingTest, AFigureThatCannotBeWrittenTakesPageAndTablesWithIt) {
+  std::filesystem::create_directory(job_.figures);
+  ASSERT_TRUE(io::write_text(job_.figures / "gait_pairs.csv", "mine", false));
+  job_.report = scratch_ / "gait.html";
+  job_.gait.write_cycles = scratch_ / "cycles.csv";
+  JobOutcome outcome;
+  const auto status = draw(outcome);
+  ASSERT_FALSE(status);
+  EXPECT_THAT(status.error().message, HasSubstr("gait_pairs.csv: exists already"));
+  EXPECT_EQ(scratch_.count_files(), 1);
 }
 
 TEST_F(GaitDrawingTest, NormsAreRead) {

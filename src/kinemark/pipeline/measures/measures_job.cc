@@ -13,7 +13,6 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
-#include "kinemark/pipeline/files/page_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
@@ -44,11 +43,12 @@ void make_unique(std::vector<NamedFigure>& figures) {
   }
 }
 
-Status write_figures(const MeasuresJob& job, const std::vector<std::string>& formats,
-                     const std::vector<NamedFigure>& figures, const GaitReport* gait,
-                     MeasuresOutcome& outcome) {
+// The figures that are asked for, in a folder of their own.
+Status add_figures(const MeasuresJob& job, const std::vector<std::string>& formats,
+                   const std::vector<NamedFigure>& figures, const GaitReport* gait, Staging& staging,
+                   std::vector<ResultFile>& files) {
+  if (job.figures.empty()) return {};
   std::vector<std::string> names;
-  std::vector<ResultFile> files;
   for (const auto& figure : figures)
     for (const auto& format : formats) {
       names.push_back(figure.name + "." + format);
@@ -64,12 +64,7 @@ Status write_figures(const MeasuresJob& job, const std::vector<std::string>& for
     std::ranges::move(gait_report_files(*gait, formats), std::back_inserter(names));
     std::ranges::move(gait_report_results(*gait, job.figures, formats), std::back_inserter(files));
   }
-  auto staging = Staging::create_in(job.figures, names, job, files_of(job));
-  if (!staging) return std::unexpected(staging.error());
-  auto written = write_results(*staging, files, {}, "the figures");
-  if (!written) return std::unexpected(written.error());
-  std::ranges::move(*written, std::back_inserter(outcome.written));
-  return {};
+  return staging.add_in(job.figures, names);
 }
 
 // What a page of walking alone says besides its sheet.
@@ -81,9 +76,20 @@ GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome)
           .warnings = outcome.warnings};
 }
 
+// The page of walking alone, or of measures, which shows others too.
+std::string page_text(const MeasuresJob& job, const MeasuredRecording& measured,
+                      std::vector<NamedFigure> figures, const GaitReport* gait) {
+  const auto& outcome = measured.outcome;
+  if (gait != nullptr && measured.curves.empty() && outcome.measures.size() == outcome.gait->measures.size())
+    return gait_report_page(*gait, page_facts(job, outcome));
+  if (gait != nullptr)
+    for (const auto& [name, figure] : gait->figures) figures.push_back({.name = name, .figure = figure});
+  return measures_page(job, outcome, figures);
+}
+
 // The table and `files` with it, the figures, the page: what of them is asked for.
 Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats, MeasuredRecording& measured,
-                 const GaitReport* gait, std::vector<ResultFile> files, Staging& staging, PageFile& page) {
+                 const GaitReport* gait, std::vector<ResultFile> files, Staging& staging) {
   auto& outcome = measured.outcome;
   std::vector<NamedFigure> figures;
   for (const auto& one : measured.curves)
@@ -97,20 +103,14 @@ Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats
   else if (!job.output.empty())
     files.push_back(nwb_file(job.output, {{.name = measured.name, .measures = outcome.measures}},
                              inputs_of(outcome), job));
-  if (!files.empty()) {
-    auto written = write_results(staging, files, {}, "the measures");
-    if (!written) return std::unexpected(written.error());
-    outcome.written = std::move(*written);
-  }
-  if (!job.figures.empty())
-    if (auto s = write_figures(job, formats, figures, gait, outcome); !s) return s;
-  if (!page.wanted()) return {};
-  // Of walking alone; the page of measures shows others too.
-  if (gait != nullptr && measured.curves.empty() && outcome.measures.size() == outcome.gait->measures.size())
-    return page.write(gait_report_page(*gait, page_facts(job, outcome)), outcome);
-  if (gait != nullptr)
-    for (const auto& [name, figure] : gait->figures) figures.push_back({.name = name, .figure = figure});
-  return page.write(measures_page(job, outcome, figures), outcome);
+  if (auto s = add_figures(job, formats, figures, gait, staging, files); !s) return s;
+  if (!job.report.empty())
+    files.push_back(text_file(job.report, [&] { return page_text(job, measured, figures, gait); }));
+  if (files.empty()) return {};
+  auto written = write_results(staging, files, {}, "the measures");
+  if (!written) return std::unexpected(written.error());
+  outcome.written = std::move(*written);
+  return {};
 }
 
 // Tables of events and cycles, or the recording with its events; envelopes.
@@ -210,23 +210,19 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
     if (!path.empty()) targets.push_back(path);
   const auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
-  const auto read = files_of(job);
-  auto staging = Staging::create(targets, job, read);
+  auto staging = Staging::create(targets, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
-  auto others = read;
-  others.insert(others.end(), targets.begin(), targets.end());
-  auto page = PageFile::begin(job.report, job, others);
-  if (!page) return std::unexpected(page.error());
+  if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
   auto measured = measure_recording(job, *options);
   if (!measured) return std::unexpected(measured.error());
   staging->add_inputs(inputs_of(measured->outcome));
-  page->add_inputs(inputs_of(measured->outcome));
   auto files = other_files(job, *measured);
   if (!files) return fail_at(job.input.string(), files.error());
-  if (job.of == workflow::MeasuresOf::muscles) measured->outcome.gait.reset();  // walking only gave the cycles
+  if (job.of == workflow::MeasuresOf::muscles)
+    measured->outcome.gait.reset();  // walking only gave the cycles
   const auto report = draw_walking(job, measured->recording, *norms, measured->outcome);
   if (!report) return fail_at(job.input.string(), report.error());
-  if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging, *page); !s)
+  if (auto s = write_all(job, *formats, *measured, report->get(), std::move(*files), *staging); !s)
     return std::unexpected(s.error());
   return std::move(measured->outcome);
 }

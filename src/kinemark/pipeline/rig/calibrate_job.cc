@@ -14,8 +14,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
-#include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/rig/rig_page.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
@@ -236,11 +235,23 @@ void add_gate(const CalibrateJob& job, std::string sentence, CalibrateOutcome& o
                        .sentence = std::move(sentence)});
 }
 
-Result<CalibrateOutcome> with_page(const CalibrateJob& job, PageFile& page, const data::Rig& nominal,
-                                   const data::Rig& found, CalibrateOutcome out) {
-  if (page.wanted())
-    if (auto s = page.write(calibrate_page(job, out, nominal, found), out); !s)
-      return std::unexpected(s.error());
+/// The calibrated rig and the page, as far as they are wanted.
+/// @param found  no value: nothing was found
+Result<CalibrateOutcome> write(const CalibrateJob& job, Staging& staging, const data::Rig& nominal,
+                               const std::optional<data::Rig>& found, CalibrateOutcome out) {
+  std::vector<ResultFile> files;
+  if (found) {
+    out.written = {job.output};  // as the page says
+    files.push_back({job.output, [&found](const fs::path& staged, const std::string&) {
+                       return io::write_rig(staged, *found, false);
+                     }});
+  }
+  if (!job.report.empty())
+    files.push_back(
+        text_file(job.report, [&] { return calibrate_page(job, out, nominal, found ? *found : nominal); }));
+  auto written = write_results(staging, files, {}, "the calibration");
+  if (!written) return std::unexpected(written.error());
+  out.written = std::move(*written);
   return out;
 }
 
@@ -254,10 +265,10 @@ std::string_view method_name(CalibrateJob::Method method) {
 Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
   auto read = job.inputs;
   read.push_back(job.nominal);
-  if (auto s = check_apart(job, {job.output}, read); !s) return std::unexpected(s.error());
-  read.push_back(job.output);
-  auto page = PageFile::begin(job.report, job, read);
-  if (!page) return std::unexpected(page.error());
+  auto staging =
+      Staging::create(job.align_only ? std::vector<fs::path>() : std::vector{job.output}, job, read);
+  if (!staging) return std::unexpected(staging.error());
+  if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
   const auto nominal = io::read_rig(job.nominal);
   if (!nominal) return std::unexpected(nominal.error());
   CalibrateOutcome out;
@@ -270,12 +281,10 @@ Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job) {
     const auto adjusted = adjust(job, *nominal, *evidence, *rig, out);
     if (!adjusted && !refused(adjusted.error())) return std::unexpected(adjusted.error());
     if (!adjusted) add_gate(job, adjusted.error().message, out);
-    if (!adjusted || job.align_only) return with_page(job, *page, *nominal, *nominal, std::move(out));
+    if (!adjusted || job.align_only) return write(job, *staging, *nominal, std::nullopt, std::move(out));
     add_gate(job, fmt::format("chi2 per degree of freedom is {:.2f}.", out.bundle->chi2_per_dof), out);
   }
-  if (auto s = io::write_rig(job.output, *rig, job.force); !s) return std::unexpected(s.error());
-  out.written = {job.output};
-  return with_page(job, *page, *nominal, *rig, std::move(out));
+  return write(job, *staging, *nominal, std::move(*rig), std::move(out));
 }
 
 }  // namespace kinemark::pipeline

@@ -8,8 +8,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
-#include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/files/page_file.h"
+#include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/rig/rig_page.h"
 
 namespace kinemark::pipeline {
@@ -20,10 +19,10 @@ std::string_view method_name(ReconstructJob::Method method) {
 }
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
-  if (auto s = check_apart(job, {job.output}, {job.recording, job.rig}); !s)
-    return std::unexpected(s.error());
-  auto page = PageFile::begin(job.report, job, {job.output, job.recording, job.rig});
-  if (!page) return std::unexpected(page.error());
+  if (auto s = io::check_marker_format(job.output); !s) return std::unexpected(s.error());
+  auto staging = Staging::create({job.output}, job, {job.recording, job.rig});
+  if (!staging) return std::unexpected(staging.error());
+  if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
   const auto rig = io::read_rig(job.rig);
   if (!rig) return std::unexpected(rig.error());
   auto recording = io::read_counts(job.recording);
@@ -51,11 +50,13 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   } else {
     trial.markers = std::move(found->points);
   }
-  if (auto s = io::write_markers(job.output, trial, job.force); !s) return std::unexpected(s.error());
-  out.written = {job.output};
-  if (page->wanted())
-    if (auto s = page->write(reconstruct_page(job, out, *rig, trial.markers), out); !s)
-      return std::unexpected(s.error());
+  std::vector<ResultFile> files{marker_file(job.output, trial)};
+  out.written = {job.output};  // as the page says
+  if (!job.report.empty())
+    files.push_back(text_file(job.report, [&] { return reconstruct_page(job, out, *rig, trial.markers); }));
+  auto written = write_results(*staging, files, {}, "the reconstruction");
+  if (!written) return std::unexpected(written.error());
+  out.written = std::move(*written);
   return out;
 }
 

@@ -18,12 +18,12 @@
 #include <utility>
 
 #include "kinemark/data/name_index.h"
-#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/foundations/foundation_gate.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/pipeline/segments/internal/segment_files.h"
 #include "kinemark/pipeline/segments/modelled_points.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/subject_values.h"
@@ -264,38 +264,12 @@ Status find_loads(const SegmentsJob& job, const analysis::SegmentDefinition& def
   return {};
 }
 
-Status write_all(const SegmentsJob& job, const Files& files, SegmentsOutcome& outcome) {
-  std::vector<std::string> names{"angles.mot",  "angles_sd.sto", "angles.csv",
-                                 "centres.csv", "segments.c3d",  "segments.json"};
-  if (!outcome.loads.series.empty())
-    for (const auto* name : {"loads.sto", "loads_sd.sto", "loads.csv"}) names.emplace_back(name);
-  auto staging = Staging::create_in(job.output, names, job, files_of(job));
-  if (!staging) return std::unexpected(staging.error());
-  staging->add_inputs(outcome.inputs);
-  const auto& motion = outcome.motion;
-  const SeriesList angles = series_of(motion), loads = series_of(outcome.loads);
-  const data::Trial points = points_trial(motion, files.recording.trial);
-  const data::Trial whole = trial_with(motion, outcome.loads, files.recording.trial);
-  const auto& targets = staging->targets();
-  std::vector<ResultFile> made{
-      table_file(targets[0], [&] { return series_table(angles, motion.time, "angles"); }),
-      table_file(targets[1], [&] { return deviations_table(angles, motion.time, "angles_sd"); }),
-      text_file(targets[2], [&] { return series_csv(angles, motion.time); }),
-      marker_file(targets[3], points),
-      marker_file(targets[4], whole),
-      json_file(targets[5], [&] { return segments_outcome_json(outcome); })};
-  if (!loads.empty()) {
-    made.push_back(table_file(targets[6], [&] { return series_table(loads, motion.time, "loads"); }));
-    made.push_back(table_file(targets[7], [&] { return deviations_table(loads, motion.time, "loads_sd"); }));
-    made.push_back(text_file(targets[8], [&] { return series_csv(loads, motion.time); }));
-  }
-  SetDigest digest;
-  digest.add("segments").add(outcome.inputs).add(series_csv(angles, motion.time));
-  if (!loads.empty()) digest.add(series_csv(loads, motion.time));
-  auto written = write_results(*staging, made, job.progress, "the segments", digest.hex());
-  if (!written) return std::unexpected(written.error());
-  outcome.written = std::move(*written);
-  return {};
+Result<Staging> stage(const SegmentsJob& job) {
+  if (job.output.empty()) return Staging::create({}, job, files_of(job));
+  return Staging::create_in(
+      job.output,
+      {"angles.mot", "angles_sd.sto", "angles.csv", "centres.csv", "segments.c3d", "segments.json"}, job,
+      files_of(job));
 }
 
 /// The static trial by the names of its markers, and against the recording, before anything is built on it.
@@ -322,12 +296,13 @@ GaitDrawingJob drawing_of(const SegmentsJob& job) {
 }
 
 // Angles and values over the cycle, and what else of them is drawn.
-Status draw_walking(const SegmentsJob& job, const Recording& recording, GaitDrawing& drawing,
-                    SegmentsOutcome& outcome) {
+Result<std::vector<ResultFile>> draw_walking(const SegmentsJob& job, const Recording& recording,
+                                             GaitDrawing& drawing, Staging& staging,
+                                             SegmentsOutcome& outcome) {
   if (auto s = drawing.find_walking(recording); !s) {
-    if (s.error().code == Code::usage || job.output.empty()) return s;
+    if (s.error().code == Code::usage || job.output.empty()) return std::unexpected(s.error());
     outcome.warnings.push_back("walking is not drawn: " + s.error().message);
-    return {};
+    return std::vector<ResultFile>();
   }
   outcome.gait = drawing.gait();
   std::ranges::copy(outcome.gait->notes, std::back_inserter(outcome.warnings));
@@ -343,8 +318,30 @@ Status draw_walking(const SegmentsJob& job, const Recording& recording, GaitDraw
   Recording others = recording;
   if (!outcome.loads.series.empty()) others.trial.channels = {};
   add_recorded_kinetics(others, *outcome.gait, inputs);
-  return drawing.write(job.input, recording.trial, curves, inputs,
-                       {.angles_from = outcome.title, .inputs = outcome.inputs}, outcome);
+  return drawing.draw(job.input, recording.trial, curves, inputs,
+                      {.angles_from = outcome.title, .inputs = outcome.inputs}, staging, outcome);
+}
+
+Status write_all(const SegmentsJob& job, const Files& files, std::optional<GaitDrawing>& drawing,
+                 Staging& staging, SegmentsOutcome& outcome) {
+  staging.add_inputs(outcome.inputs);
+  internal::SegmentTables tables;
+  std::vector<ResultFile> made;
+  if (!job.output.empty()) {
+    tables = internal::tables_of(outcome, files.recording.trial);
+    auto listed = internal::list_files(job, tables, outcome, staging);
+    if (!listed) return std::unexpected(listed.error());
+    made = std::move(*listed);
+  }
+  if (drawing) {
+    auto drawn = draw_walking(job, files.recording, *drawing, staging, outcome);
+    if (!drawn) return fail_at(job.input.string(), drawn.error());
+    std::ranges::move(*drawn, std::back_inserter(made));
+  }
+  auto written = write_results(staging, made, job.progress, "the segments", tables.set);
+  if (!written) return std::unexpected(written.error());
+  outcome.written = std::move(*written);
+  return {};
 }
 
 }  // namespace
@@ -354,9 +351,11 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   if (auto s = check_folder(job.output, "angles are"); !s) return std::unexpected(s.error());
   const auto definition = find_definition(job.definition);
   if (!definition) return std::unexpected(definition.error());
+  auto staging = stage(job);
+  if (!staging) return std::unexpected(staging.error());
   std::optional<GaitDrawing> drawing;
   if (auto walking = drawing_of(job); walking.wanted()) {
-    auto begun = GaitDrawing::begin(std::move(walking), files_of(job));
+    auto begun = GaitDrawing::begin(std::move(walking), *staging);
     if (!begun) return std::unexpected(begun.error());
     drawing.emplace(std::move(*begun));
   } else if (auto s = job.gait.check_idle(); !s) {
@@ -391,11 +390,7 @@ Result<SegmentsOutcome> run_segments(const SegmentsJob& job) {
   note_static_angles(*files, outcome);
   if (input.static_trial != nullptr) note_choices(*definition, outcome);
   find_cross_talk(*definition, outcome);
-  if (!job.output.empty())
-    if (auto s = write_all(job, *files, outcome); !s) return std::unexpected(s.error());
-  if (drawing)
-    if (auto s = draw_walking(job, files->recording, *drawing, outcome); !s)
-      return fail_at(job.input.string(), s.error());
+  if (auto s = write_all(job, *files, drawing, *staging, outcome); !s) return std::unexpected(s.error());
   return outcome;
 }
 
