@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -101,6 +102,28 @@ TEST_F(PlaceFiles, WhatFailsHalfWayIsTakenBack) {
     EXPECT_THAT(failed.error().message, HasSubstr("c: "));
   }
   EXPECT_EQ(texts(), "old old -");
+  EXPECT_EQ(count_hidden(), 0);
+}
+
+TEST_F(PlaceFiles, ADiskThatHasNoRoomForTheRecordKeepsEveryName) {
+  write_old();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::vector<Temporary> hidden;
+    const auto files = stage(hidden);
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit few{.rlim_cur = 10, .rlim_max = 10};
+    ::setrlimit(RLIMIT_FSIZE, &few);
+    const auto failed = place_files(files, true);
+    const bool names_a_target =
+        !failed && failed.error().message.starts_with(targets_[0].string() + ": cannot be written (");
+    hidden.clear();
+    ::_exit(names_a_target ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(texts(), "old old old");
   EXPECT_EQ(count_hidden(), 0);
 }
 
