@@ -61,6 +61,34 @@ TEST(Controller, ComesToRestAtGoalsThatItCanReach) {
   EXPECT_LT(controller.v().norm(), 1e-6);
 }
 
+TEST(Controller, GoesBackToTheStateThatWasKept) {
+  const auto model = body();
+  const Plan plan = make(model, {.step_s = 1e-3});
+  Controller controller(plan);
+  const auto goal = goals_at(plan, pose(plan, 10));
+  controller.start(pose(plan, 0), goal, 0.0);
+  const auto go_on = [&] {
+    for (int s = 0; s < 5; ++s) {
+      controller.advance(1e-3);
+      ASSERT_TRUE(controller.evaluate(goal, 0.0));
+    }
+  };
+  ASSERT_TRUE(controller.evaluate(goal, 0.0));
+  go_on();
+  const Eigen::VectorXd x = controller.x(), v = controller.v();
+  const Eigen::Matrix3Xd markers = controller.workspace().marker;
+  controller.keep();
+  go_on();
+  const Eigen::VectorXd later = controller.x();
+  EXPECT_GT(distance(plan, x, later), 1e-4);
+  controller.go_back();
+  EXPECT_EQ(controller.x(), x);
+  EXPECT_EQ(controller.v(), v);
+  EXPECT_EQ(controller.workspace().marker, markers);
+  go_on();
+  EXPECT_EQ(controller.x(), later) << "the same way again";
+}
+
 TEST(Controller, TheFastWayAndTheRowsAgree) {
   const auto model = body();
   const Plan fast = make(model, {});

@@ -31,7 +31,8 @@ Controller::Controller(const Plan& plan)
   const int n = model_.speed_count(), M = model_.marker_count();
   const auto K = 3 * static_cast<Eigen::Index>(model_.point_constraints().size());
   x_ = model_.default_state();
-  for (auto* v : {&v_, &a_, &wished_, &normal_force_, &held_a_, &move_}) v->setZero(n);
+  kept_x_ = x_;
+  for (auto* v : {&v_, &a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_}) v->setZero(n);
   bias_.setZero(3 * M);
   command_.setZero(3, M);
   for (auto* m : {&M_, &H_}) m->setZero(n, n);
@@ -214,6 +215,20 @@ bool Controller::evaluate(const GoalValues& goal, double time_s) {
   rank_ = solver_.rank();
   smallest_ = rank_ > 0 ? solver_.smallest_pivot() : 0.0;
   return a_.allFinite();
+}
+
+void Controller::keep() {
+  kept_x_ = x_;
+  kept_v_ = v_;
+  kept_a_ = a_;
+}
+
+void Controller::go_back() {
+  x_ = kept_x_;
+  v_ = kept_v_;
+  a_ = kept_a_;
+  model::kinematics(model_, w_, x_);
+  model::velocities(model_, w_, v_);
 }
 
 void Controller::advance(double h) {

@@ -29,6 +29,11 @@ class Controller {
   /// Put the body into pose x; its speeds stay. To be followed by evaluate().
   void place(const Eigen::VectorXd& x) { x_ = x; }
 
+  /// Keep the present state, for go_back().
+  void keep();
+  /// Back to the state that was kept.
+  void go_back();
+
   /// Integrate over the time step h with the acceleration just computed: x += h v + h^2 a / 2, v += h a;
   /// within the limits.
   void advance(double h);
@@ -59,6 +64,7 @@ class Controller {
   bool one_level_ = false;  // of markers and tasks, without loops: the fast path can be used
   bool have_jacobian_ = false;
   Eigen::VectorXd x_, v_, a_, wished_, bias_, normal_force_, held_a_, move_;
+  Eigen::VectorXd kept_x_, kept_v_, kept_a_;
   Eigen::Matrix3Xd command_;
   Eigen::MatrixXd M_, H_, J_, loop_J_;
   Eigen::VectorXd loop_gap_, loop_r_;

@@ -25,6 +25,7 @@ constexpr double kLostPose = 0.3;   // rad or m: a body so far from the best fit
 constexpr double kSameCost = 1e-6;  // of the cost
 constexpr double kAtLimit = 1e-9;   // rad or m
 constexpr double kOffLimit = 0.1;   // rad or m: near a limit
+constexpr int kFiner[] = {4, 16, 64};  // steps for one, in frames in which the simulation diverges
 constexpr double kRemembered_s = 0.5;  // that a coordinate was at its limit
 
 Problem without_tasks(Problem problem) {
@@ -47,6 +48,7 @@ Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, doubl
       before_(goal_),
       led_(goal_),
       returning_(plan.problem.model.marker_count(), plan.ease_s),
+      kept_returning_(returning_),
       last_good_(plan.rest),
       settled_(plan.rest),
       other_(plan.rest),
@@ -85,7 +87,9 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
 void Walker::next() {
   flagged_ = lost_ = false;
   build_cell(frame_);
-  for (int s = 1; s <= plan_.steps_per_frame && !flagged_; ++s) flagged_ = !step(s);
+  controller_.keep();
+  kept_returning_ = returning_;
+  flagged_ = !cross(plan_.steps_per_frame) && !cross_again();
   ++frame_;
   if (flagged_) {
     cell_.at(1.0, goal_);
@@ -96,14 +100,33 @@ void Walker::next() {
   if (!flagged_) last_good_ = controller_.x();
 }
 
-bool Walker::step(int s) {
-  const double begun = time_s() + (s - 1) * plan_.step_s, now = time_s() + s * plan_.step_s;
-  cell_.at(static_cast<double>(s) / plan_.steps_per_frame, goal_);
-  lead_new_markers(begun, static_cast<double>(s - 1) / plan_.steps_per_frame);
-  controller_.advance(plan_.step_s);
+bool Walker::cross(int steps) {
+  for (int s = 1; s <= steps; ++s)
+    if (!step(s, steps)) return false;
+  return true;
+}
+
+// Where a limb passes a singular pose, a direction that hardly moves the goals may for a moment turn faster
+// than the steps can follow.
+bool Walker::cross_again() {
+  for (const int finer : kFiner) {
+    controller_.go_back();
+    returning_ = kept_returning_;
+    lost_ = false;
+    if (cross(finer * plan_.steps_per_frame)) return true;
+  }
+  return false;
+}
+
+bool Walker::step(int s, int steps) {
+  const double h = steps == plan_.steps_per_frame ? plan_.step_s : 1.0 / (plan_.rate_hz * steps);
+  const double begun = time_s() + (s - 1) * h, now = time_s() + s * h;
+  cell_.at(static_cast<double>(s) / steps, goal_);
+  lead_new_markers(begun, static_cast<double>(s - 1) / steps);
+  controller_.advance(h);
   led_ = goal_;
   returning_.apply(now, led_);
-  if (s == plan_.steps_per_frame && plan_.settle && !settle()) {
+  if (s == steps && plan_.settle && !settle()) {
     lost_ = true;
     return controller_.evaluate(goal_, now);
   }

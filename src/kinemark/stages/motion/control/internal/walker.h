@@ -44,8 +44,12 @@ class Walker {
  private:
   void build_cell(std::int64_t first);
   void restart();
-  /// Step s of a frame, 1 to steps_per_frame. False when the simulation diverged.
-  bool step(int s);
+  /// On to the end of the frame in so many steps. False when the simulation diverged.
+  bool cross(int steps);
+  /// The same from the frame's beginning in finer steps.
+  bool cross_again();
+  /// Step s of a frame that is cut into `steps`, from 1. False when the simulation diverged.
+  bool step(int s, int steps);
   /// Bring the pose of a frame to the best fit of its goals. False when the body had lost them and was set
   /// anew.
   bool settle();
@@ -65,7 +69,7 @@ class Walker {
   FrameSolver settler_;
   GoalCell cell_;
   GoalValues goal_, before_, led_;
-  ReturningMarkers returning_;
+  ReturningMarkers returning_, kept_returning_;
   const data::Derivatives* derivatives_ = nullptr;
   std::int64_t markers_in_derivatives_ = 0;
   Eigen::VectorXd last_good_, settled_, other_, move_;
