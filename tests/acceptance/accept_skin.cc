@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joint centres and axes under skin that follows the posture, on limbs of known bones: coverage, chi-square,
 // error beside SCoRE's, and when the word is said. `accept_skeleton skin PART SUBJECTS SEED`; PART: limbs,
-// word or all.
+// rigid (no skin at all), word or all.
 #include <fmt/core.h>
 
 #include <Eigen/Cholesky>
@@ -241,6 +241,10 @@ int run_check(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "all";
   const int subjects = argc > 2 ? std::max(1, std::atoi(argv[2])) : 100;
   const auto seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1ULL;
+  if (part == "rigid") {
+    without_skin(subjects, seed);
+    return testing_support::exit_status();
+  }
   if (part != "word") {
     limb(Limb::hip, 40.0, subjects, seed);
     limb(Limb::knee, 60.0, subjects, seed);

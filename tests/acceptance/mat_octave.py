@@ -4,7 +4,7 @@
 """MAT files by Octave's load, which shares no code with scipy: a simulated trial and its joint angles as kinemark convert writes
 them, every number, name and state against the CSV and MOT of the same, as text with 17 digits.
 
-Needs Octave (apt-get install octave; NOTE without it) and numpy. Finds the program in KINEMARK_PROGRAM; prints rows
+Needs Octave and numpy (tools/setup --oracles; NOTE without Octave). Finds the program in KINEMARK_PROGRAM; prints rows
 "PASS|FAIL|NOTE | check | asked | measured"; exit status 1 when one fails.
 """
 
@@ -70,7 +70,7 @@ def read_mot(path):
 
 def main():
     if OCTAVE is None:
-        print("NOTE | MAT files by Octave's load | every number | not judged: Octave is absent (apt-get install octave)", flush=True)
+        print("NOTE | MAT files by Octave's load | every number | not judged: Octave is absent (tools/setup --oracles)", flush=True)
         return 0
     with tempfile.TemporaryDirectory(prefix="kinemark-octave-") as scratch:
         folder = Path(scratch)

@@ -228,7 +228,7 @@ constexpr std::array kDefinitions{
     of_body("com_vertical_range", Quantity::length, "Vertical range of the mass centre",
             "highest less lowest", kDefinition, BodyScope::body, Pick::range, heights, 1),
     of_body("com_speed", Quantity::speed, "Mean level speed of the mass centre",
-            "mean size of the horizontal velocity", kDefinition, BodyScope::body, Pick::mean_size,
+            "mean size of the horizontal velocity in time", kDefinition, BodyScope::body, Pick::mean_size,
             level_velocities, 1),
     of_body("com_peak_speed", Quantity::speed, "Peak speed of the mass centre", "max |v|", kDefinition,
             BodyScope::body, Pick::largest, speeds, 1),

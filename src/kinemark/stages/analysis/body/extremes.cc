@@ -21,16 +21,18 @@ Index farthest(const VectorXd& curve, double sign) {
 
 double value_at(const VectorXd& curve, Index i) { return i < 0 ? kNaN : curve[i]; }
 
-// Mean over vectors of three values: the component of `value` along `place`.
+// Mean over vectors of three values: the component of `value` along `place`. It is the mean over the time
+// from the first to the last, which are weighed half each.
 double mean_along(const VectorXd& place, const VectorXd& value) {
   const Index vectors = place.size() / 3;
   if (vectors == 0) return kNaN;
   double sum = 0.0;
   for (Index i = 0; i < vectors; ++i) {
     const double length = place.segment<3>(3 * i).norm();
-    if (length != 0.0) sum += place.segment<3>(3 * i).dot(value.segment<3>(3 * i)) / length;
+    const double weight = i == 0 || i == vectors - 1 ? 0.5 : 1.0;
+    if (length != 0.0) sum += weight * place.segment<3>(3 * i).dot(value.segment<3>(3 * i)) / length;
   }
-  return sum / static_cast<double>(vectors);
+  return vectors == 1 ? 2.0 * sum : sum / static_cast<double>(vectors - 1);
 }
 
 // `value` where `place` has the extreme.

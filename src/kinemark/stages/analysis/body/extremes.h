@@ -18,7 +18,8 @@ enum class Pick : std::uint8_t {
   size,              ///< the largest absolute value
   time_of_largest,   ///< the sample of the largest value, the first of equal ones
   time_of_smallest,  ///< of the smallest
-  mean_size,  ///< mean length of vectors, three values each: the largest component of each in any direction
+  mean_size,  ///< mean length in time of vectors, three values each: the largest component of each in any
+              ///< direction
 };
 
 /// That number; NaN of a curve without values.

@@ -125,5 +125,13 @@ TEST(Extremes, LengthsOfVectorsFarAboveNoiseStay) {
   EXPECT_TRUE(std::isnan(picked(Pick::mean_size, {})));
 }
 
+TEST(Extremes, TheMeanSizeIsThatInTime) {
+  // Sizes of 0, 0 and 10: the last stands for half a step of two.
+  Eigen::VectorXd curve = Eigen::VectorXd::Zero(9);
+  curve[7] = -10.0;
+  EXPECT_DOUBLE_EQ(picked(Pick::mean_size, curve), 2.5);
+  EXPECT_DOUBLE_EQ(picked(Pick::mean_size, Eigen::Vector3d(3.0, 4.0, 0.0)), 5.0) << "one alone";
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

@@ -14,6 +14,13 @@ constexpr std::string_view kDefinition = "definition";
 constexpr std::string_view kPoizner = "Poizner, Wooten & Salot 1986";
 constexpr std::string_view kBalasubramanian = "Balasubramanian et al. 2015";
 
+/// Mean over the time from the first sample to the last: times that time it is the path's length.
+double mean_in_time(const Eigen::VectorXd& y) {
+  const Eigen::Index n = y.size();
+  if (n < 2) return y.mean();
+  return (y.sum() - 0.5 * (y[0] + y[n - 1])) / static_cast<double>(n - 1);
+}
+
 double side_along(const PathFacts& f, int axis) {
   return f.along().col(axis).maxCoeff() - f.along().col(axis).minCoeff();
 }
@@ -142,11 +149,12 @@ const std::array kDefinitions{
                    Pivot::plain,
                    Weakness::needs_change,
                    [](const PathFacts& f) { return power_law_exponent(f.curvature_terms()); }},
-    PathDefinition{{"mean_speed", "time", Quantity::speed, "Mean speed", "mean of |v|", kDefinition},
+    PathDefinition{{"mean_speed", "time", Quantity::speed, "Mean speed",
+                    "integral of |v| over the time from the first sample to the last", kDefinition},
                    Applies::always,
                    Pivot::plain,
                    Weakness::lengthened_at_rest,
-                   [](const PathFacts& f) { return f.speed.mean(); }},
+                   [](const PathFacts& f) { return mean_in_time(f.speed); }},
     PathDefinition{
         {"peak_speed", "time", Quantity::speed, "Peak tangential velocity", "largest |v|", kDefinition},
         Applies::always,
@@ -194,7 +202,7 @@ const std::array kDefinitions{
                    Applies::discrete,
                    Pivot::plain,
                    Weakness::of_instants,
-                   [](const PathFacts& f) { return f.moving_speed().mean(); }},
+                   [](const PathFacts& f) { return mean_in_time(f.moving_speed()); }},
     PathDefinition{{"submovements", "time", Quantity::count, "Submovements",
                     "peaks of |v| above 10 % of the largest, prominence 5 % of it", kDefinition},
                    Applies::discrete,

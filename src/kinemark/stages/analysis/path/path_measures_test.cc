@@ -97,6 +97,15 @@ TEST(MeasurePaths, OfARegionAreItsOwn) {
   EXPECT_NEAR(found->measures[2].end_s, 1.2, 1e-9);
 }
 
+TEST(MeasurePaths, MeanSpeedTimesTheTimeIsThePath) {
+  // From rest to the largest speed: the two ends weigh half a step each.
+  const auto found = measure_paths(
+      reach(), {.measures = {"path_length", "mean_speed"}, .regions = {{"half", 55, 85}}, .refits = 0});
+  ASSERT_TRUE(found);
+  const auto& path = find(*found, "path_length");
+  EXPECT_NEAR(find(*found, "mean_speed").value * (path.end_s - path.start_s), path.value, 2e-3 * path.value);
+}
+
 TEST(MeasurePaths, ShareOfWhatWasNotMeasuredIsReported) {
   auto markers = reach();
   for (std::int64_t f = 60; f < 75; ++f) markers.set_missing(f, 0);
