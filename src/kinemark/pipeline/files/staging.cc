@@ -80,7 +80,7 @@ Status Staging::add_page(const fs::path& page) {
   return add({page});
 }
 
-Result<Staging> Staging::create(std::vector<fs::path> targets, const JobSettings& job,
+Result<Staging> Staging::create(const std::vector<fs::path>& targets, const JobSettings& job,
                                 const std::vector<fs::path>& inputs) {
   Staging staging;
   staging.force_ = job.force;

@@ -25,7 +25,7 @@ class Staging {
   /// Fails when a target exists (unless `job.force`), is one of the inputs or of `job.kept` (in any case), is
   /// given twice, or its folder cannot be written.
   /// @param inputs  all files that the job reads, as far as they are known by now; see add_inputs()
-  static Result<Staging> create(std::vector<std::filesystem::path> targets, const JobSettings& job,
+  static Result<Staging> create(const std::vector<std::filesystem::path>& targets, const JobSettings& job,
                                 const std::vector<std::filesystem::path>& inputs);
   /// The same for files of one folder, which is made when absent, and goes again when no file came.
   /// @param names  of the files in it

@@ -162,7 +162,7 @@ Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suff
   inputs.insert(inputs.end(), {job.model, job.forces, job.images.rig});
   for (const auto& camera : job.images.cameras) inputs.push_back(camera.points);
   inputs.insert(inputs.end(), also_read.begin(), also_read.end());
-  return Staging::create(std::move(targets), job, inputs);
+  return Staging::create(targets, job, inputs);
 }
 
 Status judge(report::IkRun run, const data::JointMotion& motion, const data::Trajectories* markers,
