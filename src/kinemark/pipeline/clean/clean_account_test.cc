@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <span>
 
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 
@@ -42,39 +41,6 @@ TEST(CleanAccount, TheRuleOfACutOffIsThatOfButterworthAlone) {
   EXPECT_EQ(option_of(job, "cut-off of both passes together"), "yes");
   job.filter.correct_cutoff = false;
   EXPECT_EQ(option_of(job, "cut-off of both passes together"), "no");
-}
-
-TEST(CleanAccount, SamplesThatTheRecorderMadeAreHandledAsAsked) {
-  const auto done = [](workflow::RecorderMade made, int factor) {
-    data::UpsamplingAccount account;
-    account.recording.factor = factor;
-    settle_upsampling(made, account);
-    EXPECT_EQ(account.handled, factor > 1 && made != workflow::RecorderMade::keep);
-    return account.done;
-  };
-  EXPECT_EQ(done(workflow::RecorderMade::keep, 2), "left as they are");
-  EXPECT_EQ(done(workflow::RecorderMade::mark, 2), "marked as upsampled");
-  EXPECT_THAT(done(workflow::RecorderMade::mark, 2), Not(HasSubstr("left as they are")));
-  EXPECT_EQ(done(workflow::RecorderMade::missing, 3), "removed");
-  EXPECT_EQ(done(workflow::RecorderMade::decimate, 3), "removed, and the rate brought down");
-  EXPECT_THAT(done(workflow::RecorderMade::missing, 3), Not(HasSubstr("removed, and the rate brought down")));
-  EXPECT_EQ(done(workflow::RecorderMade::mark, 1), "") << "none were made";
-}
-
-TEST(CleanAccount, WhatWasDoneAboutADefectIsWhatScreeningDid) {
-  const std::vector<data::Finding> found = {
-      {.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B", .first_frame = 5},
-      {.kind = data::FindingKind::label_swap, .subject = "A", .partner = "B", .first_frame = 9},
-      {.kind = data::FindingKind::spike, .subject = "A", .first_frame = 5},
-      {.kind = data::FindingKind::spike, .subject = "C", .first_frame = 5}};
-  const auto settled = settle_defects(found, std::span(found).first(1), std::span(found).subspan(2, 1));
-  ASSERT_EQ(settled.size(), 4U);
-  const std::vector<std::string> done = {settled[0].done, settled[1].done, settled[2].done, settled[3].done};
-  EXPECT_EQ(done, (std::vector<std::string>{"exchanged back", "left as it is", "rejected", "left as it is"}));
-  for (const auto& one : settled) EXPECT_EQ(one.handled, one.done != "left as it is");
-  EXPECT_THAT(done[1], Not(HasSubstr("exchanged back")));
-  EXPECT_THAT(done[0], Not(HasSubstr("left as it is")));
-  EXPECT_THAT(done[3], Not(HasSubstr("rejected")));
 }
 
 }  // namespace

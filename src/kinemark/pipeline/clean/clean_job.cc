@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/clean/clean_job.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "kinemark/data/filtering.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
@@ -18,8 +15,8 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
+#include "kinemark/workflow/clean/clean.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -43,38 +40,13 @@ struct CleanFiles {
   }
 };
 
-/// A recording that was smoothed before is smoothed anew from what went in then, where it is there. What is
-/// said about it; empty where nothing was smoothed.
-std::string begin_unfiltered(const CleanJob& job, data::Trajectories& markers) {
-  std::string filters = data::describe_filters(markers);
-  if (filters.empty()) return "";
-  if (job.filter.method == trajectory::FilterMethod::none) return filters;
-  const auto covariances = !markers.covariance.empty();
-  if (data::restore_unfiltered(markers))
-    return fmt::format("{}: smoothed anew from those{}", filters,
-                       covariances ? ", whose own covariances are not known" : "");
-  return filters +
-         ", so that it is smoothed twice: noise found here is what the first filter left, and less "
-         "than that of the measurement";
-}
-
-/// Look for what the recorder did, and do about it what the job says.
-Status screen_trial(const CleanJob& job, const data::EditsInForce& edits, CleanOutcome& outcome) {
-  auto screening = workflow::screen_markers(outcome.trial, {.recorder_made = job.recorder_made,
-                                                            .exchange_back = job.exchange_back,
-                                                            .swapped = edits.swapped,
-                                                            .reject_defects = job.drops_doubtful(false),
-                                                            .sure = internal::kRejectConfidence});
-  if (!screening) return std::unexpected(screening.error());
-  auto& account = outcome.report.account;
-  account.names = outcome.trial.markers.names;
-  account.defects =
-      internal::settle_defects(std::move(screening->defects), screening->exchanged,
-                               screening->rejected ? screening->sure : std::vector<data::Finding>{});
-  account.upsampling = std::move(*screening->upsampling);
-  internal::settle_upsampling(job.recorder_made, account.upsampling);
-  outcome.warnings = std::move(screening->warnings);
-  return {};
+workflow::RepairOptions repair_options(const CleanJob& job) {
+  return {.recorder_made = job.recorder_made,
+          .exchange_back = job.exchange_back,
+          .reject_doubtful = job.drops_doubtful(false),
+          .gaps = job.gaps,
+          .seed = job.seed,
+          .threads = job.threads};
 }
 
 /// Smooth marker by marker, each into the report and to the output as soon as it is done.
@@ -95,20 +67,6 @@ Status smooth_trial(const CleanJob& job, const data::Trajectories& before, const
                         .derivatives = &piece.derivatives});
     return output.take(std::move(piece), m);
   });
-}
-
-Status fill_trial(const CleanJob& job, data::Trial& trial, report::CleanReport& report) {
-  if (job.gaps.method == trajectory::GapMethod::none) return {};
-  auto options = job.gaps;
-  options.seed = job.seed;
-  options.threads = job.threads;
-  auto filled = trajectory::fill_gaps(trial.markers, options);
-  if (!filled) return std::unexpected(filled.error());
-  report.account.gaps = std::move(filled->gaps);
-  for (auto& swap : filled->swaps)
-    report.account.defects.push_back({std::move(swap), "not relied on when filling; left as it is"});
-  trial.markers = std::move(filled->trajectories);
-  return {};
 }
 
 /// Recording and derivatives were put as they came; the account of it all follows.
@@ -145,12 +103,12 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
                                .threads = job.threads};
   auto recording = read_recording(source, job);
   if (!recording) return std::unexpected(recording.error());
-  const std::string filtered = begin_unfiltered(job, recording->trial.markers);
+  const bool smooths = job.filter.method != trajectory::FilterMethod::none;
+  const std::string filtered = workflow::begin_unfiltered(recording->trial.markers, smooths);
   if (auto s = prepare_recording(source, job, *recording); !s) return std::unexpected(s.error());
   CleanOutcome outcome;
   auto& report = outcome.report;
-  auto& trial = outcome.trial = std::move(recording->trial);
-  report.run = internal::describe_run(job, trial);
+  report.run = internal::describe_run(job, recording->trial);
   if (!filtered.empty()) report.run.warnings.push_back(filtered);
   report.run.inputs.push_back(std::move(recording->file));
   if (recording->journal.file) report.run.inputs.push_back(*recording->journal.file);
@@ -158,15 +116,16 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
                     std::back_inserter(report.run.options));
   std::ranges::copy(recording->notes, std::back_inserter(report.run.warnings));
   const auto start = std::chrono::steady_clock::now();
-  if (auto s = screen_trial(job, recording->edits, outcome); !s)
-    return fail_at(job.input.string(), s.error());
-  // Fill and smooth: each marker goes into the output as soon as it is done.
-  const data::Trajectories before = trial.markers;
-  if (auto s = fill_trial(job, trial, report); !s) return fail_at(job.input.string(), s.error());
+  auto repaired = workflow::repair(std::move(*recording), repair_options(job));
+  if (!repaired) return fail_at(job.input.string(), repaired.error());
+  report.account = std::move(repaired->account);
+  outcome.warnings = std::move(repaired->remarks.warnings);
+  // Smooth: each marker goes into the output as soon as it is done.
+  auto& trial = outcome.trial = std::move(repaired->recording.trial);
   report.time = trial.markers.time;
   auto output = internal::CleanOutput::create(job, staging->path_of(files.recording), trial, report.run);
   if (!output) return staging->failure(output.error());
-  if (auto s = smooth_trial(job, before, trial, *output, report); !s)
+  if (auto s = smooth_trial(job, repaired->before, trial, *output, report); !s)
     return s.error().code == Code::io ? staging->failure(s.error()) : fail_at(job.input.string(), s.error());
   report.run.clean_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Write.

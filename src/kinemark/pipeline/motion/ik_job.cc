@@ -102,17 +102,17 @@ Result<Solved> solve(const IkJob& job, const internal::MotionInputs& inputs) {
 }  // namespace
 
 Result<IkOutcome> run_ik(IkJob job) {
-  // Prepare: options, model and markers, tasks, where results go.
+  // Prepare: options, where results go, model and markers, tasks.
   if (auto s = complete(job); !s) return std::unexpected(s.error());
   if (auto s = internal::check_output_named(job, kOrSetup); !s) return std::unexpected(s.error());
   if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
+  auto staging = stage_files(job);
+  if (!staging) return std::unexpected(staging.error());
   const auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
   const auto& model = inputs->model;
   if (auto s = apply_tasks(job, model, inputs->recording.trial.markers); !s)
     return std::unexpected(s.error());
-  auto staging = stage_files(job);
-  if (!staging) return std::unexpected(staging.error());
   // Solve and judge.
   auto solved = solve(job, *inputs);
   if (!solved) return std::unexpected(solved.error());

@@ -90,10 +90,10 @@ Result<TrackOutcome> run_track(TrackJob job) {
   if (auto s = internal::check_output_named(job); !s) return std::unexpected(s.error());
   if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return std::unexpected(s.error());
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
-  const auto inputs = internal::read_inputs(job);
-  if (!inputs) return std::unexpected(inputs.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
+  const auto inputs = internal::read_inputs(job);
+  if (!inputs) return std::unexpected(inputs.error());
   // Solve.
   auto found = workflow::track(
       inputs->model, inputs->recording,
