@@ -6,11 +6,14 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers that other projects may include: not those of internals, test helpers and the inner folders of the articulated
-# model. tools/check_public_headers.py holds the same rule.
+# Headers that other projects may include, relative to src/: those of public_headers.txt but version.h, which is made.
+# tools/check_public_headers.py holds the list to what the headers include.
 function(kinemark_public_headers out)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/kinemark/*.h)
-  list(FILTER headers EXCLUDE REGEX "/(internal|testing)/|/test_[^/]*$|_for_test\\.h$|/skeleton/articulated/[^/]+/")
+  set(list ${PROJECT_SOURCE_DIR}/cmake/public_headers.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+  file(STRINGS ${list} headers REGEX "^kinemark/")
+  list(TRANSFORM headers REPLACE "[ ]*#.*" "")
+  list(REMOVE_ITEM headers kinemark/core/version.h)
   set(${out} ${headers} PARENT_SCOPE)
 endfunction()
 

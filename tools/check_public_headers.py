@@ -5,11 +5,11 @@
 
     tools/check_public_headers.py [ROOT] [--list] [--installed FOLDER]
 
-Public are the headers of src/kinemark, except those in `internal/` and `testing/`, `test_*.h`, `*_for_test.h` and those of
-the folders in INNER (cmake/install.cmake holds the same rule). A public header
+cmake/public_headers.txt lists them: doors, each with a word on what it is for, and what doors include. A public header
 
 - includes of ours only public headers, and of others only OUTSIDE, which kinemarkConfig.cmake finds;
-- names no `internal` namespace, neither opens one nor takes something from one.
+- names no `internal` namespace, neither opens one nor takes something from one;
+- is a door or is included by a public header, and there are MOST of them at most.
 
 --list prints the public headers, relative to src/. --installed compares an installed include folder with them. Prints one
 line for every problem; exit status 1 when there is one.
@@ -18,38 +18,30 @@ line for every problem; exit status 1 when there is one.
 import argparse
 import re
 import sys
-from pathlib import Path, PurePosixPath
-
-from check_spdx import files_of
+from pathlib import Path
 
 # First parts of the includes that consumers get with find_package(kinemark); what has no folder is of the standard.
 OUTSIDE = {"Eigen", "fmt", "nlohmann", "toml++"}
 
-# Folders whose subfolders are parts of one stage.
-INNER = ("kinemark/stages/skeleton/articulated",)
+LIST = Path("cmake/public_headers.txt")
+MOST = 150
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.MULTILINE)
 INTERNAL = re.compile(r"\binternal\s*::|\bnamespace\s+[\w:]*\binternal\b")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 
 
-def is_public(path):
-    """Whether a header, named relative to src/, is installed."""
-    path = PurePosixPath(path)
-    return not (
-        {"internal", "testing"} & set(path.parts[:-1])
-        or path.name.startswith("test_")
-        or path.stem.endswith("_for_test")
-        or any(folder.as_posix() in INNER for folder in path.parent.parents)
-    )
+def read_list(root):
+    """{public header, relative to src/: what it is a door to, or None}, in the order of the list."""
+    lines = (root / LIST).read_text(encoding="utf-8").splitlines() if (root / LIST).is_file() else []
+    parts = [line.partition("#") for line in lines if line.startswith("kinemark/")]
+    return {name.strip(): why.strip() or None for name, _, why in parts}
 
 
-def public_headers(root):
-    """Public headers relative to src/, those that CMake makes from `.h.in` among them."""
-    names = [PurePosixPath(name) for name in files_of(root)]
-    ours = [name.relative_to("src") for name in names if name.parts[:2] == ("src", "kinemark")]
-    headers = [name.as_posix().removesuffix(".in") for name in ours if name.name.endswith((".h", ".h.in"))]
-    return sorted(name for name in headers if is_public(name))
+def source_of(root, name):
+    """The file of a header, which may be one that CMake makes from `.h.in`; None where there is none."""
+    path = root / "src" / name
+    return next((one for one in (path, path.with_name(f"{path.name}.in")) if one.is_file()), None)
 
 
 def without_comments(text):
@@ -74,21 +66,36 @@ def check_header(name, text, public):
     return problems
 
 
+def check_list(listed, included):
+    """Problems of the list itself; `included` are the headers that public ones include."""
+    rest = [name for name, why in listed.items() if why is None]
+    problems = [f"{LIST}: {name} is no door and included by none" for name in rest if name not in included]
+    if rest != sorted(rest):
+        problems.append(f"{LIST}: what doors include is not sorted")
+    if len(listed) > MOST:
+        problems.append(f"{LIST}: {len(listed)} public headers; at most {MOST}")
+    return problems
+
+
 def check(root):
     """All problems of the git checkout `root`, and the number of public headers."""
-    headers = public_headers(root)
-    public, problems = set(headers), []
-    for name in headers:
-        path = root / "src" / name
-        source = path if path.is_file() else path.with_name(f"{path.name}.in")
-        problems += check_header(name, source.read_text(encoding="utf-8"), public)
-    return problems, len(headers)
+    listed = read_list(root)
+    included, problems = set(), []
+    for name in listed:
+        source = source_of(root, name)
+        if source is None:
+            problems.append(f"{LIST}: {name} does not exist")
+            continue
+        text = source.read_text(encoding="utf-8")
+        included |= {other for other in INCLUDE.findall(without_comments(text)) if other != name}
+        problems += check_header(name, text, set(listed))
+    return problems + check_list(listed, included), len(listed)
 
 
 def check_installed(root, folder):
     """How an installed include folder differs from the public headers."""
     there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
-    public = set(public_headers(root))
+    public = set(read_list(root))
     return [f"{folder}: {name} is not installed" for name in sorted(public - there)] + [
         f"{folder}: {name} is installed and not public" for name in sorted(there - public)
     ]
@@ -101,7 +108,7 @@ def main(arguments):
     parser.add_argument("--installed", metavar="FOLDER", type=Path)
     options = parser.parse_args(arguments)
     if options.list:
-        print("\n".join(public_headers(options.root)))
+        print("\n".join(sorted(read_list(options.root))))
         return 0
     problems, headers = check(options.root)
     if options.installed:

@@ -34,7 +34,9 @@
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
+#include "kinemark/workflow/clean/clean.h"
 #include "kinemark/workflow/joints/joints.h"
+#include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
@@ -68,8 +70,12 @@ using io::write_osim;
 using pipeline::find_definition;  // "pig", "isb-shoulder", or a .toml
 
 // As the commands do it: from a recording to what is found, with what there is to say of it.
+using workflow::clean;
+using workflow::emg;
+using workflow::gait;
 using workflow::ik;
 using workflow::joints;
+using workflow::measure;
 using workflow::prepare;
 using workflow::track;
 
