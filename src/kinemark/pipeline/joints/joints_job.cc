@@ -14,7 +14,6 @@
 #include "kinemark/pipeline/joints/joints_page.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/pipeline/joints/vsk_layout.h"
-#include "kinemark/workflow/prepare/prepare.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 
 namespace kinemark::pipeline {
