@@ -114,7 +114,9 @@ def real(folder):
     for first in range(0, len(pages), BATCH):
         batch = pages[first : first + BATCH]
         said, status = node("run.ts", *batch)
-        broken += [line for line in said.splitlines() if line.startswith("FAILED")]
+        lines = said.splitlines()
+        among = f"(among {batch[0].stem} to {batch[-1].stem})"
+        broken += [f"{line}: {why} {among}" for line, why in zip(lines, [*lines[1:], ""]) if line.startswith("FAILED")]
         if status != 0 and not said:
             broken.append(f"batch from {batch[0].name} did not run")
     row(pages != [] and not broken, f"{len(pages)} real recordings open, screen positions agree with projection", "< 1 px, no complaint", "; ".join(broken[:5]) or "all")

@@ -118,7 +118,7 @@ export const alwaysOfMarkers: Record<string, Check> = {
     assert.ok((await lineIn("#plot-x")) < curve - 100, "the curves follow");
     assert.ok((await lineIn("#gap-map")) < map - 100, "the map follows");
     await page.keyboard.press(" ");
-    await page.waitForTimeout(400);
+    for (const begun = Date.now(); (await pointOf(page)) === 0 && Date.now() - begun < 20_000; ) await page.waitForTimeout(20);
     await page.keyboard.press(" ");
     await settle(page);
     const played = await pointOf(page);
