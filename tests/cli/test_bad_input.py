@@ -73,7 +73,7 @@ class WrongContent(CommandTest):
         said = self.good(*self.ik(markers="twice.trc")).err
         self.assertIn("line 4 repeats 1 marker names ('LFHD' is the first)", said)
         self.write("twice.osim", self.model.read_text().replace('<Marker name="RFHD"', '<Marker name="LFHD"'))
-        self.refused(3, ["twice.osim", "'LFHD' occurs twice"], *self.ik(model="twice.osim"))
+        self.refused(3, ["twice.osim", "'LFHD' occurs twice"], *self.ik(model="twice.osim", output="other.mot"))
 
     def test_unknown_names(self):
         self.refused(3, ["'NOPE'", "neither"], *self.ik(weight="NOPE=1"))
