@@ -34,9 +34,9 @@ int main() {
   if (!found) return std::fprintf(stderr, "%s\n", found.error().message.c_str()), 1;
   for (const auto& [what, value] : found->torques.facts) std::printf("%s: %s\n", what.c_str(), value.c_str());
   const auto& motion = found->result.motion;
-  const auto ankle = motion.find("ankle_angle_r");
-  if (ankle < 0) return std::fprintf(stderr, "the model has no ankle_angle_r\n"), 1;
+  const auto ankle = motion.find("ankle_angle_l");
+  if (ankle < 0) return std::fprintf(stderr, "the model has no ankle_angle_l\n"), 1;
   const auto middle = motion.index(motion.frames() / 2, ankle);
-  std::printf("right ankle in the middle: %.1f +- %.1f N m\n", motion.tau[middle], motion.tau_sd[middle]);
+  std::printf("left ankle in the middle: %.2f +- %.2f N m\n", motion.tau[middle], motion.tau_sd[middle]);
   return 0;
 }

@@ -8,10 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/kinemark.h"
 #include "kinemark/pipeline/simulate/human_model.h"
-#include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/simulation/subject.h"
 
 using namespace kinemark;
@@ -19,17 +17,17 @@ using namespace kinemark;
 int main(int argc, char** argv) {
   // Everything that can fail gives a Result: a value, or an Error of one sentence.
   const bool own = argc == 3;
-  auto description = own ? io::read_osim(argv[1]) : pipeline::human_model();
+  auto description = own ? read_osim(argv[1]) : pipeline::human_model();
   if (!description) return std::fprintf(stderr, "%s\n", description.error().message.c_str()), 1;
 
   // A description is what the file says; a model is the same body compiled for computing.
-  const auto model = model::Model::compile(*description);
+  const auto model = Model::compile(*description);
   if (!model) return std::fprintf(stderr, "%s\n", model.error().message.c_str()), 1;
 
   // Markers: frames x markers x 3, in metres, NaN where a marker was not seen.
   data::Trajectories markers;
   if (own) {
-    auto trial = io::read_markers(argv[2]);
+    auto trial = read_markers(argv[2]);
     if (!trial) return std::fprintf(stderr, "%s\n", trial.error().message.c_str()), 1;
     markers = std::move(trial->markers);
   } else {
@@ -39,8 +37,11 @@ int main(int argc, char** argv) {
     markers = std::move(subject->markers);
   }
 
-  const auto result = motion::solve_ik(*model, markers);
-  if (!result) return std::fprintf(stderr, "%s\n", result.error().message.c_str()), 1;
+  const auto found = ik(*model, {.trial = {.markers = std::move(markers)}});
+  if (!found) return std::fprintf(stderr, "%s\n", found.error().message.c_str()), 1;
+  const auto* result = &found->result;
+  for (const auto& gate : found->remarks.gates)
+    if (!gate.passed) std::printf("NOT GOOD: %s\n", gate.sentence.c_str());
 
   // Angles are in radians, positions in metres, one row a frame; here the last frame is shown in degrees.
   const data::JointMotion& motion = result->motion;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A generic body model is given the sizes of a person: the thighs from the distance between markers at hip
-// and knee, the whole from the mass.
+// A generic body model is given the sizes of a person: the right thigh from the distance between markers on
+// thigh and knee, the whole from the mass.
 #include <cmath>
 #include <cstdio>
 
@@ -28,6 +28,8 @@ int main() {
     for (const auto& pair : one.pairs)
       std::printf("%s: %.1f +- %.2f mm, %.4f times the model's\n", one.name.c_str(), 1e3 * pair.measured_m,
                   1e3 * pair.measured_sd_m, one.factor);
-  const auto written = kinemark::write_osim("scaled.osim", scaled->model);
-  return written && std::abs(scaled->measurements.at(0).factor - 1.05) < 0.05 ? 0 : 1;
+  // Without .force a file that exists is kept, and the error says so.
+  const auto written = kinemark::write_osim("scaled.osim", scaled->model, {.force = true});
+  if (!written) return std::fprintf(stderr, "%s\n", written.error().message.c_str()), 1;
+  return std::abs(scaled->measurements.at(0).factor - 1.05) < 0.05 ? 0 : 1;
 }

@@ -15,7 +15,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 MOST_HEADERS = 150
 MOST_LINES = 500
 MOST_PREPARERS = 3
-PREPARING = ("kinemark/workflow/prepare/prepare.h", "kinemark/workflow/prepare/selection.h")
+PREPARING = ("kinemark/workflow/prepare/prepare.h", "kinemark/workflow/prepare/selection.h")  # what edits, selects, cuts and turns
+ANY_OF_THEM = tuple(f"kinemark/workflow/prepare/{path.name}" for path in (ROOT / "src/kinemark/workflow/prepare").glob("*.h"))
 FRONT = Path("src/kinemark/kinemark.h")  # hands verbs on and prepares nothing
 VERBS = {
     "clean": "clean", "joints": "joints", "scale": "scale", "ik": "ik", "track": "track", "measure": "measure", "gait": "gait",
@@ -38,9 +39,9 @@ def public_headers():
     return tool.stdout.split()
 
 
-def preparers(paths):
-    """Files outside of workflow/prepare that include what prepares a recording."""
-    include = re.compile(r'^#include "(' + "|".join(map(re.escape, PREPARING)) + ')"', re.MULTILINE)
+def users(paths, headers):
+    """Files outside of workflow/prepare that include one of these headers."""
+    include = re.compile(r'^#include "(' + "|".join(map(re.escape, headers)) + ')"', re.MULTILINE)
     inside = ROOT / "src" / "kinemark" / "workflow" / "prepare"
     others = [path for path in paths if inside not in path.parents and path != ROOT / FRONT]
     return [path.relative_to(ROOT).as_posix() for path in others if include.search(path.read_text(encoding="utf-8"))]
@@ -50,8 +51,9 @@ def main():
     paths = sources()
     headers = public_headers()
     row(0 < len(headers) <= MOST_HEADERS, "public headers", f"at most {MOST_HEADERS}", len(headers))
-    found = preparers(paths)
-    row(0 < len(found) <= MOST_PREPARERS, "headers that prepare a recording, included from", f"at most {MOST_PREPARERS} files", ", ".join(found))
+    found = users(paths, PREPARING)
+    row(0 < len(found) <= MOST_PREPARERS, "headers that edit, select, cut and turn, included from", f"at most {MOST_PREPARERS} files", ", ".join(found))
+    print(f"NOTE | any header of workflow/prepare (verticals, screening, axes, forces too), included from | - | {len(users(paths, ANY_OF_THEM))} files")
     lacking = [verb for verb, name in VERBS.items() if not (ROOT / "examples" / f"{name}.cc").is_file()]
     row(not lacking, "examples", "one for each verb", f"{len(VERBS) - len(lacking)} of {len(VERBS)}" + "".join(f"; none of {verb}" for verb in lacking))
     lines = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in paths}
