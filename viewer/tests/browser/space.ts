@@ -111,18 +111,22 @@ export const alwaysOfMarkers: Record<string, Check> = {
     await page.locator(".space-canvas").focus();
     await page.keyboard.press("ArrowRight");
     await settle(page);
-    assert.equal(await pointOf(page), before + 1);
+    assert.equal(await pointOf(page), Math.min(before + 1, last));
     await page.keyboard.press("Home");
     await settle(page);
     assert.equal(await pointOf(page), 0);
-    assert.ok((await lineIn("#plot-x")) < curve - 100, "the curves follow");
-    assert.ok((await lineIn("#gap-map")) < map - 100, "the map follows");
+    // A recording of one frame has no other instant.
+    if (last > 0) {
+      assert.ok((await lineIn("#plot-x")) < curve - 100, "the curves follow");
+      assert.ok((await lineIn("#gap-map")) < map - 100, "the map follows");
+    }
     await page.keyboard.press(" ");
-    for (const begun = Date.now(); (await pointOf(page)) === 0 && Date.now() - begun < 20_000; ) await page.waitForTimeout(20);
-    await page.keyboard.press(" ");
+    for (const begun = Date.now(); (await pointOf(page)) === 0 && last > 0 && Date.now() - begun < 20_000; ) await page.waitForTimeout(20);
+    // A recording of a few frames has come to its end by now, where the key would begin anew.
+    if ((await page.locator('#space .transport button[aria-label="Pause"]').count()) > 0) await page.keyboard.press(" ");
     await settle(page);
     const played = await pointOf(page);
-    assert.ok(played > 0, "it plays");
+    assert.ok(played > 0 || last === 0, "it plays");
     await page.waitForTimeout(150);
     assert.equal(await pointOf(page), played, "it stops");
     await goTo(page, Math.floor(last / 2));

@@ -18,13 +18,9 @@ namespace {
 void take_measured(workflow::Measured&& found, MeasuredRecording& out) {
   auto& outcome = out.outcome;
   static_cast<data::Recording&>(out.recording) = std::move(found.recording);
-  outcome.measures = std::move(found.measures);
-  outcome.gait = std::move(found.gait);
-  outcome.emg = std::move(found.emg);
-  outcome.rhythms = std::move(found.rhythms);
-  outcome.noises = std::move(found.noises);
   out.curves = std::move(found.curves);
   std::ranges::move(found.remarks.warnings, std::back_inserter(outcome.warnings));
+  static_cast<workflow::MeasuresFound&>(outcome) = std::move(found);
 }
 
 // Curves over strides, or over the repetitions of the markers' own movements.

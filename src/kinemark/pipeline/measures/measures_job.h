@@ -12,16 +12,13 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/emg_request.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/recording_name.h"
-#include "kinemark/stages/analysis/path/path_noise.h"
-#include "kinemark/stages/analysis/path/path_rhythm.h"
-#include "kinemark/workflow/measures/choice.h"
+#include "kinemark/workflow/measures/measure.h"
 
 namespace kinemark::pipeline {
 
@@ -41,16 +38,9 @@ struct MeasuresJob : JobSettings, RecordingOptions, workflow::MeasureChoice, Gai
 };
 
 /// Warnings: what was left out, and markers that could not be measured.
-struct MeasuresOutcome : JobOutcome {
+struct MeasuresOutcome : JobOutcome, workflow::MeasuresFound {
   data::InputFile input;                ///< the recording
   std::vector<data::InputFile> beside;  ///< what was read with it: its journal, forces
-  std::vector<data::Measure>
-      measures;  ///< of walking, plates, EMG, then markers in the recording's order, their regions
-  std::optional<analysis::Gait> gait;        ///< walking, where it was asked for or is there
-  std::optional<analysis::EmgMeasures> emg;  ///< electromyograms, likewise
-  std::vector<analysis::PathRhythm>
-      rhythms;  ///< what repeats in the paths, where events or cycles of them are asked for
-  std::vector<analysis::PathNoise> noises;  ///< of the markers whose paths are measured
 };
 
 /// The files that the job reads, as far as it names them. Names of no file may be among them.

@@ -19,16 +19,20 @@
 
 namespace kinemark::workflow {
 
-/// What was measured of a recording.
-struct Measured {
-  data::Recording recording;  ///< as it was measured: doubtful samples are rejected
+/// What was measured, by kind.
+struct MeasuresFound {
   std::vector<data::Measure>
       measures;  ///< of walking, plates, EMG, then markers in the recording's order, their regions
   std::optional<analysis::Gait> gait;        ///< walking, where it was asked for or is there
   std::optional<analysis::EmgMeasures> emg;  ///< electromyograms, likewise
   std::vector<analysis::PathRhythm>
       rhythms;  ///< what repeats in the paths, where events or cycles of them are asked for
-  std::vector<analysis::PathNoise> noises;   ///< of the markers whose paths are measured
+  std::vector<analysis::PathNoise> noises;  ///< of the markers whose paths are measured
+};
+
+/// A recording that was measured.
+struct Measured : MeasuresFound {
+  data::Recording recording;                 ///< as it was measured: doubtful samples are rejected
   std::vector<analysis::PathCurves> curves;  ///< where they are asked for
   Remarks remarks;                           ///< what was left out, and what could not be measured
 };

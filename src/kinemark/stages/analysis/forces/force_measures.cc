@@ -139,8 +139,7 @@ class ForceMeasurement {
     }
     if (cut > 0)
       out_.notes.push_back(
-          fmt::format("{}: {} reach beyond the recording or what is known of it, and are not "
-                      "measured",
+          fmt::format("{}: {} cut by an end of the recording or of what is known of it, not measured",
                       plate.name, counted(cut, "step")));
     if (steps.empty()) return;
     std::vector<bool> loaded(at(load.size()), false);

@@ -160,13 +160,21 @@ TEST(ForceMeasures, SwayByClosedFormsAndWithItsNoiseTakenOff) {
   EXPECT_EQ(path.subject, "centre of pressure");
 }
 
+TEST(ForceMeasures, AStepThatIsWholeIsNotSaidToBeCut) {
+  const auto notes = measure_forces(walk(0.0, 1), {}).value().notes;
+  EXPECT_THAT(
+      notes,
+      Not(Contains(HasSubstr("cut by an end of the recording or of what is known of it, not measured"))));
+}
+
 TEST(ForceMeasures, WhatIsNotThereIsSaid) {
   auto cut = walk(0.0, 1);
   cut.time.frames = 180;  // within the step
   auto& plate = cut.items[0];
   for (auto* values : {&plate.force, &plate.moment, &plate.point}) values->resize(3 * 180);
-  EXPECT_THAT(measure_forces(cut, {}).error().message,
-              HasSubstr("plate 1: 1 step reach beyond the recording"));
+  EXPECT_THAT(
+      measure_forces(cut, {}).error().message,
+      HasSubstr("plate 1: 1 step cut by an end of the recording or of what is known of it, not measured"));
   auto empty = walk(0.0, 1);
   std::ranges::fill(empty.items[0].force, 0.0);
   EXPECT_THAT(measure_forces(empty, {}).error().message, HasSubstr("nobody steps wholly on a plate"));
