@@ -185,10 +185,10 @@ def read_motion(path, report):
 
 
 def solve_by_kinemark(program, case, folder, runs):
-    """(Motion, which coordinates are rotations)."""
+    """(Motion, which coordinates are rotations). Every sample is kept as OpenSim keeps it: both solve one problem."""
     output = folder / "Q.mot"
     command = [program, "ik", "--setup", case.setup, "--model", case.model, "--markers", case.markers, "--output", output,
-               "--threads", 1, "--no-error-bars", "--force", "--quiet"]
+               "--threads", 1, "--no-error-bars", "--doubtful", "keep", "--force", "--quiet"]
     if case.range_s:
         command += ["--start", case.range_s[0], "--end", case.range_s[1]]
     solve_s = []
