@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/foundations/foundation_gate.h"
 
-#include <fmt/core.h>
-
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
-#include "kinemark/core/text.h"
-#include "kinemark/stages/motion/foundations/stillness.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
 
 namespace kinemark::pipeline {
 
@@ -16,33 +15,10 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& file,
                                                        const data::Trajectories& still,
                                                        std::span<const data::Trajectories* const> movements,
                                                        JobOutcome& outcome) {
-  std::vector<std::string> names;
-  for (const auto& marker : body.markers) names.push_back(marker.name);
-  if (const auto unrest = motion::find_unrest(still, names))
-    outcome.warnings.push_back(
-        fmt::format("{}; a posture that is taken from all of it is a mean of different ones",
-                    motion::describe(*unrest, file)));
-  auto judgement = motion::judge_foundation(body, still, movements);
-  if (!judgement) return fail_at(file, judgement.error());
-  if (judgement->judged.empty()) return judgement;
-  const auto found = judgement->findings.size();
-  data::Gate gate{.name = "static_trial",
-                  .passed = found == 0,
-                  .value = static_cast<double>(found),
-                  .bound = 0.0,
-                  .unit = "findings",
-                  .sentence = fmt::format("No marker of {} lies where a body cannot have it.", file)};
-  if (found > 0) {
-    std::vector<std::string> sentences;
-    for (const auto& finding : judgement->findings) sentences.push_back(motion::describe(finding, file));
-    gate.sentence = fmt::format(
-        "The static trial cannot be built on: {}. Everything below takes it as it is; label it again or "
-        "leave the "
-        "marker out.",
-        join(sentences, "; "));
-    outcome.warnings.push_back(gate.sentence);
-  }
-  outcome.gates.push_back(std::move(gate));
+  workflow::Remarks remarks;
+  auto judgement = workflow::judge_static_trial(file, body, still, movements, remarks);
+  std::ranges::move(remarks.warnings, std::back_inserter(outcome.warnings));
+  std::ranges::move(remarks.gates, std::back_inserter(outcome.gates));
   return judgement;
 }
 

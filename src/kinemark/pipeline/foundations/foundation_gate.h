@@ -14,9 +14,7 @@
 
 namespace kinemark::pipeline {
 
-/// Judge a still recording and add the gate `static_trial` to the outcome: missed where a pair is exchanged
-/// or a marker lies elsewhere, with a warning for each that names it; a warning too where its posture
-/// changes. No gate where too few markers are known.
+/// workflow::judge_static_trial(), its remarks added to those of the outcome.
 /// @param file  what its sentences call the recording by, a file's name
 [[nodiscard]] Result<motion::FoundationJudgement> judge_static_trial(
     const std::string& file, const motion::StandingBody& body, const data::Trajectories& still,

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/foundations/foundation_gate.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/text.h"
+#include "kinemark/stages/motion/foundations/stillness.h"
+
+namespace kinemark::workflow {
+
+Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
+                                                       const motion::StandingBody& body,
+                                                       const data::Trajectories& still,
+                                                       std::span<const data::Trajectories* const> movements,
+                                                       Remarks& remarks) {
+  std::vector<std::string> names;
+  for (const auto& marker : body.markers) names.push_back(marker.name);
+  if (const auto unrest = motion::find_unrest(still, names))
+    remarks.warnings.push_back(
+        fmt::format("{}; a posture that is taken from all of it is a mean of different ones",
+                    motion::describe(*unrest, name)));
+  auto judgement = motion::judge_foundation(body, still, movements);
+  if (!judgement) return fail_at(name, judgement.error());
+  if (judgement->judged.empty()) return judgement;
+  const auto found = judgement->findings.size();
+  data::Gate gate{.name = "static_trial",
+                  .passed = found == 0,
+                  .value = static_cast<double>(found),
+                  .bound = 0.0,
+                  .unit = "findings",
+                  .sentence = fmt::format("No marker of {} lies where a body cannot have it.", name)};
+  if (found > 0) {
+    std::vector<std::string> sentences;
+    for (const auto& finding : judgement->findings) sentences.push_back(motion::describe(finding, name));
+    gate.sentence = fmt::format(
+        "The static trial cannot be built on: {}. Everything below takes it as it is; label it again or "
+        "leave the "
+        "marker out.",
+        join(sentences, "; "));
+    remarks.warnings.push_back(gate.sentence);
+  }
+  remarks.gates.push_back(std::move(gate));
+  return judgement;
+}
+
+}  // namespace kinemark::workflow

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The gate in front of everything that builds on a static trial.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/trajectories.h"
+#include "kinemark/stages/motion/foundations/judge.h"
+#include "kinemark/workflow/remarks.h"
+
+namespace kinemark::workflow {
+
+/// Judge a still recording and add the gate `static_trial` to the remarks: missed where a pair is exchanged
+/// or a marker lies elsewhere, with a warning for each that names it; a warning too where its posture
+/// changes. No gate where too few markers are known. Fails as motion::judge_foundation(), naming the trial.
+/// @param name  what its sentences call the recording by
+[[nodiscard]] Result<motion::FoundationJudgement> judge_static_trial(
+    const std::string& name, const motion::StandingBody& body, const data::Trajectories& still,
+    std::span<const data::Trajectories* const> movements, Remarks& remarks);
+
+}  // namespace kinemark::workflow

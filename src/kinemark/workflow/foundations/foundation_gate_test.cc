@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/foundations/foundation_gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/index.h"
+
+namespace kinemark::workflow {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::vector<std::string> kNames{"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE",
+                                      "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"};
+
+/// Every marker where its name says.
+data::Trajectories standing() {
+  const auto body = motion::body_of_names(kNames);
+  auto out = data::Trajectories::all_missing(kNames, {.rate_hz = 100.0, .frames = 5});
+  for (std::int64_t f = 0; f < 5; ++f)
+    for (std::int64_t m = 0; m < out.markers(); ++m) {
+      const auto& marker = body.markers[static_cast<std::size_t>(m)];
+      Vector3d x = marker.x_in_segment;
+      for (int s = marker.segment; s >= 0; s = body.segments[at(s)].parent)
+        x += body.segments[at(s)].joint_in_parent;
+      out.x(f, m) = x;
+      out.state[out.index(f, m)] = data::SampleState::measured;
+    }
+  return out;
+}
+
+TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
+  Remarks remarks;
+  const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), standing(), {}, remarks);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_TRUE(remarks.passed());
+  EXPECT_TRUE(remarks.warnings.empty());
+  ASSERT_EQ(remarks.gates.size(), 1);
+  EXPECT_EQ(remarks.gates[0].name, "static_trial");
+  EXPECT_TRUE(remarks.gates[0].passed);
+  EXPECT_EQ(remarks.gates[0].value, 0.0);
+  EXPECT_THAT(remarks.gates[0].sentence, HasSubstr("No marker of cal.c3d lies where a body cannot have it."));
+  EXPECT_THAT(remarks.gates[0].sentence, Not(HasSubstr("Everything below takes it as it is")));
+  EXPECT_EQ(judged->judged.size(), kNames.size());
+  EXPECT_TRUE(judged->findings.empty());
+  EXPECT_EQ(judged->movements, 0);
+}
+
+TEST(FoundationGate, SaysWhereTheTrialMoves) {
+  const auto body = motion::body_of_names(kNames);
+  auto trial = data::Trajectories::all_missing(kNames, {.rate_hz = 100.0, .frames = 20});
+  for (std::int64_t f = 0; f < trial.frames(); ++f)
+    for (std::int64_t m = 0; m < trial.markers(); ++m) {
+      trial.x(f, m) = standing().x(0, m);
+      if (f >= 10 && kNames[at(m)] == "LANK") trial.x(f, m) += Vector3d(-0.2, 0.2, 0.0);
+      trial.state[trial.index(f, m)] = data::SampleState::measured;
+    }
+  Remarks remarks;
+  ASSERT_TRUE(judge_static_trial("cal.c3d", body, trial, {}, remarks));
+  ASSERT_FALSE(remarks.warnings.empty());
+  EXPECT_THAT(remarks.warnings[0], HasSubstr("cal.c3d is not still"));
+  EXPECT_THAT(remarks.warnings[0],
+              HasSubstr("a posture that is taken from all of it is a mean of different ones"));
+}
+
+TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
+  auto trial = standing();
+  const auto toe = trial.find("LTOE"), heel = trial.find("LHEE");
+  for (std::int64_t f = 0; f < trial.frames(); ++f) {
+    const Vector3d kept = trial.x(f, toe);
+    trial.x(f, toe) = trial.x(f, heel);
+    trial.x(f, heel) = kept;
+  }
+  Remarks remarks;
+  const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, remarks);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_FALSE(remarks.passed());
+  ASSERT_EQ(remarks.warnings.size(), 1);
+  EXPECT_THAT(remarks.warnings[0], HasSubstr("LHEE and LTOE are exchanged in cal.c3d"));
+  EXPECT_THAT(remarks.warnings[0], HasSubstr("Everything below takes it as it is; label it again or leave"));
+  EXPECT_THAT(remarks.warnings[0], Not(HasSubstr("lies where a body cannot have it")));
+  EXPECT_EQ(remarks.gates[0].sentence, remarks.warnings[0]);
+  EXPECT_EQ(remarks.gates[0].value, 1.0);
+  ASSERT_EQ(judged->findings.size(), 1U);
+  EXPECT_EQ(judged->findings[0].partner, "LTOE");
+}
+
+TEST(FoundationGate, NamesEachOfTwoExchanges) {
+  auto trial = standing();
+  for (const auto& [a, b] : {std::pair{"LTOE", "LHEE"}, std::pair{"RASI", "RPSI"}}) {
+    const auto i = trial.find(a), j = trial.find(b);
+    for (std::int64_t f = 0; f < trial.frames(); ++f) {
+      const Vector3d kept = trial.x(f, i);
+      trial.x(f, i) = trial.x(f, j);
+      trial.x(f, j) = kept;
+    }
+  }
+  Remarks remarks;
+  const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, remarks);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_EQ(judged->findings.size(), 2U);
+  ASSERT_EQ(remarks.warnings.size(), 1U) << "one gate, one sentence";
+  EXPECT_THAT(remarks.warnings[0], HasSubstr("LHEE and LTOE are exchanged"));
+  EXPECT_THAT(remarks.warnings[0], HasSubstr("RASI and RPSI are exchanged"));
+  EXPECT_FALSE(remarks.passed());
+}
+
+TEST(FoundationGate, IsNotThereWhereNothingCanBeJudged) {
+  Remarks remarks;
+  const auto nobody = data::Trajectories::all_missing({"a", "b"}, {.rate_hz = 100.0, .frames = 2});
+  ASSERT_TRUE(judge_static_trial("cal.c3d", motion::body_of_names(nobody.names), nobody, {}, remarks));
+  EXPECT_TRUE(remarks.gates.empty());
+  EXPECT_TRUE(remarks.warnings.empty());
+}
+
+}  // namespace
+}  // namespace kinemark::workflow
