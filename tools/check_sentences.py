@@ -26,6 +26,7 @@ exit status 1 when there is one.
 """
 
 import argparse
+import ast
 import re
 import sys
 import tomllib
@@ -42,14 +43,15 @@ PIECE = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 ERROR = re.compile(r"\b(?:fail|check|Error|Failure)\s*[({][^;{}]*$")
 PLACEHOLDER = re.compile(r"\{[^{}]*\}")
 GTEST = re.compile(r"^(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP)\((\w+),\s*(\w+)", re.MULTILINE)
-PYTEST = re.compile(r"^    def (test_\w+)\(", re.MULTILINE)
 DENIED = (
     re.compile(r"Not\((?:testing::)?(?:HasSubstr|Contains|AnyOf)\("),
     re.compile(r"EXPECT_FALSE\(|ASSERT_FALSE\("),
     re.compile(r"assertNotIn\(|assertFalse\("),
     re.compile(r"\.elsewhere"),
 )
-SILENT = re.compile(r'IsEmpty\(\)|\.empty\(\)|, ""\)|std::nullopt|assertEqual\([^;\n]*, \[\]\)|, 0[uU]?\)')
+MESSAGE = re.compile(r"(\b(?:EXPECT|ASSERT)_\w+\(.*?\))\s*<<.*", re.DOTALL)  # what a failing expectation prints expects nothing
+ONE_OPERAND = ("assertTrue", "assertFalse", "assertIsNone", "assertIsNotNone")  # of unittest; the others have two, then a message
+SILENT = re.compile(r'IsEmpty\(\)|\.empty\(\)|, ""\)|std::nullopt|assertEqual\([^;\n]*, \[\]\)')
 
 
 def without_comments(text):
@@ -76,51 +78,89 @@ def sentences_of(text):
     return found
 
 
-def grams(sentence):
-    """Runs of characters of a sentence, one of which a test must hold to be about it; none across what is filled in."""
+def runs(sentence):
+    """Runs of characters of a sentence; none across what is filled in."""
     pieces = [p.strip() for p in PLACEHOLDER.split(sentence.replace('\\"', '"'))]
-    longest = max(map(len, pieces))
-    size = min(LEAST_SHARED, longest)
+    size = min(LEAST_SHARED, max(map(len, pieces)))
     return {p[i : i + size] for p in pieces for i in range(len(p) - size + 1)}
 
 
-def tests_of(text, python):
-    """{name: body} of a test file."""
-    starts = list((PYTEST if python else GTEST).finditer(text))
-    names = [m[1] if python else f"{m[1]}.{m[2]}" for m in starts]
-    ends = [m.start() for m in starts[1:]] + [len(text)]
-    return {name: text[m.start() : end] for name, m, end in zip(names, starts, ends)}
+def common_runs(sentences):
+    """Runs that sentences of several files share, which show of no test which one it is about."""
+    files = {}
+    for name, sentence in sentences:
+        for run in runs(sentence):
+            files.setdefault(run, set()).add(name)
+    return {run for run, names in files.items() if len(names) > 1}
+
+
+class Sentence:
+    """A fixed sentence, and the runs of it one of which a test must hold to be about it."""
+
+    def __init__(self, file, text, common):
+        self.plain, self.stem = text.replace('\\"', '"'), Path(file).stem
+        self.runs = runs(text)
+        self.distinctive = (self.runs - common) or self.runs
+
+    def wanted(self, test):
+        """Of the tests of its own file any run will do."""
+        return self.runs if test.startswith(f"{self.stem}_test.cc:") else self.distinctive
+
+
+def tests_of(text):
+    """{name: body} of a test file in C++."""
+    found = list(GTEST.finditer(text))
+    ends = [m.start() for m in found[1:]] + [len(text)]
+    return {f"{m[1]}.{m[2]}": text[m.start() : end] for m, end in zip(found, ends)}
+
+
+def python_tests_of(text):
+    """{name: syntax tree} of a test file in Python."""
+    return {n.name: n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.FunctionDef) and n.name.startswith("test_")}
 
 
 def statements_of(body):
-    """(statement, its strings) of a test; strings may stand in a variable of their own."""
+    """(statement, its strings) of a test in C++; strings may stand in a variable of their own."""
     for statement in re.split(r";\s*\n|\n\s*\n", body):
+        statement = MESSAGE.sub(r"\1", statement)
         strings = ["".join(PIECE.findall(m[0])).replace('\\"', '"') for m in LITERAL.finditer(statement)]
-        if not strings:
-            strings = [a or b for a, b in re.findall(r"'((?:[^'\\\n]|\\.)*)'|\"((?:[^\"\\\n]|\\.)*)\"", statement)]
         if strings:
             yield statement, strings
 
 
-def holds(expectations, sentence, denied):
-    """True where one of a test's statements that deny, or that expect, holds part of the sentence."""
-    wanted = grams(sentence)
-    return any(denied == is_denied and any(gram in text for gram in wanted) for is_denied, text in expectations)
+def without_message(node):
+    """A statement of a test in Python without the messages of its assertions."""
+    for call in ast.walk(node):
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Attribute) and call.func.attr.startswith("assert"):
+            call.args = call.args[: 1 if call.func.attr in ONE_OPERAND else 2]
+            call.keywords = [keyword for keyword in call.keywords if keyword.arg != "msg"]
+    return node
 
 
-def says(expectations, sentence):
-    """True where a test expects the sentence."""
-    return holds(expectations, sentence, False)
+def python_statements_of(tree):
+    """(statement, its strings) of a test in Python, or of a script; of a loop or condition each statement by itself."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.stmt) and not hasattr(node, "body"):
+            node = without_message(node)
+            strings = [c.value for c in ast.walk(node) if isinstance(c, ast.Constant) and isinstance(c.value, str)]
+            if strings:
+                yield ast.unparse(node), strings
 
 
-def denies(expectations, sentence):
-    """True where a test expects that the sentence is not said."""
-    return holds(expectations, sentence, True)
+def says(tests, name, sentence, denied=False):
+    """True where one of the statements of the test that expect, or that deny, holds part of the sentence."""
+    wanted = sentence.wanted(name)
+    return any(denied == is_denied and any(run in text for run in wanted) for is_denied, text in tests.expectations[name])
 
 
-def expectations_of(body):
+def denies(tests, name, sentence):
+    """True where the test expects that the sentence is not said."""
+    return says(tests, name, sentence, denied=True)
+
+
+def expectations_of(statements):
     """[(denied, the strings)] of a test's statements."""
-    return [(any(d.search(statement) for d in DENIED), "\0".join(strings)) for statement, strings in statements_of(body)]
+    return [(any(d.search(statement) for d in DENIED), "\0".join(strings)) for statement, strings in statements]
 
 
 class Tests:
@@ -131,15 +171,18 @@ class Tests:
         for folder in ("src", "server", "cli", "studies", "tests"):
             for pattern in ("*_test.cc", "accept_*.cc", "*.py"):
                 for path in sorted((root / folder).rglob(pattern)):
-                    text = path.read_text(encoding="utf-8")
-                    tests = tests_of(text, path.suffix == ".py")
-                    for name, body in (tests or {"whole": text}).items():
-                        self.bodies[f"{path.name}:{name}"] = body
-                        self.expectations[f"{path.name}:{name}"] = expectations_of(body)
+                    self.add(path.name, path.read_text(encoding="utf-8"))
+
+    def add(self, file, text):
+        python = file.endswith(".py")
+        tests = (python_tests_of(text) or {"whole": ast.parse(text)}) if python else (tests_of(text) or {"whole": text})
+        for name, test in tests.items():
+            self.bodies[f"{file}:{name}"] = ast.unparse(test) if python else test
+            self.expectations[f"{file}:{name}"] = expectations_of(python_statements_of(test) if python else statements_of(test))
 
     def find(self, sentence, judge):
         """FILE:TEST of the first test that `judge` says yes to, or ""."""
-        return next((name for name, told in self.expectations.items() if judge(told, sentence)), "")
+        return next((name for name in self.expectations if judge(self, name, sentence)), "")
 
 
 def sources(root):
@@ -164,7 +207,7 @@ def check_row(row, sentence, tests):
         elif key == "opposite" and row.get("silent"):
             if not SILENT.search(tests.bodies[name]):
                 wrong.append(f"{place}: {name} does not expect silence")
-        elif not judge(tests.expectations[name], sentence):
+        elif not judge(tests, name, sentence):
             wrong.append(f"{place}: {name} does not {'expect' if key == 'planted' else 'deny'} it")
     return wrong
 
@@ -178,29 +221,29 @@ def owed(table):
     return sum(1 for row in table.get("sentence", []) if row.get("owed"))
 
 
+def all_sentences(root, texts):
+    """(file, sentence) of all sources but those that are texts."""
+    return [(name, sentence) for name, path in sources(root) if name not in texts
+            for sentence in dict.fromkeys(sentences_of(path.read_text(encoding="utf-8")))]
+
+
 def check(root, propose=False):
     """Lines that say what is wrong."""
     table = read_table(root)
     rows, texts = table.get("sentence", []), {row["file"]: row for row in table.get("texts", [])}
-    tests = Tests(root)
-    wrong, used = [], set()
-    known = set()
-    for name, path in sources(root):
-        known.add(name)
-        if name in texts:
+    tests, found = Tests(root), all_sentences(root, texts)
+    common, wrong, used = common_runs(found), [], set()
+    for name, text in found:
+        sentence = Sentence(name, text, common)
+        matching = [i for i, row in enumerate(rows) if row["file"] == name and row["says"] in sentence.plain]
+        used.update(matching)
+        if matching:
+            wrong += check_row(rows[max(matching, key=lambda i: len(rows[i]["says"]))], sentence, tests)
             continue
-        mine = [(i, row) for i, row in enumerate(rows) if row["file"] == name]
-        for sentence in dict.fromkeys(sentences_of(path.read_text(encoding="utf-8"))):
-            plain = sentence.replace('\\"', '"')
-            matching = [(i, row) for i, row in mine if row["says"] in plain]
-            used.update(i for i, _ in matching)
-            found = max(matching, key=lambda pair: len(pair[1]["says"]), default=None)
-            if found is None:
-                wrong.append(f'{name}: no row for "{sentence}"')
-                if propose:
-                    print(proposal(name, sentence, tests))
-            else:
-                wrong += check_row(found[1], sentence, tests)
+        wrong.append(f'{name}: no row for "{text}"')
+        if propose:
+            print(proposal(name, sentence, tests))
+    known = {name for name, _ in sources(root)}
     wrong += [f'{row["file"]}: no sentence holds "{row["says"]}"' for i, row in enumerate(rows) if i not in used]
     wrong += [f"{name}: listed as text, and not there" for name in texts if name not in known]
     if owed(table) > table.get("owed_at_most", 0):
@@ -214,7 +257,7 @@ def quoted(text):
 
 def proposal(name, sentence, tests):
     """A row for a sentence, with the tests that were found."""
-    longest = max(PLACEHOLDER.split(sentence), key=len).strip()
+    longest = max(PLACEHOLDER.split(sentence.plain), key=len).strip()
     return (
         f'[[sentence]]\nfile = "{name}"\nsays = {quoted(longest)}\n'
         f'planted = "{tests.find(sentence, says)}"\nopposite = "{tests.find(sentence, denies)}"\n'

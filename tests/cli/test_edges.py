@@ -81,6 +81,8 @@ class FewFrames(Edges):
         self.assertIn("standard deviations of torques are not known", ran.err)
         self.assertFalse((self.folder / "t_tau_sd.sto").exists())
         self.assertEqual(len(table(self.folder / "t.mot")[1]), 2)
+        longer = self.good("track", "-m", self.model, "-t", self.first(30), "-o", "longer.mot")
+        self.assertNotIn("standard deviations of torques are not known", longer.err)
 
     def test_a_time_range_is_those_frames_of_the_whole(self):
         _, whole, _ = self.solved(self.c3d)

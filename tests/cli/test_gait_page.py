@@ -255,6 +255,7 @@ class GaitPage(CommandTest):
         cycles = self.folder / "cycles.csv"
         result = self.good("analyze", walking, "--segments", "pig", "--static", still, "--refits", 0, "--report", self.page, "--figures", self.figures, "--figure-formats", "svg", "--write-cycles", cycles)
         self.assertTrue({"gait_kinematics", "gait_kinetics", "gait_hip_flexion_knee_flexion"} <= set(self.outline().figures), result.err)
+        self.assertNotIn("walking is not drawn", result.err)
         rows = [r for r in rows_of(self.figures / "gait_curves.csv") if r["cycle"] == "mean"]
         knee = [float(r["value"]) for r in rows if r["curve"] == "LKneeAngles_flexion"]
         self.assertEqual(len(knee), 101)
@@ -285,6 +286,18 @@ class GaitPage(CommandTest):
         ):
             with self.subTest(words=words):
                 self.refused(2, words, "analyze", *arguments)
+
+    def test_a_motion_is_drawn_over_the_strikes_where_somebody_walks(self):
+        walking = real_file("btk-others/PiG_Motion3_FF.c3d")
+        motion = ("analyze", self.truth, "-m", self.model, "--refits", 0, "--force")
+        drawn = self.good(*motion, "--forces", walking, "-o", "m.csv", "--report", self.page)
+        self.assertNotIn("walking is not drawn", drawn.err)
+        self.assertTrue(self.page.exists())
+        self.good("convert", walking, "moment.c3d", "--frames", "800-810")
+        moment = self.run_in(*motion, "--forces", "moment.c3d", "-o", "n.csv", "--report", "n.html")
+        self.assertIn("walking is not drawn: ", moment.err)
+        self.assertTrue((self.folder / "n.csv").is_file())
+        self.assertFalse((self.folder / "n.html").exists())
 
     def test_no_letters_are_lost(self):
         self.draw("--figures", self.figures, "--figure-formats", "svg")

@@ -148,6 +148,9 @@ class ReportTest(CommandTest):
         at_once = data_of(self.folder / "page.html")["scene"]["bodies"]
         self.assertEqual([at_once["names"][b] for b in at_once["meshes"]["body"]], ["femur_r"])
         self.assertEqual(at_once["meshes_note"], "1 body drawn from the model's meshes")
+        self.assertNotIn("drawn from the model's meshes", bodies["meshes_note"])
+        self.assertNotIn("was not found beside it, in Geometry/ there", at_once["meshes_note"])
+        self.assertNotIn(" triangles", at_once["meshes_note"])
         self.assertEqual(at_once["meshes"]["triangles"], [1])
         turn = unpack(at_once["meshes"]["turn"])
         for f in range(len(turn[0])):

@@ -85,6 +85,8 @@ class Segments(CommandTest):
         result = self.run_in("analyze", self.file, "--segments", turned)
         self.assertIn("flexion is within 5 deg of gimbal lock in", result.err)
         self.assertNotIn("gimbal", self.analyze().err)
+        self.assertIn("frames: the other two angles say little there.", result.err)
+        self.assertNotIn("the other two angles say little there.", self.analyze().err)
 
     def test_bad_input_is_a_sentence(self):
         for arguments, status, words in (

@@ -82,6 +82,38 @@ class CheckSentences(unittest.TestCase):
         (line,) = self.of_table(ROW.replace("AreNotSaid", "AreSaid") + "silent = true\n")
         self.assertIn("does not expect silence", line)
 
+    def test_the_message_of_an_expectation_expects_nothing(self):
+        messages = '''TEST(Words, AreSaid) {
+  for (int i : {1, 2}) EXPECT_EQ(words(i, true), kWords) << "left its path by more than its noise";
+}
+
+TEST(Words, AreNotSaid) {
+  EXPECT_FALSE(words(1, false).empty()) << "left its path by more than its noise";
+}
+'''
+        lines = self.wrong(**{"src/kinemark/data/words_test.cc": messages})
+        self.assertEqual(len(lines), 2)
+        python = '''class Words:
+    def test_said(self):
+        self.assertIn("left its path by more", words(1))
+        self.assertNotIn("something else of more than a few words", words(1), "left its path by more")
+'''
+        row = ROW.replace("words_test.cc:Words.AreSaid", "test_words.py:test_said")
+        self.assertEqual(self.wrong(**{"tests__TOML": row, "tests/cli/test_words.py": python}), [])
+        row = ROW.replace("words_test.cc:Words.AreNotSaid", "test_words.py:test_said")
+        (line,) = self.wrong(**{"tests__TOML": row, "tests/cli/test_words.py": python})
+        self.assertIn("test_said does not deny it", line)
+
+    def test_what_other_sentences_say_too_shows_of_no_test_elsewhere_which_one_it_is_about(self):
+        other = SOURCE.replace('marker \\"A\\" left', 'segment B left').replace("more than its noise", "more than a metre or two")
+        elsewhere = TESTS.replace("TEST(Words", "TEST(Others")
+        row = ROW + ROW.replace("words.cc", "others.cc").replace("than its noise", "than a metre").replace("words_test.cc:Words", "others_test.cc:Others")
+        files = {"src/kinemark/data/others.cc": other, "src/kinemark/data/others_test.cc": elsewhere, "tests__TOML": row}
+        self.assertEqual(self.wrong(**files), [])
+        files["tests__TOML"] = row.replace("words_test.cc:Words.AreNotSaid", "others_test.cc:Others.AreNotSaid")
+        (line,) = self.wrong(**files)
+        self.assertIn("Others.AreNotSaid does not deny it", line)
+
     def test_owed_tests_are_counted_and_bounded(self):
         owing = ROW.replace('opposite = "words_test.cc:Words.AreNotSaid"', "owed = true")
         (line,) = self.of_table(owing)

@@ -192,6 +192,8 @@ TEST(Finding, EachFaultIsNamedAndNoOther) {
       Not(AnyOf(HasSubstr("; need both in order, or none"),
                 HasSubstr("' as the other marker; need two markers"), HasSubstr("has a confidence of"),
                 HasSubstr("lists frames that are not in order from its first to its last"))));
+  EXPECT_THAT(Finding{.confidence = 1.1}.validate().error().message,
+              Not(HasSubstr("has a negative standard deviation")));
 }
 
 TEST(Finding, OutliersOfOneMarkerAreOneSentence) {

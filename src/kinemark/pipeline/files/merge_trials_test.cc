@@ -118,13 +118,15 @@ TEST(MergeTrials, FilesOfOtherRecordingsAreRefused) {
   EXPECT_THAT(refusal({a, b}), HasSubstr("100 and 120 frames per second; need one rate"));
   b = part("b", 5, 6, {"A"});
   b.markers.time.t0_s = 0.0;
-  EXPECT_THAT(refusal({a, b}), HasSubstr("frame 1 is at 0.0000 and at -0.0400 s"));
+  EXPECT_THAT(refusal({a, b}),
+              HasSubstr("frame 1 is at 0.0000 and at -0.0400 s; need files of one recording"));
   EXPECT_THAT(refusal({a, part("b", 1000, 1003, {"A"})}),
               HasSubstr("1003 frames from the first to the last, of which 8"));
   // Nothing of that where the files belong together.
   const auto together = refusal({a, part("b", 30, 33, {"A"})});
   EXPECT_EQ(together, "");
   EXPECT_THAT(together, Not(HasSubstr("frames per second; need one rate")));
+  EXPECT_THAT(together, Not(HasSubstr("need files of one recording, which count frames and time alike")));
   EXPECT_THAT(together, Not(HasSubstr("frames from the first to the last, of which")));
 }
 

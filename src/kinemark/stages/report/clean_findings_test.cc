@@ -154,6 +154,9 @@ TEST(CleanFindings, UncertainFillsAreReportedMarkerByMarkerWithTheWorst) {
       "0.3 s.");
   EXPECT_THAT(findings[0].text, Not(HasSubstr("left open"))) << "they were filled";
   EXPECT_DOUBLE_EQ(findings[0].time_s, 1.2);
+  for (auto& g : r.account.gaps) g.max_sd_m = std::min(g.max_sd_m, 0.009);
+  for (const auto& finding : clean_findings(r))
+    EXPECT_THAT(finding.text, Not(HasSubstr("filled with a standard deviation above")));
 }
 
 TEST(CleanFindings, OpenGapsAreSummedWithTheLongestAndItsReason) {

@@ -25,15 +25,11 @@ std::string offset_sentence(const motion::IkResult& result, const IkOptions& opt
                             const model::Model& model, const data::Trajectories& markers) {
   const auto& mean = result.fit.mean_error_m;
   if (!mean.allFinite()) return {};  // no marker is seen, which the gate says
-  if (mean.norm() <= options.bounds.max_offset_m)
-    return fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
+  const std::string as_it_is =
+      fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
+  if (mean.norm() <= options.bounds.max_offset_m) return as_it_is;
   const auto offset = motion::find_common_offset(model, markers, options.ik);
-  if (!offset)
-    return fmt::format(
-        "The mean of all marker errors is {:.1f} mm long. Check that recording and model share origin, axes "
-        "and "
-        "unit.",
-        1e3 * mean.norm());
+  if (!offset) return as_it_is;
   const auto& shift = offset->shift_m;
   return fmt::format(
       "The measured markers lie {:.3f} m away from the model: shifted by ({:+.3f}, {:+.3f}, {:+.3f}) m they "

@@ -117,8 +117,15 @@ TEST(CoordinateSmoother, WhatIsNotSeenDoesNotCount) {
   for (int f = 100; f < 110; ++f) seen[static_cast<std::size_t>(f)] = false, q[f] = 1e3;
   const auto s = CoordinateSmoother::create(q, seen, kNaN, kRate_hz).value();
   EXPECT_LT((s.estimate() - swing()).cwiseAbs().maxCoeff(), 0.02);
-  const auto few = CoordinateSmoother::create(q, std::vector<bool>(kFrames, false), kNaN, kRate_hz);
-  EXPECT_THAT(few.error(), ::testing::HasSubstr("0 of its samples are determined, 30 are needed"));
+  const auto with_first = [&](int count) {
+    std::vector<bool> first(kFrames, false);
+    std::fill_n(first.begin(), count, true);
+    const auto made = CoordinateSmoother::create(q, first, kNaN, kRate_hz);
+    return made ? std::string() : made.error();
+  };
+  EXPECT_THAT(with_first(0), HasSubstr("0 of its samples are determined, 30 are needed"));
+  EXPECT_THAT(with_first(29), HasSubstr("29 of its samples are determined"));
+  EXPECT_THAT(with_first(30), Not(HasSubstr("of its samples are determined")));
 }
 
 }  // namespace

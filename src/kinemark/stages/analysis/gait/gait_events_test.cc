@@ -9,6 +9,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "kinemark/stages/analysis/gait/marker_events.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
 
 namespace kinemark::analysis {
@@ -161,6 +162,7 @@ TEST_F(GaitEventsTest, PlatesOutOfStepAreNamedAndNotTaken) {
       found.notes[0].find("out of step: the plates' strikes come 45 ms and their foot offs 50 ms before"),
       std::string::npos)
       << found.notes[0];
+  EXPECT_THAT(found.notes[0], HasSubstr("forces of this recording belong to other frames"));
   EXPECT_EQ(count_of(find_gait_events(of_markers_, plates, {}, EventChoice::plates), EventSource::plate), 6);
   // Opposite ways is a threshold or a filter, one kind alone tells nothing, and 20 ms are no clock.
   auto opposite = others(EventSource::plate, 3, -0.045);
@@ -172,7 +174,9 @@ TEST_F(GaitEventsTest, PlatesOutOfStepAreNamedAndNotTaken) {
   auto small = others(EventSource::plate, 3, -0.02);
   const auto small_offs = others(EventSource::plate, 3, -0.02, FootEvent::off);
   small.insert(small.end(), small_offs.begin(), small_offs.end());
-  EXPECT_FALSE(find_gait_events(of_markers_, small, {}, EventChoice::best).out_of_step);
+  const auto in_step = find_gait_events(of_markers_, small, {}, EventChoice::best);
+  EXPECT_FALSE(in_step.out_of_step);
+  EXPECT_THAT(in_step.notes, Not(Contains(HasSubstr("forces of this recording belong to other frames"))));
 }
 
 TEST_F(GaitEventsTest, WhatPlatesChangeIsSaidWhereTheyDo) {

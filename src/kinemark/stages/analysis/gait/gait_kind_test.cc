@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/gait_kind.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,9 @@
 namespace kinemark::analysis {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::KnownWalk;
+using ::testing::Not;
 
 MarkerEvents judged(const data::Trajectories& markers) {
   const auto which = find_gait_markers(markers).value();
@@ -167,7 +170,9 @@ TEST(GaitKind, WithoutHeelsAndPelvisTheDirectionIsNotSaid) {
   markers.names = {"X1", "LTOE", "X2", "RTOE", "SACR"};
   const auto kind = judged(markers).kind;
   EXPECT_EQ(kind.direction, GaitDirection::unknown);
-  EXPECT_NE(kind.sentence().find("forward or backward is not known"), std::string::npos);
+  EXPECT_THAT(kind.sentence(), HasSubstr("forward or backward is not known, as no foot's heel and toe"));
+  EXPECT_THAT(judged(KnownWalk{}.markers(0.0003, 3)).kind.sentence(),
+              Not(HasSubstr("forward or backward is not known, as no foot's heel and toe")));
 }
 
 TEST(GaitKind, HasNames) {

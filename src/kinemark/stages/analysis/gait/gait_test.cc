@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/gait.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,11 @@ namespace {
 using data::EventSource;
 using data::FootEvent;
 using data::Side;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 using testing::KnownWalk;
+using ::testing::Not;
 
 double value_of(const Gait& gait, std::string_view id, std::string_view context = "") {
   for (const auto& m : gait.measures)
@@ -139,6 +144,18 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
   const auto taken = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 0}).value();
   EXPECT_EQ(taken.events.size(), walk.events().size());
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
+}
+
+TEST(Gait, AStrikeThatIsMissingIsSaidWhereOneIs) {
+  auto markers = KnownWalk{}.markers(0.0003, 3);
+  EXPECT_THAT(analyze_gait(markers, {}, {.refits = 0})->notes,
+              Not(Contains(HasSubstr("times the usual stride; that is no stride"))));
+  for (std::int64_t f = 200; f < 330; ++f)
+    for (const std::int64_t m : {0, 1}) markers.set_missing(f, m);
+  const auto notes = analyze_gait(markers, {}, {.refits = 0})->notes;
+  EXPECT_THAT(notes, Contains(AllOf(HasSubstr("left foot: no strike is found between"),
+                                    HasSubstr("times the usual stride; that is no stride"))));
+  EXPECT_THAT(notes, Not(Contains(HasSubstr("right foot: no strike is found between"))));
 }
 
 TEST(Gait, AnAxisThatIsStatedToPointUpIsHeldAgainstThePelvis) {

@@ -99,6 +99,7 @@ TEST(MarkerEvents, LeapsAreCountedAndCostNoEvent) {
 
 TEST(MarkerEvents, ExchangedSidesAreSaidAndRightOnesAreNot) {
   auto markers = KnownWalk{}.markers(0.0003, 3);
+  EXPECT_FALSE(tell(markers).says("the names of the sides are exchanged, or the recording is mirrored"));
   markers.names = {"RHEE", "RTOE", "LHEE", "LTOE", "SACR"};
   EXPECT_TRUE(tell(markers).says("the names of the sides are exchanged, or the recording is mirrored"));
 }

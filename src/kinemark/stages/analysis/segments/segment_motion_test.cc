@@ -322,7 +322,8 @@ TEST(SegmentMotion, SaysGimbalLock) {
   }
   const auto near = compute_segments(d, {.markers = &markers});
   ASSERT_TRUE(near);
-  EXPECT_THAT(near->warnings, Contains(HasSubstr("a: two is within 5 deg of gimbal lock in 5 of 90 frames")));
+  EXPECT_THAT(near->warnings, Contains(HasSubstr("a: two is within 5 deg of gimbal lock in 5 of 90 frames: "
+                                                 "the other two angles say little there.")));
   auto far = markers;
   far.time.frames = 80;
   far.x_in_world.resize(80 * 9);
