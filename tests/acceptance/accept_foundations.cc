@@ -21,6 +21,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/stages/motion/foundations/judge.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
 

@@ -9,6 +9,7 @@
 
 #include "acceptance/gait_recordings.h"
 #include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/gait/gait_paths.h"
 #include "support/acceptance.h"
 
 namespace kinemark::acceptance {

@@ -11,6 +11,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/motion/foundations/judge.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 
 namespace kinemark::pipeline {
 

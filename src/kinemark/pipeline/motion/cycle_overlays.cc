@@ -8,6 +8,7 @@
 #include "kinemark/stages/analysis/gait/cycle_curves.h"
 #include "kinemark/stages/analysis/gait/gait_events.h"
 #include "kinemark/stages/analysis/gait/gait_facts.h"
+#include "kinemark/stages/analysis/gait/gait_paths.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 

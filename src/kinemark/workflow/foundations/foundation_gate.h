@@ -9,6 +9,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/motion/foundations/judge.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/remarks.h"
 
 namespace kinemark::workflow {

@@ -13,6 +13,8 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/gait/marker_events.h"
+#include "kinemark/stages/analysis/gait/plate_events.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 

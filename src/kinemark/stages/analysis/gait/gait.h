@@ -18,8 +18,8 @@
 #include "kinemark/data/wrenches.h"
 #include "kinemark/stages/analysis/gait/gait_events.h"
 #include "kinemark/stages/analysis/gait/gait_facts.h"
+#include "kinemark/stages/analysis/gait/gait_kind.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
-#include "kinemark/stages/analysis/gait/plate_events.h"
 #include "kinemark/stages/analysis/path/path_noise.h"
 
 namespace kinemark::analysis {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "kinemark/core/enum_names.h"
+#include "kinemark/stages/analysis/gait/marker_events.h"
 
 namespace kinemark::analysis {
 namespace {

@@ -10,12 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
+#include "kinemark/core/time_base.h"
 #include "kinemark/data/gait_event.h"
 #include "kinemark/data/trial.h"
-#include "kinemark/stages/analysis/gait/marker_events.h"
 
 namespace kinemark::analysis {
+
+struct MarkerEvents;
 
 /// Whose events are taken.
 enum class EventChoice : std::uint8_t {

@@ -7,6 +7,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
+#include "kinemark/stages/analysis/gait/gait_paths.h"
 
 namespace kinemark::analysis {
 namespace {

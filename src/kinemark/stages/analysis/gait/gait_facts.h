@@ -11,9 +11,10 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/data/gait_event.h"
-#include "kinemark/stages/analysis/gait/gait_paths.h"
 
 namespace kinemark::analysis {
+
+struct GaitPaths;
 
 /// Where a heel stands, on ground that does not move.
 struct Footprint {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/stages/analysis/gait/gait_paths.h"
+
 namespace kinemark::analysis {
 namespace {
 

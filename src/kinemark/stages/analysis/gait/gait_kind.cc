@@ -11,6 +11,7 @@
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
+#include "kinemark/stages/analysis/gait/kinematic_events.h"
 
 namespace kinemark::analysis {
 namespace {

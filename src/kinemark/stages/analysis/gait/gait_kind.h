@@ -3,15 +3,21 @@
 // What kind of gait a recording holds: walk, run or sprint, on ground or belt, which way; or none.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/stages/analysis/gait/kinematic_events.h"
+#include "kinemark/data/gait_event.h"
 
 namespace kinemark::analysis {
+
+struct GaitPaths;
+struct Ground;
+struct Progress;
+struct Steps;
 
 /// How somebody goes.
 enum class GaitManner : std::uint8_t { walk, run, sprint };

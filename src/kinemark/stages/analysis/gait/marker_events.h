@@ -10,6 +10,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/stages/analysis/gait/gait_kind.h"
+#include "kinemark/stages/analysis/gait/kinematic_events.h"
 
 namespace kinemark::analysis {
 

@@ -10,7 +10,6 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/wrenches.h"
-#include "kinemark/stages/analysis/kinetics/floor_loads.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
 namespace kinemark::analysis {

@@ -5,15 +5,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trajectories.h"
-#include "kinemark/stages/motion/foundations/standing_body.h"
 
 namespace kinemark::motion {
+
+struct StandingBody;
 
 /// Options of judge_foundation().
 struct FoundationOptions {

@@ -14,6 +14,7 @@
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/stages/motion/scaling/scale.h"
 #include "support/test_data.h"
 
