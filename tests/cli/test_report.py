@@ -24,7 +24,7 @@ def data_of(page):
 
 
 def unpack(packed):
-    """Packed series as lists of numbers, written from README.md of stages/report."""
+    """Packed series as lists of numbers, written from docs/formats/pages.md."""
     points, count = packed["points"], packed["series"] * packed["points"]
     planes = zlib.decompress(base64.b64decode(packed["data"]))
     width = {"int16": 2, "float32": 4}[packed["kind"]]

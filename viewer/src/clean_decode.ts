@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanPageData, CleanSummary, EncodedAxes } from "./clean_types.ts";
+import type { CleanPage, CleanSummary, EncodedAxes } from "./page_types.ts";
 import { decodeBytes, decodeFloats, stepOf } from "./curves.ts";
 
 /** x, y, z; null where the result has no such number. */
@@ -35,7 +35,7 @@ export interface CleanTrial {
 }
 
 /** The series must have been inflated, see inflateAll(). */
-export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
+export function decodeClean({ summary, series }: CleanPage): CleanTrial {
   if (summary.schema !== "kinemark.clean_report" || summary.schema_version !== 2) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
@@ -69,7 +69,7 @@ export function decodeClean({ summary, series }: CleanPageData): CleanTrial {
       };
       decoded.raw = m.raw_mm.map((text, k) => {
         if (text === null) return null;
-        if (typeof text === "string" || text.kind === "rounded") return decodeFloats(text, n);
+        if (text.kind === "rounded") return decodeFloats(text, n);
         const change = decoded.change[k]!;
         return decoded.position[k]!.map((v, i) => v + change[i]!);
       });

@@ -1,29 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { PackedCodes, PackedCurve } from "./page_types.ts";
 import { inflated } from "./scene/unpack.ts";
 
-/** A curve as it stands in the page; src/kinemark/stages/report/README.md describes it. */
-export interface PackedCurve {
-  kind: "rounded";
-  /** What the numbers are multiples of. */
-  step: number;
-  order: 0 | 1 | 2;
-  bytes: number;
-  absent: boolean;
-  data: string | Uint8Array;
-}
+/** As it stands in the page, or inflated. */
+type Inflated<Packed> = Omit<Packed, "data"> & { data: string | Uint8Array };
 
-export interface PackedCodes {
-  kind: "codes";
-  data: string | Uint8Array;
-}
-
-/** Base64 of float32 in pages of earlier versions. */
-export type EncodedCurve = PackedCurve | string;
-/** Base64 of bytes in pages of earlier versions. */
-export type EncodedCodes = PackedCodes | string;
-
-const isPacked = (part: object): part is PackedCurve | PackedCodes =>
+const isPacked = (part: object): part is Inflated<PackedCurve> | Inflated<PackedCodes> =>
   "kind" in part && "data" in part && (part.kind === "rounded" || part.kind === "codes");
 
 /** Inflate every curve within `part`, in place: afterwards they can be decoded at once. */
@@ -36,23 +19,15 @@ export async function inflateAll(part: unknown): Promise<void> {
   await Promise.all(Object.values(part).map(inflateAll));
 }
 
-const bytesOf = (data: string | Uint8Array): Uint8Array =>
-  typeof data === "string" ? Uint8Array.from(atob(data), (c) => c.charCodeAt(0)) : data;
-
-export function decodeBytes(codes: EncodedCodes, points: number): Uint8Array {
-  const bytes = bytesOf(typeof codes === "string" ? codes : codes.data);
-  if (bytes.length !== points) throw new Error(`a series holds ${bytes.length} codes; ${points} points need as many`);
-  return bytes;
+/** Bytes of codes that inflateAll() has inflated. */
+export function decodeBytes({ data }: Inflated<PackedCodes>, points: number): Uint8Array {
+  if (typeof data === "string") throw new Error("a series must be inflated before it is read");
+  if (data.length !== points) throw new Error(`a series holds ${data.length} codes; ${points} points need as many`);
+  return data;
 }
 
-function float32s(base64: string, points: number): Float32Array {
-  const bytes = decodeBytes(base64, 4 * points);
-  const view = new DataView(bytes.buffer);
-  return Float32Array.from({ length: points }, (_, i) => view.getFloat32(4 * i, true));
-}
-
-export function decodeFloats(curve: EncodedCurve, points: number): Float32Array {
-  if (typeof curve === "string") return float32s(curve, points);
+/** Numbers of a curve that inflateAll() has inflated; NaN where they are missing. */
+export function decodeFloats(curve: Inflated<PackedCurve>, points: number): Float32Array {
   const planes = curve.bytes + (curve.absent ? 1 : 0);
   const bytes = decodeBytes({ kind: "codes", data: curve.data }, planes * points);
   const out = new Float32Array(points);
@@ -72,8 +47,8 @@ export function decodeFloats(curve: EncodedCurve, points: number): Float32Array 
   return out;
 }
 
-/** What the numbers of a curve are rounded to; null: they are not. */
-export const stepOf = (curve: EncodedCurve | null): number | null => (curve === null || typeof curve === "string" ? null : curve.step);
+/** What the numbers of a curve are rounded to; null: there is none. */
+export const stepOf = (curve: PackedCurve | null): number | null => curve?.step ?? null;
 
 /** What all of these curves are held to at least, so that no number seems finer than it is. */
 export function coarsest(...steps: (number | null | undefined)[]): number | null {

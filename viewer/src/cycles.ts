@@ -1,28 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { decodeFloats, inflateAll, stepOf, type EncodedCurve } from "./curves.ts";
-
-export type Foot = "Left" | "Right";
-
-/** Strike and next strike of each cycle of a foot, s. */
-export type CycleSpans = Record<Foot, readonly (readonly [number, number])[]>;
-
-/** Cycles of a coordinate and a foot as they stand in the page; src/kinemark/stages/report/README.md describes them. */
-export interface EncodedCycles {
-  points: number;
-  curves: {
-    coordinate: string;
-    side: Foot;
-    count: number;
-    whole: number;
-    fewest: number;
-    most: number;
-    drawn: number;
-    each: EncodedCurve;
-    mean: EncodedCurve;
-    sd: EncodedCurve | null;
-  }[];
-}
+import type { CycleSpan, EncodedCycles, Foot } from "./page_types.ts";
+import { decodeFloats, inflateAll, stepOf } from "./curves.ts";
 
 /** Cycles of a coordinate and a foot, deg or m; NaN where there is no value. */
 export interface Overlay {
@@ -86,7 +65,7 @@ const chosen = <T>(all: readonly T[]): T[] =>
  * A curve of evenly spaced points over the cycles of each foot, their mean and the SD between them.
  * @param values  NaN where there is none
  */
-export function cutIntoCycles(coordinate: string, values: ArrayLike<number>, firstTime: number, step: number, spans: CycleSpans): Overlay[] {
+export function cutIntoCycles(coordinate: string, values: ArrayLike<number>, firstTime: number, step: number, spans: Record<Foot, readonly Readonly<CycleSpan>[]>): Overlay[] {
   return (["Left", "Right"] as const).flatMap((side): Overlay[] => {
     const all = spans[side].map((span) => resampled(values, firstTime, step, span));
     const present = Array.from({ length: perCycle }, (_, p) => all.map((line) => line[p]!).filter(Number.isFinite));

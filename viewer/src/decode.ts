@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { decodeBytes, decodeFloats, stepOf, type EncodedCodes, type EncodedCurve } from "./curves.ts";
-import type { PageData, Summary } from "./types.ts";
+import type { IkPage, IkSummary, PackedCodes, PackedCurve } from "./page_types.ts";
+import { decodeBytes, decodeFloats, stepOf } from "./curves.ts";
 
 /** One coordinate on the points of the plots, deg or m; NaN where it is not determined. */
 export interface CoordinateSeries {
@@ -15,7 +15,7 @@ export interface CoordinateSeries {
 
 /** A solved trial, ready to draw. */
 export interface Trial {
-  summary: Summary;
+  summary: IkSummary;
   /** Frames per point; above 1 the points hold the extremes of each stretch. */
   frameStep: number;
   time: Float64Array;
@@ -34,13 +34,13 @@ export interface Trial {
 }
 
 /** The series must have been inflated, see inflateAll(). */
-export function decode({ summary, series }: PageData): Trial {
+export function decode({ summary, series }: IkPage): Trial {
   if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 2) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
   const n = series.points;
-  const floats = (text: EncodedCurve) => decodeFloats(text, n);
-  const bytes = (text: EncodedCodes) => decodeBytes(text, n);
+  const floats = (text: PackedCurve) => decodeFloats(text, n);
+  const bytes = (text: PackedCodes) => decodeBytes(text, n);
   return {
     summary,
     frameStep: series.frame_step,

@@ -1,29 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { CleanPage, IkPage, LivePage, MarkersPage, ResultPage } from "./page_types.ts";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
-import type { CleanPageData } from "./clean_types.ts";
 import { inflateAll } from "./curves.ts";
 import { el } from "./dom.ts";
 import { baseOf, Channel } from "./editing/channel.ts";
 import { cleanPage } from "./pages/clean.ts";
-import type { MarkersPageData } from "./markers_types.ts";
 import type { Content } from "./pages/content.ts";
 import { EditedPage } from "./pages/edited.ts";
 import { ikPage } from "./pages/ik.ts";
-import type { LivePageData } from "./live/types.ts";
 import { livePage } from "./pages/live.ts";
 import { markersPage } from "./pages/markers.ts";
 import { resultPage } from "./pages/result.ts";
-import type { ResultPageData } from "./result_types.ts";
-import type { PageData } from "./types.ts";
 
-type AnyPage = PageData | CleanPageData | MarkersPageData | ResultPageData | LivePageData;
+type AnyPage = IkPage | CleanPage | MarkersPage | ResultPage | LivePage;
 
-const isClean = (data: AnyPage): data is CleanPageData => data.summary.schema === "kinemark.clean_report";
-const isResult = (data: AnyPage): data is ResultPageData => data.summary.schema === "kinemark.result_report";
-const isLive = (data: AnyPage): data is LivePageData => data.summary.schema === "kinemark.live";
-const isMarkers = (data: AnyPage): data is MarkersPageData => data.summary.schema === "kinemark.markers_report";
+const isClean = (data: AnyPage): data is CleanPage => data.summary.schema === "kinemark.clean_report";
+const isResult = (data: AnyPage): data is ResultPage => data.summary.schema === "kinemark.result_report";
+const isLive = (data: AnyPage): data is LivePage => data.summary.schema === "kinemark.live";
+const isMarkers = (data: AnyPage): data is MarkersPage => data.summary.schema === "kinemark.markers_report";
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
   if ("series" in data) await inflateAll(data.series);

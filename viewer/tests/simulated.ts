@@ -1,30 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { PageData } from "../src/types.ts";
-
-export const base64 = (values: ArrayBufferView): string =>
-  Buffer.from(values.buffer, values.byteOffset, values.byteLength).toString("base64");
+import type { CycleCurves, IkPage, PackedCodes, PackedCurve } from "../src/page_types.ts";
+import { packedCodes, packedCurve } from "./packed.ts";
 
 /** A text that would do harm if any part of the page took it for markup. */
 export const hostile = "</script><img src=x onerror=alert(1)>&lt;b&gt;";
 
 /** Three cycles on 101 points, the second without its middle, their mean and their spread, so much higher. */
-function swings(higher: number): { each: string; mean: string; sd: string } {
+function swings(higher: number): Pick<CycleCurves, "each" | "mean" | "sd"> {
   const swing = (p: number): number => higher + 10 * Math.sin((2 * Math.PI * p) / 100);
   const over = (value: (p: number) => number): number[] => Array.from({ length: 101 }, (_, p) => value(p));
-  const packed = (values: number[]): string => base64(Float32Array.from(values));
-  return { each: packed([-1, 0, 1].flatMap((off) => over((p) => (off === 0 && p > 40 && p < 60 ? NaN : swing(p) + off)))), mean: packed(over(swing)), sd: packed(over(() => 1)) };
+  return { each: packedCurve([-1, 0, 1].flatMap((off) => over((p) => (off === 0 && p > 40 && p < 60 ? NaN : swing(p) + off)))), mean: packedCurve(over(swing)), sd: packedCurve(over(() => 1)) };
 }
 
 /**
  * A small made-up trial: three coordinates (one with a hidden stretch, frames 200 to 259), three used markers (B
  * missing there, C off by 40 mm in frame 100) and one left out.
  */
-export function simulated(frames = 400): PageData {
+export function simulated(frames = 400): IkPage {
   const rate = 100;
   const hidden = (f: number): boolean => f >= 200 && f < 260;
-  const series = (value: (f: number) => number): string => base64(Float32Array.from({ length: frames }, (_, f) => value(f)));
-  const codes = (value: (f: number) => number): string => base64(Uint8Array.from({ length: frames }, (_, f) => value(f)));
+  const series = (value: (f: number) => number): PackedCurve => packedCurve(Array.from({ length: frames }, (_, f) => value(f)));
+  const codes = (value: (f: number) => number): PackedCodes => packedCodes(Array.from({ length: frames }, (_, f) => value(f)));
   const errorC = (f: number): number => (f === 100 ? 40 : 3);
   const marker = (name: string, rms: number | null, max: number | null, at: number | null) => ({
     name,
@@ -41,11 +38,15 @@ export function simulated(frames = 400): PageData {
   const coordinate = (name: string, unit: "deg" | "m", determined: number) => ({
     name,
     unit,
+    unit_in_tables: unit,
     locked: false,
     determined_frames: determined,
+    open_frames: null,
     min: -10,
     max: 10,
     median_sd: 1.5,
+    limits: null,
+    at_limit_frames: 0,
   });
   return {
     summary: {
@@ -59,6 +60,7 @@ export function simulated(frames = 400): PageData {
       frames,
       rate_hz: rate,
       first_time_s: 0,
+      first_frame: 0,
       solve_s: 0.02,
       frames_per_s: frames / 0.02,
       threads: 1,
@@ -72,6 +74,7 @@ export function simulated(frames = 400): PageData {
       rejected_samples: 0,
       rejected_fraction: 0,
       rejected: [],
+      exchanged: [],
       findings: [
         { level: "attention", about: "gate", subject: "marker_max", text: "A marker is 40 mm off.", time_s: 1 },
         { level: "note", about: "coordinate", subject: "wrist", text: "wrist is not determined in 60 frames.", time_s: 2 },
@@ -81,6 +84,7 @@ export function simulated(frames = 400): PageData {
         { name: "marker_max", passed: false, value: 40, bound: 30, unit: "mm", sentence: "A marker is 40 mm off." },
         { name: "marker_rms", passed: true, value: 4.2, bound: 20, unit: "mm", sentence: "RMS 4.2 mm, bound 20 mm." },
       ],
+      mass_kg: null,
       coordinates: [coordinate("shoulder", "deg", frames), coordinate("wrist", "deg", frames - 60), coordinate("root_tx", "m", frames)],
       markers: [marker("A", 2, 2, 0), marker("B", 5, 5, 0), marker("C", 3.6, 40, 1), marker("Left.Out", null, null, null)],
       worst_frames: [
@@ -99,6 +103,7 @@ export function simulated(frames = 400): PageData {
         { value: series((f) => (hidden(f) ? NaN : 10 * Math.cos(f / 30))), sd: series((f) => (hidden(f) ? NaN : 3)), undetermined: codes((f) => (hidden(f) ? 1 : 0)) },
         { value: series(() => 0.5), sd: null, undetermined: null },
       ],
+      torques: [],
       rms_error_mm: series((f) => (f === 100 ? 23.3 : 3.6)),
       marker_error_mm: [series(() => 2), series((f) => (hidden(f) ? NaN : 5)), series(errorC)],
       gaps: [codes(() => 0), codes((f) => (hidden(f) ? 2 : 0)), codes((f) => (f === 101 ? 3 : 0)), null],
@@ -108,5 +113,6 @@ export function simulated(frames = 400): PageData {
       points: 101,
       curves: (["Right", "Left"] as const).map((side) => ({ coordinate: "shoulder", side, count: 3, whole: 2, fewest: 2, most: 3, drawn: 3, ...swings(side === "Left" ? 4 : 0) })),
     },
+    scene: null,
   };
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanGap, CleanMarker, CleanPageData, EncodedMarker, StateCounts } from "../src/clean_types.ts";
-import { base64, hostile } from "./simulated.ts";
+import type { CleanGap, CleanMarker, CleanPage, EncodedMarker, PackedCodes, PackedCurve, StateCounts } from "../src/page_types.ts";
+import { packedCodes, packedCurve } from "./packed.ts";
+import { hostile } from "./simulated.ts";
 
 const none: StateCounts = { missing: 0, measured: 0, interpolated: 0, model_filled: 0, upsampled: 0, rejected: 0 };
 
@@ -10,7 +11,7 @@ const none: StateCounts = { missing: 0, measured: 0, interpolated: 0, model_fill
  * where its error bar is wide; C missing from frame 200 to 299, with a spike that was rejected in frame 50, no
  * derivatives and a residual that is not white; a fourth whose name would do harm if it were taken for markup.
  */
-export function simulatedClean(frames = 400): CleanPageData {
+export function simulatedClean(frames = 400): CleanPage {
   const rate = 100;
   const names = ["A", "B", "C", hostile];
   const filled = (m: number, f: number): boolean => m === 1 && f >= 100 && f < 160;
@@ -18,9 +19,9 @@ export function simulatedClean(frames = 400): CleanPageData {
   const spike = (m: number, f: number): boolean => m === 2 && f === 50;
   const codeBefore = (m: number, f: number): number => (filled(m, f) || open(m, f) ? 4 : 0);
   const codeAfter = (m: number, f: number): number => (spike(m, f) ? 5 : filled(m, f) ? 3 : open(m, f) ? 4 : 0);
-  const series = (value: (f: number) => number): string => base64(Float32Array.from({ length: frames }, (_, f) => value(f)));
-  const codes = (value: (f: number) => number): string => base64(Uint8Array.from({ length: frames }, (_, f) => value(f)));
-  const axes = (value: (f: number, axis: number) => number): string[] => [0, 1, 2].map((k) => series((f) => value(f, k)));
+  const series = (value: (f: number) => number): PackedCurve => packedCurve(Array.from({ length: frames }, (_, f) => value(f)));
+  const codes = (value: (f: number) => number): PackedCodes => packedCodes(Array.from({ length: frames }, (_, f) => value(f)));
+  const axes = (value: (f: number, axis: number) => number): [PackedCurve, PackedCurve, PackedCurve] => [series((f) => value(f, 0)), series((f) => value(f, 1)), series((f) => value(f, 2))];
   const path = (m: number, f: number, k: number): number => 100 * (m + 1) + 10 * k + 50 * Math.sin(f / 25 + k);
   const there = (m: number, f: number, v: number): number => (codeAfter(m, f) >= 4 ? NaN : v);
   const encoded = (m: number): EncodedMarker => ({
@@ -112,6 +113,7 @@ export function simulatedClean(frames = 400): CleanPageData {
       frames,
       rate_hz: rate,
       first_time_s: 0,
+      first_frame: 0,
       clean_s: 0.04,
       threads: 1,
       seed: 7,
@@ -150,5 +152,6 @@ export function simulatedClean(frames = 400): CleanPageData {
       warnings: [hostile],
     },
     series: { frame_step: 1, points: frames, markers: names.map((_, m) => encoded(m)) },
+    scene: null,
   };
 }

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { deflateSync } from "node:zlib";
-import type { MarkersPageData } from "../src/markers_types.ts";
-import type { PackedScene, PackedSeries } from "../src/scene/types.ts";
+import type { MarkersPage, PackedScene, PackedSeries } from "../src/page_types.ts";
+import { deflated } from "./packed.ts";
 import { hostile } from "./simulated.ts";
-
-export const deflated = (bytes: Uint8Array): string => deflateSync(bytes).toString("base64");
 
 /** Series as the program packs them: 16-bit steps, each less the one before, low bytes ahead of high bytes. */
 export function pack(values: readonly number[][], step = 1e-5): PackedSeries {
@@ -38,7 +35,7 @@ export const placeOf = (m: number, f: number): [number, number, number] => [
 ];
 
 /** A made-up recording of eight markers, a force plate and its force, 200 frames at 100 Hz from 1 s on. */
-export function simulatedMarkers(frames = 200): MarkersPageData {
+export function simulatedMarkers(frames = 200): MarkersPage {
   const M = markerNames.length;
   const axes = Array.from({ length: 3 * M }, (_, s) => Array.from({ length: frames }, (_, f) => placeOf(Math.floor(s / 3), f)[s % 3]!));
   const states = new Uint8Array(M * frames);
@@ -46,7 +43,7 @@ export function simulatedMarkers(frames = 200): MarkersPageData {
   // What is absent holds the place where it was last.
   for (const m of [4, 5]) for (let k = 0; k < 3; ++k) axes[3 * m + k]!.fill(axes[3 * m + k]![49]!, 50, 100);
   const line = (value: number): number[] => Array.from({ length: frames }, () => value);
-  const counts = (m: number): MarkersPageData["summary"]["markers"][number]["states"] => {
+  const counts = (m: number): MarkersPage["summary"]["markers"][number]["states"] => {
     const made = { measured: frames, interpolated: 0, model_filled: 0, upsampled: 0, missing: 0, rejected: 0 };
     const names = ["measured", "upsampled", "interpolated", "model_filled", "missing", "rejected"] as const;
     made.measured -= middleStates[m] === 0 ? 0 : 50;
@@ -90,6 +87,7 @@ export function simulatedMarkers(frames = 200): MarkersPageData {
       ],
       event_count: 1,
       events: [{ label: "Foot Strike", context: "Left", time_s: 1.75 }],
+      cycles: null,
       inputs: [{ role: "markers", path: "walk.c3d", bytes: 1000, hash: "00ff", hash_kind: "XXH3-64" }],
     },
     scene: {
@@ -109,7 +107,7 @@ export function simulatedMarkers(frames = 200): MarkersPageData {
 }
 
 /** The same with four strikes of the left foot, whose marker A swings once a cycle, and none twice of the right. */
-export function simulatedWalk(): MarkersPageData {
+export function simulatedWalk(): MarkersPage {
   const data = simulatedMarkers(400);
   const strike = (context: string, time_s: number): { label: string; context: string; time_s: number } => ({ label: "Foot Strike", context, time_s });
   const period = (2 * Math.PI) / 0.05 / 100;

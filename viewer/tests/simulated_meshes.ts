@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { PackedBodies, PackedMeshes } from "../src/scene/types.ts";
-import { deflated, pack } from "./simulated_markers.ts";
+import type { PackedBodies, PackedMeshes } from "../src/page_types.ts";
+import { deflated } from "./packed.ts";
+import { pack } from "./simulated_markers.ts";
 
 export interface Shape {
   /** 3 x N, m */

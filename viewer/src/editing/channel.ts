@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { MarkersPageData } from "../markers_types.ts";
-import type { AnglesOf, AnglesState, EditingState, Operation } from "./types.ts";
+import type { EditingState, MarkersPage } from "../page_types.ts";
+import type { AnglesOf, AnglesState, Operation } from "./types.ts";
 
 /** What became of a request. `state` is there whenever the server told it, after a conflict too. */
 export interface Answer<T> {
@@ -23,7 +23,7 @@ export class Channel {
   ) {}
 
   state = (): Promise<Answer<EditingState>> => this.#request("edits", {});
-  data = (): Promise<Answer<MarkersPageData>> => this.#request("data", {});
+  data = (): Promise<Answer<MarkersPage>> => this.#request("data", {});
 
   /** One operation, on as many as the page knows of. */
   post(expected: number, edit: Operation): Promise<Answer<EditingState>> {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { LiveSummary } from "../page_types.ts";
 import { areComputed, type Scene } from "../scene/scene.ts";
 import { firstAbsent } from "../states.ts";
 import type { MarkersMessage } from "./message.ts";
-import type { LiveSummary } from "./types.ts";
 
 const seconds = 4;
 const pointsPerSecond = 60;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { CleanPage, Finding } from "../page_types.ts";
 import { decodeClean } from "../clean_decode.ts";
 import { sceneOfClean } from "../scene/of_clean.ts";
 import { unpackScene } from "../scene/scene.ts";
-import type { CleanPageData } from "../clean_types.ts";
 import { cleanGaps } from "../sections/clean_gaps.ts";
 import { cleanHeader } from "../sections/clean_header.ts";
 import { cleanMarker } from "../sections/clean_marker.ts";
@@ -13,12 +13,11 @@ import { recording } from "../sections/recording.ts";
 import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
 import { timeBar } from "../sections/time_bar.ts";
-import type { Finding } from "../types.ts";
 import { wholeOf, View } from "../view.ts";
 import type { Content } from "./content.ts";
 
 /** A cleaned recording: what was filled and filtered, why, and how certain the result is. */
-export async function cleanPage(data: CleanPageData): Promise<Content> {
+export async function cleanPage(data: CleanPage): Promise<Content> {
   const trial = decodeClean(data);
   const { summary } = trial;
   const view = new View(wholeOf(summary));
@@ -70,7 +69,7 @@ export async function cleanPage(data: CleanPageData): Promise<Content> {
 }
 
 /** The marker to begin with: the one that the first finding names, otherwise the first. */
-function worthALook({ summary }: CleanPageData): number {
+function worthALook({ summary }: CleanPage): number {
   for (const { subject } of summary.findings) {
     const marker = summary.markers.findIndex((m) => m.name === subject);
     if (marker >= 0) return marker;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EditingState, MarkersPage } from "../page_types.ts";
 import type { Channel } from "../editing/channel.ts";
-import type { EditingState } from "../editing/types.ts";
-import type { MarkersPageData } from "../markers_types.ts";
 import { EditBar } from "../sections/editing.ts";
 import { SolvedAngles } from "../sections/solved.ts";
 import { forgetDrawn } from "../theme.ts";
@@ -38,7 +37,7 @@ export class EditedPage {
     document.addEventListener("visibilitychange", look);
   }
 
-  async draw(data: MarkersPageData): Promise<void> {
+  async draw(data: MarkersPage): Promise<void> {
     const focused = document.activeElement;
     const top = window.scrollY;
     this.#content?.stop?.();

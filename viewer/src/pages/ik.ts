@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Finding, IkPage } from "../page_types.ts";
 import { decode } from "../decode.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { angles } from "../sections/angles.ts";
@@ -13,12 +14,11 @@ import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
 import { timeBar } from "../sections/time_bar.ts";
 import { worstFrames } from "../sections/worst_frames.ts";
-import type { Finding, PageData } from "../types.ts";
 import { wholeOf, View } from "../view.ts";
 import type { Content } from "./content.ts";
 
 /** A solved trial: joint angles with their error bars, marker errors, gaps, worst frames. */
-export async function ikPage(data: PageData): Promise<Content> {
+export async function ikPage(data: IkPage): Promise<Content> {
   const trial = decode(data);
   const { summary } = trial;
   const view = new View(wholeOf(summary));

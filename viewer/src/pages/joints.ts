@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Joint, JointsResult, JointsPage } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
 import { forest, type Estimate } from "../plots/forest.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
-import type { Joint, JointsResult, ResultPageData } from "../result_types.ts";
 import { eigen } from "../scene/plane.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { median, numeric, resultFindings, resultHeader, resultRun, table, text, withSd } from "../sections/result_parts.ts";
@@ -34,7 +34,7 @@ export function principalSds(joint: Joint): Three | null {
 }
 
 /** Centres and axes of joints, each with how well it is known. */
-export async function jointsPage({ summary, result, scene: packed }: ResultPageData<JointsResult>): Promise<Content> {
+export async function jointsPage({ summary, result, scene: packed }: JointsPage): Promise<Content> {
   if (packed === null || summary.clock === null) throw new Error("a page of joints needs the recording");
   const scene = await unpackScene(packed, summary.clock);
   const view = new View(wholeOf(summary.clock));

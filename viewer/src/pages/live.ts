@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { LivePage } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, plural } from "../format.ts";
 import { LiveCurves } from "../live/curves.ts";
 import { LiveStream, type Surroundings } from "../live/stream.ts";
-import type { LivePageData } from "../live/types.ts";
 import { LiveWindow } from "../live/window.ts";
 import { liveAngles } from "../sections/live_angles.ts";
 import { space } from "../sections/space.ts";
@@ -22,7 +22,7 @@ const browser: Surroundings = {
 };
 
 /** A source that is running: markers in space, angles of its model, and how frames come. */
-export function livePage({ summary }: LivePageData, around = browser): Content {
+export function livePage({ summary }: LivePage, around = browser): Content {
   if (summary.schema_version !== 1) throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   const shown = new LiveWindow(summary);
   const curves = new LiveCurves(summary.coordinates.length);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { MarkersPageData, MarkersSummary } from "../markers_types.ts";
+import type { MarkersPage, MarkersSummary } from "../page_types.ts";
 import type { Camera } from "../scene/camera.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { markerCycles } from "../sections/marker_cycles.ts";
@@ -48,7 +48,7 @@ function resume(view: View, kept: Kept, names: readonly string[]): void {
 }
 
 /** A recording as it is: in space, its gaps, the curves of a marker, and what else the file holds. */
-export async function markersPage({ summary, scene: packed, editing }: MarkersPageData, editor: Editor | null = null): Promise<Content> {
+export async function markersPage({ summary, scene: packed, editing }: MarkersPage, editor: Editor | null = null): Promise<Content> {
   if (summary.schema_version !== 1) throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   if (packed.names.length !== summary.markers.length) throw new Error("markers of the summary and of the space view differ");
   const scene = await unpackScene(packed, summary, (m) => summary.markers[m]!.labelled);

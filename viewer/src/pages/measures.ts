@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { MeasuresResult, MeasuresPage } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, plural } from "../format.ts";
-import type { MeasuresResult, ResultPageData } from "../result_types.ts";
 import { linkBar, resultFindings, resultHeader, resultRun, table, text } from "../sections/result_parts.ts";
 import type { Column } from "../sections/table.ts";
 import type { Content } from "./content.ts";
@@ -13,7 +13,7 @@ type Row = MeasuresResult["measures"][number];
 const percent = (share: number | null): string => (share === null ? "–" : `${number(100 * share, 1)} %`);
 
 /** What a recording's movements were: what must be known, figures, the table. */
-export function measuresPage({ summary, result }: ResultPageData<MeasuresResult>): Content {
+export function measuresPage({ summary, result }: MeasuresPage): Content {
   const known = result.measures.filter((r) => r.value !== null);
   const covered = known.filter((r) => r.interval.kind !== "none");
   const columns: Column<Row>[] = [

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { CalibratePage, CalibrateResult, ReconstructPage, ReconstructResult } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
 import { forest, type Estimate } from "../plots/forest.ts";
 import { heatMap } from "../plots/heat_map.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
-import type { CalibrateResult, ReconstructResult, ResultPageData } from "../result_types.ts";
 import { unpackScene } from "../scene/scene.ts";
 import { median, numeric, resultFindings, resultHeader, resultRun, table, text, withSd } from "../sections/result_parts.ts";
 import { space } from "../sections/space.ts";
@@ -17,7 +17,7 @@ import { around } from "./joints.ts";
 const shifts = ["right", "down", "forward"] as const;
 const turns = ["tilt", "pan", "roll"] as const;
 
-async function inSpaceOf(data: ResultPageData, followed: string): Promise<{ view: View; part: ReturnType<typeof space> }> {
+async function inSpaceOf(data: CalibratePage | ReconstructPage, followed: string): Promise<{ view: View; part: ReturnType<typeof space> }> {
   if (data.scene === null || data.summary.clock === null) throw new Error("a page of cameras needs their places");
   const scene = await unpackScene(data.scene, data.summary.clock);
   const view = new View(wholeOf(data.summary.clock));
@@ -26,7 +26,7 @@ async function inSpaceOf(data: ResultPageData, followed: string): Promise<{ view
 }
 
 /** A calibrated rig: how well it fits, where the cameras stand, what to turn. */
-export async function calibratePage(data: ResultPageData<CalibrateResult>): Promise<Content> {
+export async function calibratePage(data: CalibratePage): Promise<Content> {
   const { summary, result } = data;
   const { view, part } = await inSpaceOf(data, "Cameras as calibrated, and in the second colour as they were meant to stand. Each instant is a pose of the tree.");
   const aligned = result.alignment?.cameras ?? [];
@@ -81,7 +81,7 @@ export async function calibratePage(data: ResultPageData<CalibrateResult>): Prom
 type Led = ReconstructResult["leds"][number];
 
 /** Points from counts: what became of each LED, and how certain a point is where. */
-export async function reconstructPage(data: ResultPageData<ReconstructResult>): Promise<Content> {
+export async function reconstructPage(data: ReconstructPage): Promise<Content> {
   const { summary, result } = data;
   const { view, part } = await inSpaceOf(data, "Points, the cameras that saw them, and their rays.");
   const { leds } = result;

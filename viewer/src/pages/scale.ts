@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Adapted, ScalePage, ScaleResult } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, plural } from "../format.ts";
 import { forest } from "../plots/forest.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
-import type { Adapted, ResultPageData, ScaleResult } from "../result_types.ts";
 import { linkBar, numeric, resultFindings, resultHeader, resultRun, table, text, type Tile } from "../sections/result_parts.ts";
 import type { Content } from "./content.ts";
 import { around } from "./joints.ts";
@@ -13,7 +13,7 @@ type Parameter = Adapted["parameters"][number];
 type Length = Adapted["lengths"][number];
 
 /** A scaled model: each size with its interval, what the data do not determine, and how the markers fit. */
-export function scalePage({ summary, result }: ResultPageData<ScaleResult>): Content {
+export function scalePage({ summary, result }: ScalePage): Content {
   const fit = result.motion ?? result.static ?? null;
   const tissue = fit?.soft_tissue_sd_m ?? null;
   const sizes = fit?.parameters.filter((p) => p.kind === "size") ?? [];

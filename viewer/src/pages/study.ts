@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { StudyPage, StudyResult } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, plural } from "../format.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
-import type { ResultPageData, StudyResult } from "../result_types.ts";
 import { linkBar, resultFindings, resultHeader, resultRun, table, text } from "../sections/result_parts.ts";
 import type { Column } from "../sections/table.ts";
 import { foreign } from "../foreign.ts";
@@ -24,7 +24,7 @@ const boundText = ({ bound }: Row): string => {
 const value = (title: string, of: (row: Row) => number | null): Column<Row> => ({ title, numeric: true, key: of, cell: (row) => significant(of(row)) });
 
 /** A founding paper beside ours: what is missed, figures, the table. */
-export function studyPage({ summary, result }: ResultPageData<StudyResult>): Content {
+export function studyPage({ summary, result }: StudyPage): Content {
   const bounded = result.rows.filter((r) => r.pass !== null);
   const missed = bounded.filter((r) => !r.pass).length;
   const better = result.rows.filter((r) => r.classic !== null);

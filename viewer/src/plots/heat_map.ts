@@ -1,20 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { number } from "../format.ts";
+import type { PrecisionMap } from "../page_types.ts";
+import { number, plural } from "../format.ts";
 import { svg } from "../svg.ts";
 import { words } from "./forest.ts";
 import { decimalsFor, ticks } from "./ticks.ts";
-
-/** Numbers over a plane of the laboratory. */
-export interface Cells {
-  axes: readonly [number, number];
-  first_m: readonly [number, number];
-  cell_m: number;
-  columns: number;
-  rows: number;
-  /** rows x columns; null: no sample. */
-  sd_mm: readonly (number | null)[];
-}
 
 const shades = 6;
 const width = 460;
@@ -29,7 +19,7 @@ export function edgesOf(values: readonly (number | null)[], count = shades): num
 }
 
 /** A map in shades, and what the shades mean. */
-export function heatMap(cells: Cells, label: string): SVGElement {
+export function heatMap(cells: PrecisionMap, label: string): SVGElement {
   const side = Math.min((width - left - right) / cells.columns, 300 / cells.rows);
   const [plotWidth, plotHeight] = [side * cells.columns, side * cells.rows];
   const bottom = top + plotHeight;
@@ -40,7 +30,7 @@ export function heatMap(cells: Cells, label: string): SVGElement {
     if (value === null) return;
     const [column, row] = [i % cells.columns, Math.floor(i / cells.columns)];
     const cell = svg("rect", { class: `heat-${shade(value)}`, x: (left + column * side).toFixed(1), y: (bottom - (row + 1) * side).toFixed(1), width: (side + 0.3).toFixed(1), height: (side + 0.3).toFixed(1) });
-    cell.append(Object.assign(svg("title", {}), { textContent: `${number(value, 2)} mm` }));
+    cell.append(Object.assign(svg("title", {}), { textContent: `${number(value, 2)} mm, ${plural(cells.samples[i]!, "point")}` }));
     parts.push(cell);
   });
   parts.push(svg("path", { class: "rule", d: `M${left} ${top}V${bottom}H${(left + plotWidth).toFixed(1)}` }));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { Spectrum } from "../clean_types.ts";
+import type { Spectrum } from "../page_types.ts";
 import { pathOf, svg } from "../svg.ts";
 
 const width = 460;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { PackedMeshes } from "./types.ts";
+import type { PackedMeshes } from "../page_types.ts";
 import { inflated, unpack } from "./unpack.ts";
 import { cross, sub, type Vec } from "./vec.ts";
 

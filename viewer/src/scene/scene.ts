@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Clock, PackedBodies, PackedJoints, PackedMarkers, PackedScene } from "../page_types.ts";
 import { firstAbsent } from "../states.ts";
 import { unpackMeshes, type BodyMesh } from "./meshes.ts";
-import type { PackedBodies, PackedJoints, PackedMarkers, PackedScene } from "./types.ts";
 import { inflated, unpack } from "./unpack.ts";
 import { upright } from "./upright.ts";
 import type { Vec } from "./vec.ts";
@@ -91,14 +91,6 @@ export interface Scene {
   changes?: boolean;
 }
 
-/** What a scene has to know of its recording. */
-export interface Clock {
-  frames: number;
-  rate_hz: number;
-  first_time_s: number;
-  first_frame?: number;
-}
-
 async function unpackTrack(packed: PackedMarkers, markers: number, points: number): Promise<Track> {
   const [x, states] = await Promise.all([unpack(packed.positions_m), inflated(packed.states)]);
   if (x.length !== 3 * markers * points || states.length !== markers * points) {
@@ -155,7 +147,7 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
   return {
     points,
     frameStep: frame_step,
-    firstFrame: clock.first_frame ?? 0,
+    firstFrame: clock.first_frame,
     rateHz: clock.rate_hz,
     time: Float64Array.from({ length: points }, (_, i) => clock.first_time_s + (i * frame_step) / clock.rate_hz),
     names: packed.names,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { PackedSeries } from "./types.ts";
+import type { PackedSeries } from "../page_types.ts";
 
 /** Bytes of a base64 text that holds a zlib stream. */
 export async function inflated(base64: string): Promise<Uint8Array> {

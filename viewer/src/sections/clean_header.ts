@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanSummary, StateCounts } from "../clean_types.ts";
+import type { CleanSummary, StateCounts } from "../page_types.ts";
 import { el } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
 import { framesTile, medianOf, tile, titleRow } from "./header.ts";

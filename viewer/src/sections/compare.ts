@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EncodedCycles, IkPage } from "../page_types.ts";
 import { band } from "../band.ts";
 import { coarsest, framesOfPair, inflateAll } from "../curves.ts";
-import { decodeCycles, type EncodedCycles, type Overlay } from "../cycles.ts";
+import { decodeCycles, type Overlay } from "../cycles.ts";
 import { decode, type CoordinateSeries, type Trial } from "../decode.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
@@ -10,7 +11,6 @@ import { number } from "../format.ts";
 import { pairsOf, type Pair } from "../pairs.ts";
 import { TimePlot } from "../plots/time_plot.ts";
 import { palette } from "../theme.ts";
-import type { PageData } from "../types.ts";
 import type { View } from "../view.ts";
 import { cycleFigure } from "./cycles.ts";
 
@@ -29,10 +29,10 @@ export function onClock(time: Float64Array, other: Float64Array, values: Float32
 }
 
 /** Data of a page that kinemark wrote; throws a sentence where it is none of joint angles. */
-export function dataOfPage(html: string): PageData {
+export function dataOfPage(html: string): IkPage {
   const text = /<script type="application\/json" id="kinemark-data">(.*?)<\/script>/s.exec(html)?.[1];
   if (text === undefined) throw new Error("this file is no page of kinemark");
-  const data = JSON.parse(text) as PageData | null;
+  const data = JSON.parse(text) as IkPage | null;
   if (data?.summary?.schema !== "kinemark.ik_report") throw new Error("this page is not one of joint angles");
   return data;
 }

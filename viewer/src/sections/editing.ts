@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EditingState, MarkerChange, MarkersSummary } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import type { Channel } from "../editing/channel.ts";
 import { isOurs, keyOf } from "../editing/keys.ts";
 import * as make from "../editing/operations.ts";
-import type { EditingState, MarkerChange, Operation } from "../editing/types.ts";
+import type { Operation } from "../editing/types.ts";
 import { number, plural } from "../format.ts";
-import type { MarkersSummary } from "../markers_types.ts";
 import type { View } from "../view.ts";
 
 /** What the section is about now: it stays while the recording around it is drawn anew. */

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Finding, FindingGroup, Gate } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { plural, seconds } from "../format.ts";
-import type { FindingGroup } from "../result_types.ts";
-import type { Finding, Gate } from "../types.ts";
 
 /** A trial with thousands of warnings stays readable. */
 const mostShown = 200;

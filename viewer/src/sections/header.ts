@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Finding, IkSummary } from "../page_types.ts";
 import { el } from "../dom.ts";
 import { duration, number, percent, plural } from "../format.ts";
-import type { Finding, Summary } from "../types.ts";
 
 export const tile = (value: string, label: string, detail: string): HTMLElement =>
   el("div", { class: "tile" }, el("dd", {}, value), el("dt", {}, label), el("dd", { class: "detail" }, detail));
@@ -51,7 +51,7 @@ export function medianOf(values: readonly (number | null | undefined)[]): number
 }
 
 /** Trial, model, verdict, and the numbers that people look for first. */
-export function header(summary: Summary): HTMLElement {
+export function header(summary: IkSummary): HTMLElement {
   const used = summary.markers.filter((m) => m.used).length;
   const asked = summary.coordinates.filter((c) => !c.locked).length;
   const locked = summary.coordinates.length - asked;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { LiveSummary } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number } from "../format.ts";
 import type { LiveCurves } from "../live/curves.ts";
-import type { LiveSummary } from "../live/types.ts";
 import { drawSmallMultiple } from "../plots/small_multiple.ts";
 
 /** All angles over the last seconds, each with its value of now. */

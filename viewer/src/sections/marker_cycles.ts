@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { cutIntoCycles, type CycleSpans } from "../cycles.ts";
+import type { CycleSpans } from "../page_types.ts";
+import { cutIntoCycles } from "../cycles.ts";
 import { el, section } from "../dom.ts";
 import { number } from "../format.ts";
 import { isThere, type Scene } from "../scene/scene.ts";

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanGap, CleanMarker, CleanSummary } from "../clean_types.ts";
+import type { CleanGap, CleanMarker, CleanSummary } from "../page_types.ts";
 import { el } from "../dom.ts";
 import { number, plural } from "../format.ts";
 import { autocorrelationChart, spectrumChart } from "../plots/small_charts.ts";

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { MarkerSummary } from "../page_types.ts";
 import { withBreaks } from "../band.ts";
 import type { Trial } from "../decode.ts";
 import { framesOfPair } from "../curves.ts";
@@ -9,7 +10,6 @@ import { number, percent, seconds } from "../format.ts";
 import { TimePlot } from "../plots/time_plot.ts";
 import { pathOf, svg } from "../svg.ts";
 import { palette } from "../theme.ts";
-import type { MarkerSummary } from "../types.ts";
 import type { View } from "../view.ts";
 import { barCell, nameCell } from "./cells.ts";
 import { sortableTable } from "./table.ts";

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Finding, MarkersSummary } from "../page_types.ts";
 import { el } from "../dom.ts";
 import { number, percent, plural } from "../format.ts";
-import type { MarkersSummary } from "../markers_types.ts";
-import type { Finding } from "../types.ts";
 import { absent, filledIn, total } from "./clean_header.ts";
 import { framesTile, tile, titleRow } from "./header.ts";
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { MarkersSummary, RecordedMarker } from "../page_types.ts";
 import { partWithCode, stretches, type Line } from "../band.ts";
 import { el, section } from "../dom.ts";
 import { number, percent, seconds } from "../format.ts";
-import type { MarkersSummary, RecordedMarker } from "../markers_types.ts";
 import { GapMap, type MapRow } from "../plots/gap_map.ts";
 import { TimePlot } from "../plots/time_plot.ts";
 import { isThere, pointAt, type Scene } from "../scene/scene.ts";

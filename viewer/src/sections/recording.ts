@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanDefect, CleanSummary } from "../clean_types.ts";
+import type { CleanDefect, CleanSummary } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, percent } from "../format.ts";
 import { sortableTable } from "./table.ts";

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { ResultSummary } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { bytes, number } from "../format.ts";
-import type { ResultSummary } from "../result_types.ts";
 import { findingGroups } from "./finding_groups.ts";
 import { medianOf, tile, titleRow } from "./header.ts";
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { InputFile } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { bytes, number } from "../format.ts";
-import type { InputFile } from "../types.ts";
 
 const exitWords: Record<number, string> = {
   0: "0, good",

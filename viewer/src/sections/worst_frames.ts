@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { FrameStatus, IkSummary, WorstFrame } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, seconds } from "../format.ts";
-import type { FrameStatus, Summary, WorstFrame } from "../types.ts";
 import type { View } from "../view.ts";
 import { sortableTable } from "./table.ts";
 
@@ -14,7 +14,7 @@ const words: Record<FrameStatus, string> = {
 };
 
 /** The frames that fit worst; choosing one moves all plots there. */
-export function worstFrames(summary: Summary, view: View): HTMLElement {
+export function worstFrames(summary: IkSummary, view: View): HTMLElement {
   const used = summary.markers.map((m) => m.name);
   const jump = (w: WorstFrame): void => {
     view.set({ marker: used.indexOf(w.worst_marker) });

@@ -3,6 +3,7 @@
 // npm run test:edits            a simulated recording edited in the page of `kinemark serve`
 // npm run test:edits -- FILE... the same of C3D files with three markers that are whole, of which copies are edited
 // KINEMARK_PROGRAM names the program, KINEMARK_SCREENSHOTS a folder for pictures.
+import type { MarkersPage } from "../../src/page_types.ts";
 import assert from "node:assert/strict";
 import { once } from "node:events";
 import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync } from "node:fs";
@@ -11,7 +12,6 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import type { MarkersPageData } from "../../src/markers_types.ts";
 import { hostile } from "../simulated.ts";
 import { ink, openAddress, settle, type Opened } from "./browser.ts";
 import { clipped, violations } from "./looks.ts";
@@ -360,7 +360,7 @@ async function tryOn(recording: string, given: string): Promise<number> {
   const served = await serve(recording);
   const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, "trial/1");
   // What is cut and swapped has to be there: whole markers, as the page itself tells.
-  const { summary } = await opened.page.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as MarkersPageData);
+  const { summary } = await opened.page.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as MarkersPage);
   const whole = summary.markers.filter((m) => m.labelled && m.states.measured === summary.frames).map((m) => m.name);
   assert.ok(whole.length >= 3, "the recording has no three whole markers");
   const names = whole.slice(0, 3) as [string, string, string];

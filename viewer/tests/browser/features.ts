@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // One check for each thing that a page offers, on the page as a person sees it.
+import type { IkPage, PackedCurve } from "../../src/page_types.ts";
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import type { PageData } from "../../src/types.ts";
-import { base64, simulated } from "../simulated.ts";
+import { packedCurve } from "../packed.ts";
+import { simulated } from "../simulated.ts";
 import { placeOf } from "../simulated_markers.ts";
 import { ink, settle, type Check } from "./browser.ts";
 import { savedBy } from "./results.ts";
 import { cameraOf, goTo, pixelsOf, pointOf } from "./space.ts";
 
 /** Two knees and a root; the right knee lies at its limit, both have torques, the body weighs 60 kg. */
-export function simulatedPair(higher = 0): PageData {
+export function simulatedPair(higher = 0): IkPage {
   const data = simulated();
   const { frames } = data.summary;
-  const line = (value: (f: number) => number): string => base64(Float32Array.from({ length: frames }, (_, f) => value(f)));
+  const line = (value: (f: number) => number): PackedCurve => packedCurve(Array.from({ length: frames }, (_, f) => value(f)));
   ["knee_angle_r", "knee_angle_l", "root_tx"].forEach((name, i) => (data.summary.coordinates[i]!.name = name));
   Object.assign(data.summary.coordinates[0]!, { limits: [-120, 9], at_limit_frames: 12 });
   data.summary.mass_kg = 60;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Whether the markers of a page stand where the positions in it project to, by another unpacking and by the textbook.
+import type { PackedScene, PackedSeries } from "../../src/page_types.ts";
 import assert from "node:assert/strict";
 import { inflateSync } from "node:zlib";
-import type { PackedScene, PackedSeries } from "../../src/scene/types.ts";
 import { settle, type Check } from "./browser.ts";
 import { cameraOf, goTo, pixelsOf, pointOf } from "./space.ts";
 
-/** Series of numbers, as README.md of stages/report describes them. */
+/** Series of numbers, as docs/formats/pages.md describes them. */
 export function numbersOf({ kind, series, points, offset, step, data }: PackedSeries): number[][] {
   const bytes = inflateSync(Buffer.from(data, "base64"));
   const width = kind === "int16" ? 2 : 4;

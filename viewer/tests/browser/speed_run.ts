@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // npm run test:speed   how fast space is drawn without a graphics card: rows "PASS|FAIL | check | asked | measured"
+import type { MarkersPage } from "../../src/page_types.ts";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import type { MarkersPageData } from "../../src/markers_types.ts";
-import { pack, deflated, simulatedMarkers } from "../simulated_markers.ts";
+import { deflated } from "../packed.ts";
+import { pack, simulatedMarkers } from "../simulated_markers.ts";
 import { open, settle } from "./browser.ts";
 
 let failed = false;
@@ -16,7 +17,7 @@ const row = (passed: boolean, check: string, asked: string, measured: string): v
 };
 
 /** So many markers that move, and so many bodies. */
-function crowd(markers: number, bodies: number, frames: number, rate: number, length: number): MarkersPageData {
+function crowd(markers: number, bodies: number, frames: number, rate: number, length: number): MarkersPage {
   const data = simulatedMarkers(8);
   const names = Array.from({ length: markers }, (_, m) => `M${m}`);
   const place = (m: number, f: number, k: number): number => [0.04 * m - 1, 0.4 * (m % 5), 0.3 + 0.2 * (m % 7)][k]! + 0.2 * Math.sin(0.02 * f + m + k);

@@ -4,6 +4,7 @@ import { describe, expect, it, vi } from "vitest";
 import { decodeClean } from "../../src/clean_decode.ts";
 import { fake, install, nextFrame, type FakeElement } from "../fake_dom.ts";
 import FakePlot from "../fake_plot.ts";
+import { inflated } from "../packed.ts";
 import { hostile } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 
@@ -87,7 +88,7 @@ describe("cleanTable", () => {
 describe("cleanGaps", () => {
   it("shows the states after cleaning, and those before on request", () => {
     install();
-    const made = cleanGaps(decodeClean(simulatedClean()), new View(whole));
+    const made = cleanGaps(decodeClean(inflated(simulatedClean())), new View(whole));
     made.start();
     const node = fake(made.node);
     const canvas = node.tagged("canvas")[0]!;
@@ -114,7 +115,7 @@ describe("cleanMarker", () => {
     const view = new View(whole);
     view.marker = 1;
     const show = vi.fn();
-    const { node, start } = cleanMarker(decodeClean(data), view, show);
+    const { node, start } = cleanMarker(decodeClean(inflated(data)), view, show);
     start();
     return { view, show, node: fake(node), plots: FakePlot.made };
   };

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { IkPage } from "../../src/page_types.ts";
 import { describe, expect, it, vi } from "vitest";
 import FakePlot from "../fake_plot.ts";
 import { fake, install } from "../fake_dom.ts";
+import { inflated } from "../packed.ts";
 import { simulated } from "../simulated.ts";
-import type { PageData } from "../../src/types.ts";
 
 vi.mock("uplot", () => import("../fake_plot.ts"));
 install();
@@ -51,8 +52,8 @@ describe("dataOfPage", () => {
 
 describe("differences", () => {
   it("are 0 of a result and itself, and what was added of another", () => {
-    const a = decode(simulated());
-    const b = decode(simulated());
+    const a = decode(inflated(simulated()));
+    const b = decode(inflated(simulated()));
     expect(differences(a, b)).toBe("angles 0.00 deg apart RMS");
     for (const c of b.coordinates) c.value = c.value.map((v) => v + 2);
     expect(differences(a, b)).toBe("angles 2.00 deg apart RMS");
@@ -62,7 +63,7 @@ describe("differences", () => {
 });
 
 describe("compare", () => {
-  const withTorques = (): PageData => {
+  const withTorques = (): IkPage => {
     const data = simulated();
     data.summary.mass_kg = 50;
     data.series.torques = data.series.coordinates.map((c) => ({ value: c.value, sd: null }));
@@ -70,7 +71,7 @@ describe("compare", () => {
   };
   it("draws a plot for each chosen coordinate, with torques per kg where asked", () => {
     FakePlot.made = [];
-    const trial = decode(withTorques());
+    const trial = decode(inflated(withTorques()));
     const section = compare(trial, new View(wholeOf(trial.summary)));
     section.start();
     expect(FakePlot.made.length).toBe(Math.min(4, trial.summary.coordinates.length));
@@ -84,7 +85,7 @@ describe("compare", () => {
     expect(FakePlot.made[0]!.axes[1]!.label).toMatch(/N m\/kg/);
   });
   it("offers no torques where none were computed", () => {
-    const trial = decode(simulated());
+    const trial = decode(inflated(simulated()));
     const node = fake(compare(trial, new View(wholeOf(trial.summary))).node);
     expect(node.tagged("button").map((b) => b.textContent)).not.toContain("Torques");
   });

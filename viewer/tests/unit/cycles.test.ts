@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { EncodedCycles } from "../../src/page_types.ts";
 import { describe, expect, it, vi } from "vitest";
 import { fake, install } from "../fake_dom.ts";
-import { base64, simulated } from "../simulated.ts";
-import type { EncodedCycles } from "../../src/cycles.ts";
+import { inflated, packedCurve } from "../packed.ts";
+import { simulated } from "../simulated.ts";
 
 vi.mock("uplot", () => import("../fake_plot.ts"));
 install();
@@ -14,14 +15,12 @@ const { compare } = await import("../../src/sections/compare.ts");
 const { cycleFigure, cyclesCsv } = await import("../../src/sections/cycles.ts");
 const { View, wholeOf } = await import("../../src/view.ts");
 
-const curve = (values: number[]): string => base64(Float32Array.from(values));
-
 /** Two cycles of the right foot on five points, the second without its third; one of the left. */
 const encoded = (coordinate = "knee_r"): EncodedCycles => ({
   points: 5,
   curves: [
-    { coordinate, side: "Right", count: 2, whole: 1, fewest: 1, most: 2, drawn: 2, each: curve([0, 1, 2, 1, 0, 2, 3, NaN, 3, 2]), mean: curve([1, 2, 2, 2, 1]), sd: curve([1, 1, NaN, 1, 1]) },
-    { coordinate, side: "Left", count: 1, whole: 1, fewest: 1, most: 1, drawn: 1, each: curve([5, 6, 7, 6, 5]), mean: curve([5, 6, 7, 6, 5]), sd: null },
+    { coordinate, side: "Right", count: 2, whole: 1, fewest: 1, most: 2, drawn: 2, each: packedCurve([0, 1, 2, 1, 0, 2, 3, NaN, 3, 2]), mean: packedCurve([1, 2, 2, 2, 1]), sd: packedCurve([1, 1, NaN, 1, 1]) },
+    { coordinate, side: "Left", count: 1, whole: 1, fewest: 1, most: 1, drawn: 1, each: packedCurve([5, 6, 7, 6, 5]), mean: packedCurve([5, 6, 7, 6, 5]), sd: null },
   ],
 });
 
@@ -113,14 +112,14 @@ describe("cyclesCsv", () => {
 describe("the switch between time and cycle", () => {
   const made = () => {
     install();
-    const trial = decode(simulated());
+    const trial = decode(inflated(simulated()));
     const names = trial.summary.coordinates.map((c) => c.name);
-    return { names, ...compare(trial, new View(wholeOf(trial.summary)), null, encoded(names[0]!)) };
+    return { names, ...compare(trial, new View(wholeOf(trial.summary)), null, inflated(encoded(names[0]!))) };
   };
   it("is there where events mark cycles alone", () => {
     const { node } = made();
     expect(fake(node).all((e) => e.getAttribute("id") === "over-cycle").length).toBe(1);
-    const trial = decode(simulated());
+    const trial = decode(inflated(simulated()));
     const without = compare(trial, new View(wholeOf(trial.summary)));
     expect(fake(without.node).all((e) => e.getAttribute("id") === "over-cycle").length).toBe(0);
   });

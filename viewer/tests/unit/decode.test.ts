@@ -3,22 +3,25 @@
 import { describe, expect, it } from "vitest";
 import { decodeBytes, decodeFloats } from "../../src/curves.ts";
 import { decode } from "../../src/decode.ts";
+import { inflated, packedCodes, packedCurve } from "../packed.ts";
 import { simulated } from "../simulated.ts";
 
 describe("decodeFloats", () => {
-  it("reads little-endian float32, NaN included", () => {
-    // 1.0 = 00 00 80 3f, -2.5 = 00 00 20 c0, NaN = 00 00 c0 7f
-    expect([...decodeFloats("AACAPwAAIMAAAMB/", 3)]).toEqual([1, -2.5, NaN]);
+  it("reads multiples of the step, and what is missing", () => {
+    expect([...decodeFloats(inflated(packedCurve([1, -2.5, NaN], 0.5)), 3)]).toEqual([1, -2.5, NaN]);
   });
   it("refuses a series of another length and says both", () => {
-    expect(() => decodeFloats("AACAPw==", 2)).toThrow("a series holds 4 codes; 8 points need as many");
-    expect(() => decodeBytes("AAEC", 2)).toThrow("3 codes");
+    expect(() => decodeFloats(inflated(packedCurve([1])), 2)).toThrow("a series holds 5 codes; 10 points need as many");
+    expect(() => decodeBytes(inflated(packedCodes([0, 1, 2])), 2)).toThrow("3 codes");
+  });
+  it("refuses a series that nobody has inflated", () => {
+    expect(() => decodeFloats(packedCurve([1]), 1)).toThrow("must be inflated");
   });
 });
 
 describe("decode", () => {
   it("gives every series the length of the time axis", () => {
-    const trial = decode(simulated(400));
+    const trial = decode(inflated(simulated(400)));
     expect(trial.time.length).toBe(400);
     expect(trial.time[250]).toBeCloseTo(2.5, 12);
     for (const c of trial.coordinates) expect(c.value.length).toBe(400);
@@ -33,11 +36,11 @@ describe("decode", () => {
     const data = simulated(400);
     data.series.frame_step = 5;
     data.summary.first_time_s = 2;
-    expect(decode(data).time[3]).toBeCloseTo(2.15, 12);
+    expect(decode(inflated(data)).time[3]).toBeCloseTo(2.15, 12);
   });
   it("refuses another schema", () => {
     const data = simulated();
-    data.summary.schema_version = 3;
-    expect(() => decode(data)).toThrow("version 3");
+    Object.assign(data.summary, { schema_version: 3 });
+    expect(() => decode(inflated(data))).toThrow("version 3");
   });
 });

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { PrecisionMap } from "../../src/page_types.ts";
 import { describe, expect, it } from "vitest";
 import { fake, install, type FakeElement } from "../fake_dom.ts";
 
@@ -55,13 +56,14 @@ describe("forest", () => {
 });
 
 describe("heatMap", () => {
-  const cells = { axes: [0, 2] as const, first_m: [-0.2, 0] as const, cell_m: 0.1, columns: 4, rows: 2, sd_mm: [1, 2, 3, 4, 5, null, 6, 7] };
+  const cells: PrecisionMap = { axes: [0, 2], first_m: [-0.2, 0], cell_m: 0.1, columns: 4, rows: 2, sd_mm: [1, 2, 3, 4, 5, null, 6, 7], samples: [1, 2, 3, 4, 5, 0, 6, 7] };
   it("has a cell for each number, and none where there is none", () => {
     const chart = fake(heatMap(cells, "Precision"));
     const drawn = chart.tagged("rect").filter((r) => r.tagged("title").length > 0);
     expect(drawn.length).toBe(7);
     expect(drawn[0]!.getAttribute("class")).toBe("heat-0");
     expect(drawn[6]!.getAttribute("class")).toBe("heat-5");
+    expect([drawn[0]!, drawn[6]!].map((cell) => cell.tagged("title")[0]!.textContent)).toEqual(["1.00 mm, 1 point", "7.00 mm, 7 points"]);
     expect(texts(chart)).toContain("x (m)");
     expect(texts(chart)).toContain("z (m)");
   });

@@ -4,6 +4,7 @@ import { describe, expect, it, vi } from "vitest";
 import { decode } from "../../src/decode.ts";
 import { fake, FakeElement, install, nextFrame, type Drawn } from "../fake_dom.ts";
 import FakePlot from "../fake_plot.ts";
+import { inflated } from "../packed.ts";
 import { simulated } from "../simulated.ts";
 
 install();
@@ -24,7 +25,7 @@ describe("angles", () => {
     const data = simulated();
     change(data);
     const view = new View([0, 3.99]);
-    const made = angles(decode(data), view);
+    const made = angles(decode(inflated(data)), view);
     made.start();
     return { view, node: fake(made.node), plot: FakePlot.made[0]! };
   };
@@ -99,7 +100,7 @@ describe("markers", () => {
     install();
     FakePlot.made = [];
     const view = new View([0, 3.99]);
-    const made = markers(decode(simulated()), view);
+    const made = markers(decode(inflated(simulated())), view);
     made.start();
     return { view, node: fake(made.node), plot: FakePlot.made[0]! };
   };

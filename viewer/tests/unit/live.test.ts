@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { LiveSummary } from "../../src/page_types.ts";
 import { describe, expect, it } from "vitest";
 import type { MarkersMessage } from "../../src/live/message.ts";
 import type { LiveStream as Stream, Surroundings } from "../../src/live/stream.ts";
-import type { LiveSummary } from "../../src/live/types.ts";
 import { install } from "../fake_dom.ts";
 
 install();

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { PackedMeshes } from "../../src/page_types.ts";
 import validator from "gltf-validator";
 import { Scene as Stage } from "three";
 import { describe, expect, it } from "vitest";
 import type { BodyMesh } from "../../src/scene/meshes.ts";
-import type { PackedMeshes } from "../../src/scene/types.ts";
 import { length, type Vec } from "../../src/scene/vec.ts";
 import { install } from "../fake_dom.ts";
 import { sceneWith } from "../scene_with.ts";

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Plate } from "../../src/page_types.ts";
 import { describe, expect, it } from "vitest";
 import type { Scene } from "../../src/scene/scene.ts";
 import type { Vec } from "../../src/scene/vec.ts";
 import { install } from "../fake_dom.ts";
-import { deflated, pack, placeOf, simulatedMarkers } from "../simulated_markers.ts";
+import { deflated } from "../packed.ts";
+import { pack, placeOf, simulatedMarkers } from "../simulated_markers.ts";
 
 install();
 const { facing, isLeft, otherSide } = await import("../../src/scene/facing.ts");
@@ -71,7 +73,7 @@ describe("unpackScene", () => {
   });
   it("leaves out plates without corners", async () => {
     const { summary, scene } = simulatedMarkers();
-    const plates = [{ type: 1, corners_m: [[null, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]] }];
+    const plates: Plate[] = [{ type: 1, corners_m: [[null, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]] }];
     expect((await unpackScene({ ...scene, plates }, summary)).plates).toEqual([]);
   });
   it("finds what is up where nobody says so", async () => {

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // The sections that both kinds of report share, and those of joint angles that need no plot.
+import type { Finding } from "../../src/page_types.ts";
 import { describe, expect, it, vi } from "vitest";
 import { decode } from "../../src/decode.ts";
 import { fake, install, nextFrame, type FakeElement } from "../fake_dom.ts";
+import { inflated } from "../packed.ts";
 import { hostile, simulated } from "../simulated.ts";
-import type { Finding } from "../../src/types.ts";
 
 install();
 const { findingGroups, groupFindings } = await import("../../src/sections/finding_groups.ts");
@@ -212,7 +213,7 @@ describe("worstFrames", () => {
 describe("gaps", () => {
   it("have a row for the fit and for each marker, the left-out ones faint", () => {
     install();
-    const { node, start } = gaps(decode(simulated()), new View([0, 3.99]));
+    const { node, start } = gaps(decode(inflated(simulated())), new View([0, 3.99]));
     start();
     const canvas = fake(node).tagged("canvas")[0]!;
     const names = canvas.getContext().drawn.filter((d) => d.what === "text").slice(0, 5);

@@ -3,6 +3,7 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import FakePlot from "../fake_plot.ts";
 import { fake, install } from "../fake_dom.ts";
+import { inflated } from "../packed.ts";
 import { simulated } from "../simulated.ts";
 import type { AnglesState, SolutionFacts } from "../../src/editing/types.ts";
 
@@ -18,10 +19,10 @@ const { View, wholeOf } = await import("../../src/view.ts");
 
 describe("coordinateChanges", () => {
   it("has nothing to say of a solution and itself", () => {
-    expect(coordinateChanges(decode(simulated()), decode(simulated()))).toEqual([]);
+    expect(coordinateChanges(decode(inflated(simulated())), decode(inflated(simulated())))).toEqual([]);
   });
   it("tells how far, when, and whether it is more than the standard deviations", () => {
-    const [now, old] = [decode(simulated()), decode(simulated())];
+    const [now, old] = [decode(inflated(simulated())), decode(inflated(simulated()))];
     const { value, sd } = now.coordinates[0]!;
     value[40] = value[40]! + 3 * sd![40]!;
     value[50] = value[50]! - 1.5 * sd![50]!;
@@ -32,7 +33,7 @@ describe("coordinateChanges", () => {
     expect(changeWords(change!)).toMatch(/^at most [\d.]+ deg more; beyond two standard deviations in 1 of/);
   });
   it("counts what is determined now and what is no longer", () => {
-    const [now, old] = [decode(simulated()), decode(simulated())];
+    const [now, old] = [decode(inflated(simulated())), decode(inflated(simulated()))];
     old.coordinates[0]!.value[10] = NaN;
     now.coordinates[0]!.value[11] = now.coordinates[0]!.value[12] = NaN;
     const [change] = coordinateChanges(now, old);
@@ -40,7 +41,7 @@ describe("coordinateChanges", () => {
     expect(changeWords(change!)).toBe("determined in 1 more frame; no longer determined in 2 frames");
   });
   it("compares the same times of a cropped recording, and coordinates by name", () => {
-    const [now, old] = [decode(simulated()), decode(simulated())];
+    const [now, old] = [decode(inflated(simulated())), decode(inflated(simulated()))];
     now.time = now.time.slice(100);
     now.coordinates.forEach((c) => (c.value = c.value.slice(100)));
     expect(coordinateChanges(now, old)).toEqual([]);
@@ -52,7 +53,7 @@ describe("coordinateChanges", () => {
 describe("compare with what lies over it", () => {
   it("draws it dashed from the start, and shows what changed most first", () => {
     FakePlot.made = [];
-    const [now, old] = [decode(simulated()), decode(simulated())];
+    const [now, old] = [decode(inflated(simulated())), decode(inflated(simulated()))];
     old.coordinates.forEach((c) => (c.value = c.value.map((v) => v + 5)));
     const last = now.summary.coordinates.at(-1)!.name;
     const { node, start } = compare(now, new View(wholeOf(now.summary)), { trial: old, words: "as recorded", first: [last] });
@@ -95,7 +96,7 @@ describe("the section", () => {
   let state: AnglesState | number = idle;
   let posted: string[] = [];
   let redrawn = 0;
-  const view = new View(wholeOf(decode(simulated()).summary));
+  const view = new View(wholeOf(decode(inflated(simulated())).summary));
   const made = () => {
     const channel = new Channel("/api/trial/3", async (url, init) => {
       if (init?.method === "POST") posted.push(String(init.body));

@@ -33,7 +33,7 @@ TEST(CleanSummaryJson, SaysWhatItIsAndHoldsTheRun) {
 
 TEST(CleanSummaryJson, EveryKeyIsDescribed) {
   const Json json = clean_summary_json(example_clean(1200).finished());
-  EXPECT_EQ(json.size(), 29U) << "a new key belongs into README.md and viewer/src/clean_types.ts too";
+  EXPECT_EQ(json.size(), 29U) << "a new key belongs into viewer/schema/clean.json too";
   EXPECT_EQ(json["markers"][0].size(), 28U);
   EXPECT_EQ(json["gaps"][0].size(), 18U);
   EXPECT_EQ(json["defects"][0].size(), 11U);

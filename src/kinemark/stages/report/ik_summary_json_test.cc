@@ -58,7 +58,7 @@ TEST(SummaryJson, UnknownNumbersAreNull) {
 TEST(SummaryJson, EveryKeyIsDescribedInOrderOfImportance) {
   const Json json = summary_json(example_summary());
   EXPECT_EQ(json.begin().key(), "schema");
-  EXPECT_EQ(json.size(), 34U) << "a new key belongs into README.md and viewer/src/types.ts too";
+  EXPECT_EQ(json.size(), 34U) << "a new key belongs into viewer/schema/ik.json too";
 }
 
 TEST(RunFromJson, LimitsAndMassComeBackAndMayBeMissing) {
