@@ -30,6 +30,7 @@ LOGS = ROOT / "build" / "logs"
 HUNT_SECONDS = "60"  # of each target
 TIDY_SECONDS = "150"
 SHOWN_LINES = 120
+LEAST_PAGES = 25  # that tests of the program leave for viewer-pages
 BUDGET_MINUTES = 75  # of one processor, from nothing
 
 
@@ -159,6 +160,11 @@ def tools(log):
     return counts
 
 
+def pages_of(preset):
+    """Where tests of the program leave what their pages hold."""
+    return ROOT / "build" / preset / "pages"
+
+
 def cli(preset, *modules):
     """The program from outside, as built before: the modules of tests/cli, or those named, side by side."""
 
@@ -170,13 +176,19 @@ def cli(preset, *modules):
         def run(module):
             own = Log(log.path.with_name(f"{log.path.stem}-{module}.log"))
             status = own.run(
-                *(sys.executable, "-m", "unittest", module, "-v"), cwd=folder, KINEMARK_PROGRAM=str(program)
+                *(sys.executable, "-m", "unittest", module, "-v"),
+                cwd=folder,
+                KINEMARK_PROGRAM=str(program),
+                KINEMARK_PAGES=str(pages_of(preset)),
             )
             text = own.text()
             own.path.unlink()
             return status, text
 
         counts, missing, bad = Counts(), 0, []
+        pages = pages_of(preset)
+        shutil.rmtree(pages, ignore_errors=True)
+        pages.mkdir(parents=True)
         with concurrent.futures.ThreadPoolExecutor(log.jobs) as pool:
             for module, (status, text) in zip(chosen, pool.map(run, chosen)):
                 here = count_unittest(text)
@@ -365,6 +377,17 @@ def viewer_browser(log):
     return counts
 
 
+def viewer_pages(log):
+    """What pages of the program's tests hold, against the schema."""
+    pages = sorted(pages_of("ci").glob("*.json"))
+    status = log.run("npm", "run", "check:pages", "--", *pages, cwd=ROOT / "viewer")
+    text = log.text()
+    counts = Counts(len(re.findall(r"^ok ", text, re.MULTILINE)), len(re.findall(r"^FAILED ", text, re.MULTILINE)))
+    if status != 0 or counts.passed < LEAST_PAGES:
+        raise Failed(f"a page breaks viewer/schema, or there are fewer than {LEAST_PAGES}", counts if counts.failed else None)
+    return counts
+
+
 def demo(log):
     """The newcomer's command, on the program built before; its page is looked at in a browser."""
     out = ROOT / "build" / "ci" / "demo"
@@ -396,6 +419,7 @@ STAGES = {
     "acceptance": (acceptance, 4),
     "viewer-page": (viewer_page, 0.5),
     "viewer-tests": (viewer_tests, 0.5),
+    "viewer-pages": (viewer_pages, 0.1),
     "viewer-browser": (viewer_browser, 0.5),
     "demo": (demo, 0.5),
     "asan-build": (build("asan"), 20),

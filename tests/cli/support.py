@@ -4,6 +4,7 @@
 
 import csv
 import dataclasses
+import hashlib
 import os
 import re
 import subprocess
@@ -115,8 +116,11 @@ def changed_cell(text, line, column, value):
 
 
 def report_data(page):
-    """The text of the data that a report page carries."""
-    return re.search(r'<script type="application/json" id="kinemark-data">(.*?)</script>', page, re.DOTALL).group(1)
+    """The text of the data that a report page carries. A folder KINEMARK_PAGES keeps it, to be held against the schema."""
+    text = re.search(r'<script type="application/json" id="kinemark-data">(.*?)</script>', page, re.DOTALL).group(1)
+    if folder := os.environ.get("KINEMARK_PAGES"):
+        (Path(folder) / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.json").write_text(text)
+    return text
 
 
 def table(path):

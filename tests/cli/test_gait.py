@@ -5,13 +5,11 @@
 import csv
 import json
 import math
-import re
 
-from support import CommandTest, real_file
+from support import CommandTest, real_file, report_data
 from test_measures import wobble, write_trc
 
 STRIDE_S, STRIDE_MM = 1.1, 1400.0
-DATA_OF_PAGE = re.compile(r'id="kinemark-data">(.*?)</script>', re.S)
 
 
 def foot(t, later, y):
@@ -130,7 +128,7 @@ class Gait(CommandTest):
             self.assertIn(solved.status, (0, 1), solved.err)
             again = self.folder / "again.html"
             self.assertEqual(self.run_in("report", motion, "-o", again, "--force").status, 0)
-            first, second = (json.loads(DATA_OF_PAGE.search(p.read_text())[1])["cycles"] for p in (page, again))
+            first, second = (json.loads(report_data(p.read_text()))["cycles"] for p in (page, again))
             self.assertEqual(first is None, second is None)
             return first
 

@@ -11,16 +11,14 @@ import struct
 import unittest
 import zlib
 
-from support import CommandTest, real_file
+from support import CommandTest, real_file, report_data
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
 
 def data_of(page):
     """What a page carries for its script."""
-    text = page.read_text()
-    start = text.index('id="kinemark-data">') + len('id="kinemark-data">')
-    return json.loads(text[start:text.index("</script>", start)])
+    return json.loads(report_data(page.read_text()))
 
 
 def unpack(packed):

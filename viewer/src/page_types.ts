@@ -71,7 +71,7 @@ export interface RejectedSpan {
   /** Time of the first, s. */ first_time_s: number | null;
   /** Time of the last, s. */ last_time_s: number | null;
   /** From where the model and the frames beside expect it, mm. */ distance_mm: number | null;
-  /** Reason in a few words. */ why: string;
+  /** Reason in a few words; empty: the distance alone. */ why: string;
 }
 
 /** Two markers that carried each other's label. */

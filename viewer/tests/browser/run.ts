@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { dataOf, problemsOf } from "../../schema/problems.ts";
 import { hostile, simulated } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
@@ -172,12 +173,16 @@ const ofSimulated: Record<string, Check> = {
 
 /** Of a page of a recording that the program wrote: a file may hold frames without a marker, and then there is nothing to draw. */
 function ofRecorded(file: string): Record<string, Check> {
-  const text = /id="kinemark-data">(.*?)<\/script>/s.exec(readFileSync(file, "utf8"))?.[1] ?? "";
-  const { scene } = JSON.parse(text) as { scene: { names: string[] } };
+  const { scene } = dataOf(file) as { scene: { names: string[] } };
   const needed = ["all sections are there, and nothing is broken", "nothing is wider than a phone", "nothing was asked for and nothing complained"];
   if (scene.names.length === 0) return Object.fromEntries(Object.entries(alwaysOfMarkers).filter(([name]) => needed.includes(name)));
   return { "names stand where positions project to, to a pixel": standsWhereItProjects, ...alwaysOfMarkers };
 }
+
+/** What the program put into a page. */
+const follows = (file: string): Record<string, Check> => ({
+  "its data follow the schema": async () => assert.deepEqual(problemsOf(dataOf(file)).slice(0, 5), []),
+});
 
 /** A page of a later version. */
 const ofUnknown: Record<string, Check> = {
@@ -233,7 +238,8 @@ if (given.length === 0) {
 } else {
   for (const file of given) {
     const holds = (schema: string): boolean => readFileSync(file, "utf8").includes(`"schema":"kinemark.${schema}"`);
-    failed += await run(resolve(file), holds("result_report") ? alwaysOfResults : holds("markers_report") ? ofRecorded(file) : holds("clean_report") ? alwaysOfClean : always);
+    const checks = holds("result_report") ? alwaysOfResults : holds("markers_report") ? ofRecorded(file) : holds("clean_report") ? alwaysOfClean : always;
+    failed += await run(resolve(file), { ...follows(file), ...checks });
   }
 }
 rmSync(folder, { recursive: true });
