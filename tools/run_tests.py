@@ -418,7 +418,7 @@ STAGES = {
     "docs": (docs, 0.5),
     "acceptance": (acceptance, 4),
     "viewer-page": (viewer_page, 0.5),
-    "viewer-tests": (viewer_tests, 0.5),
+    "viewer-tests": (viewer_tests, 0.4),
     "viewer-pages": (viewer_pages, 0.1),
     "viewer-browser": (viewer_browser, 0.5),
     "demo": (demo, 0.5),

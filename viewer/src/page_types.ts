@@ -883,6 +883,39 @@ export interface StudyRow {
   /** Within the bound; null: nothing was asked. */ pass: boolean | null;
 }
 
+/** An answer with a status of 400 and above. */
+export interface Refusal {
+  /** Why, in a sentence. */ error: string;
+  /** The edits as they are, where somebody else has edited meanwhile. */ editing?: EditingState;
+}
+
+/** How far the server is with the joint angles of a recording. */
+export interface AnglesState {
+  /** File of the body model; null: none is known, and `said` says why. */ model: string | null;
+  /** What it does. */ state: "none" | "waiting" | "solving" | "solved" | "failed" | "stopped";
+  /** Why it failed, in a sentence; null: nothing to say. */ said: string | null;
+  /** Frames solved. */ done: number;
+  /** Frames to solve. */ of: number;
+  /** What was solved. */ solutions: Solutions;
+}
+
+/** Solutions of a recording; null: not solved. */
+export interface Solutions {
+  /** With the edits of now. */ now: SolutionFacts | null;
+  /** With those of when it was solved before. */ before: SolutionFacts | null;
+  /** Without any. */ recorded: SolutionFacts | null;
+}
+
+/** A solution. */
+export interface SolutionFacts {
+  /** Digest of the edits in force. */ digest: string;
+  /** Edits in force. */ edits: number;
+  /** The set that the files of the command would name. */ set: string;
+  /** `attention`: look before use. */ verdict: Verdict;
+  /** Findings of that level. */ attentions: number;
+  /** RMS distance of measured and model marker, mm; null: not known. */ rms_mm: number | null;
+}
+
 /** What the space view draws, on P points. */
 export interface PackedScene {
   /** Frames a point. */ frame_step: number;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { EditingState, MarkersPage } from "../page_types.ts";
-import type { AnglesOf, AnglesState, Operation } from "./types.ts";
+import type { AnglesState, EditingState, MarkersPage, Refusal } from "../page_types.ts";
+import type { AnglesOf, Operation } from "./types.ts";
 
 /** What became of a request. `state` is there whenever the server told it, after a conflict too. */
 export interface Answer<T> {
@@ -61,7 +61,7 @@ export class Channel {
     if (answer.status === 401 || answer.status === 421) return { value: null, state: null, refused: closed };
     if (answer.status === 413) return { value: null, state: null, refused: "The names of this operation are too long for it." };
     try {
-      const json = (await answer.json()) as T & { error?: string; editing?: EditingState };
+      const json = (await answer.json()) as T & Partial<Refusal>;
       if (answer.ok) return { value: json, state: null, refused: null };
       return { value: null, state: json.editing ?? null, refused: json.error ?? `The server answered with status ${answer.status}.` };
     } catch {

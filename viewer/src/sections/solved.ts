@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { AnglesState, SolutionFacts } from "../page_types.ts";
 import { inflateAll } from "../curves.ts";
 import { decode, type Trial } from "../decode.ts";
 import { el, section } from "../dom.ts";
 import type { Channel } from "../editing/channel.ts";
 import { coordinateChanges, type CoordinateChange } from "../editing/differences.ts";
 import { isOurs, keyOf } from "../editing/keys.ts";
-import type { AnglesOf, AnglesState, SolutionFacts } from "../editing/types.ts";
+import type { AnglesOf } from "../editing/types.ts";
 import { number, plural } from "../format.ts";
 import type { View } from "../view.ts";
 import { compare, dataOfPage } from "./compare.ts";

@@ -12,6 +12,7 @@ import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import { problemsOf } from "../../schema/problems.ts";
 import { hostile } from "../simulated.ts";
 import { ink, openAddress, settle, type Opened } from "./browser.ts";
 import { clipped, violations } from "./looks.ts";
@@ -26,6 +27,23 @@ interface Tried extends Opened {
   first: number;
   /** The body model beside the recording; null: there is none. */
   model: string | null;
+  /** Answers of the server that the schema knows, by type, and what is wrong with them. */
+  answers: { counts: Record<string, number>; problems: string[] };
+}
+
+/** Hold each answer of the server against the schema. */
+function judgeAnswers(page: Page): Tried["answers"] {
+  const answers: Tried["answers"] = { counts: {}, problems: [] };
+  const types: Record<string, string> = { edits: "EditingState", data: "MarkersPage", angles: "AnglesState" };
+  page.on("response", async (response) => {
+    const what = /\/api\/trial\/\d+\/(\w+)$/.exec(response.url())?.[1] ?? "";
+    const type = response.ok() ? types[what] : what in types ? "Refusal" : undefined;
+    const body: unknown = type === undefined ? undefined : await response.json().catch(() => undefined);
+    if (type === undefined || body === undefined) return;
+    answers.counts[type] = (answers.counts[type] ?? 0) + 1;
+    answers.problems.push(...problemsOf(body, type));
+  });
+  return answers;
 }
 
 /** Wait until no solution is under way, and give what the section says. */
@@ -339,6 +357,10 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     await page.emulateMedia({ colorScheme: "light" });
     assert.deepEqual(wrong, []);
   },
+  "what the server answered follows the schema": async ({ answers, model }) => {
+    assert.deepEqual(answers.problems.slice(0, 5), []);
+    for (const type of ["EditingState", "MarkersPage", "Refusal", ...(model === null ? [] : ["AnglesState"])]) assert.ok((answers.counts[type] ?? 0) > 0, `no answer is of the type ${type}`);
+  },
   "nothing but this server was asked, and nothing complained": async ({ complaints }) => {
     assert.deepEqual(complaints.filter((c) => !c.includes("status of 422") && !c.includes("status of 409")), []);
   },
@@ -359,12 +381,13 @@ async function tryOn(recording: string, given: string): Promise<number> {
   if (model !== null) copyFileSync(lies, model);
   const served = await serve(recording);
   const opened = await openAddress(served.address, (asked) => asked.startsWith(`${served.origin}/`), "light", true, "trial/1");
+  const answers = judgeAnswers(opened.page);
   // What is cut and swapped has to be there: whole markers, as the page itself tells.
   const { summary } = await opened.page.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as MarkersPage);
   const whole = summary.markers.filter((m) => m.labelled && m.states.measured === summary.frames).map((m) => m.name);
   assert.ok(whole.length >= 3, "the recording has no three whole markers");
   const names = whole.slice(0, 3) as [string, string, string];
-  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: summary.first_frame, model };
+  const t: Tried = { ...opened, served, recording, journal: recording.replace(".c3d", "_edits.jsonl"), names, first: summary.first_frame, model, answers };
   let failed = 0;
   const all: typeof checks = {
     ...checks,

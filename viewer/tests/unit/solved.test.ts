@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { AnglesState, SolutionFacts } from "../../src/page_types.ts";
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import FakePlot from "../fake_plot.ts";
 import { fake, install } from "../fake_dom.ts";
 import { inflated } from "../packed.ts";
 import { simulated } from "../simulated.ts";
-import type { AnglesState, SolutionFacts } from "../../src/editing/types.ts";
 
 vi.mock("uplot", () => import("../fake_plot.ts"));
 install();
