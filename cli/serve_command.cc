@@ -16,7 +16,7 @@
 #include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/live/live_source.h"
+#include "kinemark/pipeline/live/live_input.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "server/bind_address.h"
 #include "server/desktop.h"
@@ -44,7 +44,7 @@ struct ServeArguments {
   /// The live source that was given, if one was.
   [[nodiscard]] bool is_live() const {
     return std::ranges::any_of(given,
-                               [](const auto& one) { return pipeline::names_live_source(one.string()); });
+                               [](const auto& one) { return pipeline::names_live_input(one.string()); });
   }
 };
 
@@ -109,17 +109,18 @@ struct LiveParts {
 };
 
 Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, const ServeArguments& arguments) {
-  auto source = pipeline::open_live_source(arguments.given.front().string(), arguments.model, common.seed);
-  if (!source) return std::unexpected(source.error());
-  if (auto s = pipeline::check_apart({arguments.record}, {source->file}); !s)
+  auto input = pipeline::open_live_input(arguments.given.front().string(), arguments.model, common.seed);
+  if (!input) return std::unexpected(input.error());
+  if (auto s = pipeline::check_apart({arguments.record}, {input->file}); !s)
     return std::unexpected(s.error());
   if (auto s = pipeline::check_apart({arguments.record}, common.kept); !s) return std::unexpected(s.error());
   auto nonce = server::new_secret();
   if (!nonce) return std::unexpected(nonce.error());
   auto parts = std::make_unique<LiveParts>();
-  parts->page = pipeline::live_page(*source, arguments.record);
+  parts->page = pipeline::live_page(*input, arguments.record);
   parts->nonce = std::move(*nonce);
-  parts->feed = {.source = std::move(*source),
+  parts->feed = {.source = std::move(input->source),
+                 .model = std::move(input->model),
                  .record = arguments.record,
                  .force = common.force,
                  .clock = std::make_shared<server::SteadyClock>(),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kinemark/core/counted.h"
+#include "kinemark/pipeline/live/live_angles.h"
 
 namespace kinemark::server {
 namespace {
@@ -16,68 +17,38 @@ constexpr double kPatience_s = 0.5;  // for the tracker: what waits longer is gi
 
 }  // namespace
 
-void LiveQueue::push(std::int64_t frame) {
-  {
-    const std::scoped_lock lock(mutex_);
-    waiting_.push_back(frame);
-    if (most_ > 0 && waiting_.size() > most_) {
-      waiting_.pop_front();
-      ++dropped_;
-    }
-  }
-  changed_.notify_one();
-}
-
-void LiveQueue::finish() {
-  {
-    const std::scoped_lock lock(mutex_);
-    finished_ = true;
-  }
-  changed_.notify_all();
-}
-
-std::optional<std::int64_t> LiveQueue::pop() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return finished_ || !waiting_.empty(); });
-  if (waiting_.empty()) return std::nullopt;
-  const auto frame = waiting_.front();
-  waiting_.pop_front();
-  return frame;
-}
-
-std::int64_t LiveQueue::dropped() const {
-  const std::scoped_lock lock(mutex_);
-  return dropped_;
-}
-
 Result<std::unique_ptr<LiveFeed>> LiveFeed::create(LiveFeedOptions options) {
-  std::optional<pipeline::LiveAngles> angles;
-  if (options.source.model) {
-    auto made = pipeline::LiveAngles::create(options.source);
+  std::unique_ptr<LiveFeed> feed(new LiveFeed(std::move(options)));
+  const auto& given = feed->options_;
+  const auto& facts = given.source->facts();
+  std::unique_ptr<pipeline::LiveAngles> angles;
+  if (given.model) {
+    auto made = pipeline::LiveAngles::create(given.model, facts, [self = feed.get()](const auto& frame) {
+      const double when_s = self->due_s(frame.frame);
+      self->send(angles_message(frame, when_s), LiveKind::angles, when_s);
+    });
     if (!made) return std::unexpected(made.error());
-    angles.emplace(std::move(*made));
+    angles = std::move(*made);
   }
-  std::optional<io::MarkersWriter> writer;
-  if (!options.record.empty()) {
-    const auto& markers = options.source.markers;
-    auto made = io::MarkersWriter::create(options.record,
-                                          {.names = markers.names,
-                                           .rate_hz = markers.time.rate_hz,
-                                           .t0_s = markers.time.t0_s,
-                                           .source = options.source.name},
-                                          {.force = options.force});
+  if (!given.record.empty()) {
+    auto made = pipeline::LiveRecorder::create(given.record, facts, given.force);
     if (!made) return std::unexpected(made.error());
-    writer.emplace(std::move(*made));
+    feed->kept_by_ = made->get();
+    feed->recorder_ = feed->on_thread(std::move(*made), 0, "the recording ends");
   }
-  return std::unique_ptr<LiveFeed>(new LiveFeed(std::move(options), std::move(writer), std::move(angles)));
+  if (angles)
+    feed->follower_ = feed->on_thread(
+        std::move(angles), 1 + static_cast<std::size_t>(kPatience_s * facts.rate_hz), "angles end");
+  return feed;
 }
 
-LiveFeed::LiveFeed(LiveFeedOptions options, std::optional<io::MarkersWriter> writer,
-                   std::optional<pipeline::LiveAngles> angles)
-    : options_(std::move(options)),
-      writer_(std::move(writer)),
-      angles_(std::move(angles)),
-      to_follow_(1 + static_cast<std::size_t>(kPatience_s * options_.source.markers.time.rate_hz)) {}
+std::unique_ptr<SinkThread> LiveFeed::on_thread(std::unique_ptr<stream::Sink> sink, std::size_t most,
+                                                std::string what) {
+  return std::make_unique<SinkThread>(std::move(sink), most,
+                                      [this, what = std::move(what)](const Error& error) {
+                                        tell(fmt::format("{}: {}", what, error.message));
+                                      });
+}
 
 LiveFeed::~LiveFeed() {
   options_.clock->stop();
@@ -90,87 +61,54 @@ void LiveFeed::start() {
   start_ns_ = static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
                                              std::chrono::system_clock::now().time_since_epoch())
                                              .count());
-  if (writer_) recorder_ = std::thread([this] { record(); });
-  if (angles_) follower_ = std::thread([this] { follow(); });
   feeder_ = std::thread([this] { feed(); });
 }
 
 void LiveFeed::wait() {
-  for (auto* thread : {&feeder_, &recorder_, &follower_})
-    if (thread->joinable()) thread->join();
+  if (feeder_.joinable()) feeder_.join();
+  finish_sinks();
 }
 
-std::span<const double> LiveFeed::x_of(std::int64_t frame) const {
-  const auto& markers = options_.source.markers;
-  return std::span(markers.x_in_world).subspan(3 * markers.index(frame, 0), 3 * markers.names.size());
-}
-
-std::span<const data::SampleState> LiveFeed::state_of(std::int64_t frame) const {
-  const auto& markers = options_.source.markers;
-  return std::span(markers.state).subspan(markers.index(frame, 0), markers.names.size());
+void LiveFeed::finish_sinks() {
+  for (auto* sink : {recorder_.get(), follower_.get()})
+    if (sink != nullptr) sink->finish();
+  for (auto* sink : {recorder_.get(), follower_.get()})
+    if (sink != nullptr) sink->join();
 }
 
 double LiveFeed::due_s(std::int64_t frame) const {
-  return start_s_ + static_cast<double>(frame) / options_.source.markers.time.rate_hz;
+  return start_s_ + static_cast<double>(frame) / options_.source->facts().rate_hz;
 }
 
 void LiveFeed::feed() {
-  const auto& markers = options_.source.markers;
-  std::int64_t f = 0;
-  for (; f < markers.frames() && options_.clock->sleep_until(due_s(f)); ++f) {
-    if (writer_) to_record_.push(f);
-    if (angles_) to_follow_.push(f);
-    send(markers_message(f, markers.time.time_s(f), due_s(f), x_of(f), state_of(f)), LiveKind::markers,
-         due_s(f));
-    frames_ = f + 1;
-  }
-  to_record_.finish();
-  to_follow_.finish();
-  if (f < markers.frames()) return;  // the server ends
-  if (recorder_.joinable()) recorder_.join();
-  if (follower_.joinable()) follower_.join();
-  const auto sentence = fmt::format("the source has ended after {}", counted(f, "frame"));
-  options_.say(
-      writer_ ? fmt::format("{}; {} recorded in {}", sentence, recorded_.load(), options_.record.string())
-              : sentence);
-  finish_viewers(sentence);
+  const auto sentence = feed_all();
+  finish_sinks();
+  if (!sentence) return;
+  options_.say(kept_by_ != nullptr ? fmt::format("{}; {} recorded in {}", *sentence, kept_by_->kept(),
+                                                 options_.record.string())
+                                   : *sentence);
+  finish_viewers(*sentence);
 }
 
-void LiveFeed::record() {
-  const double ns_per_frame = 1e9 / options_.source.markers.time.rate_hz;
-  Status status;
-  while (const auto f = to_record_.pop()) {
-    if (!status) continue;
-    const auto ns = start_ns_ + static_cast<std::uint64_t>(ns_per_frame * static_cast<double>(*f));
-    status = writer_->push({.frame = *f, .log_time_ns = ns, .x_in_world = x_of(*f), .state = state_of(*f)});
-    recorded_ = writer_->acknowledged();
-    if (!status) tell(fmt::format("the recording ends: {}", status.error().message));
+std::optional<std::string> LiveFeed::feed_all() {
+  const double ns_per_frame = 1e9 / options_.source->facts().rate_hz;
+  for (;;) {
+    const auto frame = std::make_shared<stream::Frame>();
+    const auto more = options_.source->next(*frame);
+    if (!more)
+      return fmt::format("the source has failed after {}: {}", counted(frames_, "frame"),
+                         more.error().message);
+    if (!*more) return fmt::format("the source has ended after {}", counted(frames_, "frame"));
+    const double due = due_s(frame->number);
+    if (!options_.clock->sleep_until(due)) return std::nullopt;
+    frame->came_ns =
+        start_ns_ + static_cast<std::uint64_t>(ns_per_frame * static_cast<double>(frame->number));
+    for (auto* sink : {recorder_.get(), follower_.get()})
+      if (sink != nullptr) sink->push(frame);
+    send(markers_message(frame->number, frame->time_s, due, frame->x_in_world, frame->state),
+         LiveKind::markers, due);
+    ++frames_;
   }
-  if (!status) return;
-  if (auto s = writer_->close(); !s) tell(fmt::format("the recording is not closed: {}", s.error().message));
-}
-
-void LiveFeed::follow() {
-  const auto& time = options_.source.markers.time;
-  Status status;
-  const auto send_ready = [this, &status] {
-    while (status) {
-      const auto angles = angles_->next();
-      if (!angles) status = std::unexpected(angles.error());
-      if (!angles || *angles == nullptr) return;
-      const double when_s = due_s((*angles)->frame);
-      send(angles_message(**angles, when_s), LiveKind::angles, when_s);
-    }
-  };
-  while (const auto f = to_follow_.pop()) {
-    if (!status) continue;
-    status = angles_->push(time.time_s(*f), x_of(*f));
-    send_ready();
-    if (!status) tell(fmt::format("angles end: {}", status.error().message));
-  }
-  if (!status) return;
-  angles_->finish();
-  send_ready();
 }
 
 void LiveFeed::send(std::string message, LiveKind kind, double due_s) {
@@ -212,9 +150,9 @@ std::shared_ptr<LiveViewer> LiveFeed::add_viewer() {
 
 LiveState LiveFeed::state() {
   LiveState out{.frames = frames_,
-                .of_frames = options_.source.markers.frames(),
-                .recorded = recorded_,
-                .unsolved = to_follow_.dropped()};
+                .of_frames = options_.source->facts().frames,
+                .recorded = kept_by_ != nullptr ? kept_by_->kept() : 0,
+                .unsolved = follower_ ? follower_->dropped() : 0};
   const std::scoped_lock lock(mutex_);
   out.ended = ended_.has_value();
   for (const auto& viewer : living()) out.viewers.push_back(viewer->state());

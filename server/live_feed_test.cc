@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "kinemark/io/recording/mcap_markers.h"
+#include "kinemark/stream/recorded_source.h"
 #include "server/testing/fake_clock.h"
 #include "support/scratch.h"
 
@@ -20,22 +21,39 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Markers "A" and "B"; A moves by 1 mm a frame, B is missing in each third frame.
-pipeline::LiveSource source_of(std::int64_t frames) {
-  pipeline::LiveSource out{.name = "test", .title = "Test"};
-  out.markers =
-      data::Trajectories::all_missing({"A", "B"}, {.rate_hz = 240.0, .t0_s = 0.0, .frames = frames});
+data::Trajectories markers_of(std::int64_t frames) {
+  auto out = data::Trajectories::all_missing({"A", "B"}, {.rate_hz = 240.0, .t0_s = 0.0, .frames = frames});
   for (std::int64_t f = 0; f < frames; ++f)
     for (std::int64_t m = 0; m < 2; ++m) {
       if (m == 1 && f % 3 == 2) continue;
-      out.markers.x(f, m) = Eigen::Vector3d(1e-3 * static_cast<double>(f), static_cast<double>(m), 1.0);
-      out.markers.state[out.markers.index(f, m)] = data::SampleState::measured;
+      out.x(f, m) = Eigen::Vector3d(1e-3 * static_cast<double>(f), static_cast<double>(m), 1.0);
+      out.state[out.index(f, m)] = data::SampleState::measured;
     }
   return out;
 }
 
+std::unique_ptr<stream::Source> source_of(std::int64_t frames) {
+  return std::make_unique<stream::RecordedSource>(markers_of(frames), stream::SourceFacts{.name = "test"});
+}
+
+/// A device that breaks after three frames, and never knew how many there would be.
+class Breaking final : public stream::Source {
+ public:
+  Breaking() : Source({.name = "device", .markers = {"A"}, .rate_hz = 100.0}) {}
+  Result<bool> next(stream::Frame& frame) override {
+    if (came_ == 3) return fail(Code::io, "device: the cable is out");
+    frame.number = came_++;
+    frame.clear(1);
+    return true;
+  }
+
+ private:
+  std::int64_t came_ = 0;
+};
+
 class LiveFeedThread : public ::testing::Test {
  protected:
-  [[nodiscard]] LiveFeedOptions options(pipeline::LiveSource source) {
+  [[nodiscard]] LiveFeedOptions options(std::unique_ptr<stream::Source> source) {
     return {.source = std::move(source), .clock = clock_, .say = [this](std::string_view line) {
               const std::scoped_lock lock(mutex_);
               said_.emplace_back(line);
@@ -51,7 +69,7 @@ class LiveFeedThread : public ::testing::Test {
 TEST_F(LiveFeedThread, EveryFrameIsRecordedAsItIs) {
   auto given = options(source_of(3000));
   given.record = scratch_ / "live.mcap";
-  const auto expected = given.source.markers;
+  const auto expected = markers_of(3000);
   const auto feed = LiveFeed::create(std::move(given)).value();
   feed->start();
   feed->wait();
@@ -111,15 +129,31 @@ TEST_F(LiveFeedThread, ViewersAreNotWithoutNumber) {
 }
 
 TEST_F(LiveFeedThread, ARecordingThatIsThereStays) {
-  auto given = options(source_of(5));
-  given.record = scratch_ / "live.mcap";
-  auto again = given;
-  (void)LiveFeed::create(std::move(given)).value();
-  const auto second = LiveFeed::create(again);
+  const auto recording = [this](bool force) {
+    auto given = options(source_of(5));
+    given.record = scratch_ / "live.mcap";
+    given.force = force;
+    return LiveFeed::create(std::move(given));
+  };
+  EXPECT_TRUE(recording(false));
+  const auto second = recording(false);
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, Code::io);
-  again.force = true;
-  EXPECT_TRUE(LiveFeed::create(std::move(again)));
+  EXPECT_TRUE(recording(true));
+}
+
+TEST_F(LiveFeedThread, ASourceThatFailsEndsWithItsReasonAndWhatHasCome) {
+  auto given = options(std::make_unique<Breaking>());
+  given.record = scratch_ / "live.mcap";
+  const auto feed = LiveFeed::create(std::move(given)).value();
+  EXPECT_EQ(feed->state().of_frames, std::nullopt);
+  feed->start();
+  feed->wait();
+  EXPECT_TRUE(feed->state().ended);
+  EXPECT_THAT(
+      said_,
+      ElementsAre(HasSubstr("the source has failed after 3 frames: device: the cable is out; 3 recorded")));
+  EXPECT_EQ(io::read_mcap_markers(scratch_ / "live.mcap").value().markers.frames(), 3);
 }
 
 TEST_F(LiveFeedThread, EndsInTheMiddleWithWhatHasCome) {
@@ -142,20 +176,6 @@ TEST_F(LiveFeedThread, EndsInTheMiddleWithWhatHasCome) {
     while (viewer->next() != nullptr) ++taken;
   }
   EXPECT_TRUE(viewer->end());
-}
-
-TEST_F(LiveFeedThread, AQueueGivesInOrderAndCountsWhatItDrops) {
-  LiveQueue queue(2);
-  for (int f = 0; f < 5; ++f) queue.push(f);
-  EXPECT_EQ(queue.dropped(), 3);
-  queue.finish();
-  EXPECT_EQ(queue.pop(), 3);
-  EXPECT_EQ(queue.pop(), 4);
-  EXPECT_EQ(queue.pop(), std::nullopt);
-  LiveQueue all(0);
-  for (int f = 0; f < 5000; ++f) all.push(f);
-  EXPECT_EQ(all.dropped(), 0);
-  EXPECT_EQ(all.pop(), 0);
 }
 
 TEST_F(LiveFeedThread, TheSteadyClockWakesWhenItIsStopped) {

@@ -31,7 +31,7 @@ std::string live_state_json(const LiveState& state) {
          {"dropped_angles", v.dropped_angles},
          {"to_socket_ms", {{"p50", v.half_ms}, {"p99", v.most_ms}, {"longest", v.longest_ms}}}});
   return pipeline::json_text({{"frames", state.frames},
-                              {"of_frames", state.of_frames},
+                              {"of_frames", state.of_frames ? Json(*state.of_frames) : Json()},
                               {"ended", state.ended},
                               {"recorded", state.recorded},
                               {"unsolved", state.unsolved},

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/stream/recorded_source.h"
 #include "server/testing/fake_clock.h"
 
 namespace kinemark::server {
@@ -18,9 +19,9 @@ using ::testing::HasSubstr;
 class LiveServiceThread : public ::testing::Test {
  protected:
   LiveServiceThread() {
-    pipeline::LiveSource source{.name = "test", .title = "Test"};
-    source.markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 10});
-    auto feed = LiveFeed::create({.source = std::move(source),
+    auto markers = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 10});
+    auto feed = LiveFeed::create({.source = std::make_unique<stream::RecordedSource>(
+                                      std::move(markers), stream::SourceFacts{.name = "test"}),
                                   .most_viewers = 1,
                                   .clock = std::make_shared<testing::FakeClock>(),
                                   .say = [](std::string_view) {}})
@@ -126,11 +127,13 @@ TEST(LiveStateJson, NamesWhatItSays) {
                                              .recorded = 6,
                                              .unsolved = 1,
                                              .viewers = {{.sent = 5, .dropped = 2, .most_ms = 1.5}}}));
+  EXPECT_EQ(json["of_frames"], 9);
   EXPECT_EQ(json["recorded"], 6);
   EXPECT_EQ(json["unsolved"], 1);
   EXPECT_EQ(json["ended"], false);
   EXPECT_EQ(json["viewers"][0]["dropped"], 2);
   EXPECT_EQ(json["viewers"][0]["to_socket_ms"]["p99"], 1.5);
+  EXPECT_TRUE(nlohmann::json::parse(live_state_json({}))["of_frames"].is_null()) << "nobody knows";
 }
 
 }  // namespace

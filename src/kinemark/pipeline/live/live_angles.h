@@ -4,12 +4,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/pipeline/live/live_source.h"
+#include "kinemark/model/model.h"
 #include "kinemark/stages/motion/control/online_tracker.h"
+#include "kinemark/stream/sink.h"
+#include "kinemark/stream/source.h"
 
 namespace kinemark::pipeline {
 
@@ -24,26 +27,33 @@ struct LiveAnglesFrame {
 
 /// Angles of a source's model, a fixed number of frames after their markers. Direct marker control with its
 /// default options; frames that are left out count as not seen.
-class LiveAngles {
+class LiveAngles final : public stream::Sink {
  public:
-  /// Fails as OnlineTracker::create(); the source must have a model and outlive this.
-  [[nodiscard]] static Result<LiveAngles> create(const LiveSource& source);
+  /// Gets each frame of angles, in order; what it is given is valid until it returns.
+  using Taker = std::function<void(const LiveAnglesFrame&)>;
 
-  /// One frame of the source. Fails as OnlineTracker::push().
-  [[nodiscard]] Status push(double time_s, std::span<const double> x_in_world);
-  /// No more frames come: what is still inside becomes available.
-  void finish() { tracker_.finish(); }
-  /// The next frame that is ready, valid until the next call, or nullptr. To be called until then after every
-  /// push().
-  [[nodiscard]] Result<const LiveAnglesFrame*> next();
+  /// Fails as OnlineTracker::create(). @param model  of those frames; never nullptr
+  [[nodiscard]] static Result<std::unique_ptr<LiveAngles>> create(std::shared_ptr<const model::Model> model,
+                                                                  const stream::SourceFacts& facts,
+                                                                  Taker take);
+
+  /// Fails as OnlineTracker::push() and next().
+  [[nodiscard]] Status push(const stream::Frame& frame) override;
+  /// What is still inside comes out.
+  [[nodiscard]] Status finish() override;
 
  private:
-  LiveAngles(motion::OnlineTracker tracker, std::shared_ptr<const model::Model> model, std::int64_t markers);
+  LiveAngles(motion::OnlineTracker tracker, std::shared_ptr<const model::Model> model, std::size_t markers,
+             Taker take);
+  [[nodiscard]] Status give_ready();
+  void show(const motion::LivePose& pose);
+
   motion::OnlineTracker tracker_;
   std::shared_ptr<const model::Model> model_;
   Eigen::Matrix3Xd x_;
   std::vector<double> per_unit_;
   LiveAnglesFrame out_;
+  Taker take_;
 };
 
 }  // namespace kinemark::pipeline

@@ -5,61 +5,76 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "kinemark/core/units.h"
+#include "kinemark/pipeline/live/live_input.h"
 
 namespace kinemark::pipeline {
 namespace {
 
-std::span<const double> frame_of(const data::Trajectories& markers, std::int64_t f) {
-  return std::span(markers.x_in_world).subspan(3 * markers.index(f, 0), 3 * markers.names.size());
+stream::Frame missing_frame(std::int64_t number, double rate_hz, std::size_t markers) {
+  stream::Frame out{.number = number, .time_s = static_cast<double>(number) / rate_hz};
+  out.clear(markers);
+  return out;
 }
 
 TEST(LiveAngles, AreThoseOfTheTrackerInDegreesAndMillimetres) {
-  const auto source = open_live_source("sim:reach?rate=100&seconds=1").value();
-  auto angles = LiveAngles::create(source).value();
-  auto tracker = motion::OnlineTracker::create(*source.model, source.markers.names, 100.0).value();
-  const auto& coordinates = source.model->description().coordinates;
-  std::int64_t compared = 0;
-  for (std::int64_t f = 0; f < source.markers.frames(); ++f) {
-    const double time_s = source.markers.time.time_s(f);
-    Eigen::Matrix3Xd x(3, source.markers.markers());
-    for (std::int64_t m = 0; m < x.cols(); ++m) x.col(m) = source.markers.x(f, m);
-    ASSERT_TRUE(angles.push(time_s, frame_of(source.markers, f)));
-    ASSERT_TRUE(tracker.push(time_s, x));
+  const auto input = open_live_input("sim:reach?rate=100&seconds=1").value();
+  const auto& facts = input.source->facts();
+  const auto& coordinates = input.model->description().coordinates;
+  std::vector<LiveAnglesFrame> shown;
+  auto angles =
+      LiveAngles::create(input.model, facts, [&](const auto& one) { shown.push_back(one); }).value();
+  auto tracker = motion::OnlineTracker::create(*input.model, facts.markers, 100.0).value();
+  std::size_t compared = 0;
+  const auto compare = [&] {
     while (const auto* pose = tracker.next().value()) {
-      const auto* shown = angles.next().value();
-      ASSERT_NE(shown, nullptr);
-      EXPECT_EQ(shown->frame, pose->frame);
+      ASSERT_LT(compared, shown.size());
+      const auto& one = shown[compared++];
+      EXPECT_EQ(one.frame, pose->frame);
       for (std::size_t c = 0; c < coordinates.size(); ++c) {
         const double unit = coordinates[c].is_rotation ? kDegPerRad : 1e3;
         const auto i = static_cast<Eigen::Index>(c);
-        EXPECT_EQ(shown->value[c], static_cast<float>(unit * pose->q[i]));
-        if (shown->determined[c] == 0) continue;
-        EXPECT_EQ(shown->sd[c], static_cast<float>(unit * pose->q_sd[i]));
+        EXPECT_EQ(one.value[c], static_cast<float>(unit * pose->q[i]));
+        if (one.determined[c] == 0) continue;
+        EXPECT_EQ(one.sd[c], static_cast<float>(unit * pose->q_sd[i]));
       }
-      ++compared;
     }
-    EXPECT_EQ(angles.next().value(), nullptr);
+  };
+  for (stream::Frame frame; input.source->next(frame).value();) {
+    ASSERT_TRUE(angles->push(frame));
+    ASSERT_TRUE(tracker.push(
+        frame.time_s, Eigen::Map<const Eigen::Matrix3Xd>(frame.x_in_world.data(), 3,
+                                                         static_cast<Eigen::Index>(facts.markers.size()))));
+    compare();
+    EXPECT_EQ(compared, shown.size());
   }
-  EXPECT_GT(compared, 10);
-  angles.finish();
-  while (angles.next().value() != nullptr) ++compared;
-  EXPECT_EQ(compared, source.markers.frames());
+  EXPECT_GT(compared, 10U);
+  ASSERT_TRUE(angles->finish());
+  EXPECT_EQ(static_cast<std::int64_t>(shown.size()), *facts.frames);
 }
 
 TEST(LiveAngles, BeforeMarkersAreSeenNothingIsKnown) {
-  auto source = open_live_source("sim:walk?rate=100&seconds=0.2").value();
-  for (std::int64_t f = 0; f < source.markers.frames(); ++f)
-    for (std::int64_t m = 0; m < source.markers.markers(); ++m) source.markers.set_missing(f, m);
-  auto angles = LiveAngles::create(source).value();
-  for (std::int64_t f = 0; f < source.markers.frames(); ++f)
-    ASSERT_TRUE(angles.push(source.markers.time.time_s(f), frame_of(source.markers, f)));
-  angles.finish();
-  const auto* shown = angles.next().value();
-  ASSERT_NE(shown, nullptr);
-  EXPECT_TRUE(std::isnan(shown->value[0]));
-  EXPECT_EQ(shown->determined[0], 0);
+  const auto input = open_live_input("sim:walk?rate=100&seconds=0.2").value();
+  const auto& facts = input.source->facts();
+  std::vector<LiveAnglesFrame> shown;
+  auto angles =
+      LiveAngles::create(input.model, facts, [&](const auto& one) { shown.push_back(one); }).value();
+  for (std::int64_t f = 0; f < *facts.frames; ++f)
+    ASSERT_TRUE(angles->push(missing_frame(f, 100.0, facts.markers.size())));
+  ASSERT_TRUE(angles->finish());
+  ASSERT_FALSE(shown.empty());
+  EXPECT_TRUE(std::isnan(shown[0].value[0]));
+  EXPECT_EQ(shown[0].determined[0], 0);
+}
+
+TEST(LiveAngles, AFrameThatDoesNotAdvanceIsRefused) {
+  const auto input = open_live_input("sim:walk?rate=100&seconds=0.2").value();
+  const auto& facts = input.source->facts();
+  auto angles = LiveAngles::create(input.model, facts, [](const auto&) {}).value();
+  ASSERT_TRUE(angles->push(missing_frame(3, 100.0, facts.markers.size())));
+  EXPECT_FALSE(angles->push(missing_frame(3, 100.0, facts.markers.size())));
 }
 
 }  // namespace

@@ -101,6 +101,14 @@ double second_best(const Vector3d& marker, const Vector3d& outward, int own_segm
 
 }  // namespace
 
+double mean_gap_s() { return kShortShare * kShortGap_s + (1.0 - kShortShare) * kLongGap_s; }
+
+std::int64_t draw_gap_frames(Random& random, double rate_hz) {
+  const double mean_s = random.uniform() < kShortShare ? kShortGap_s : kLongGap_s;
+  const double length_s = -mean_s * std::log(1.0 - random.uniform());
+  return std::max<std::int64_t>(1, std::llround(length_s * rate_hz));
+}
+
 Lost random_gaps(std::int64_t frames, std::int64_t markers, const SubjectOptions& options) {
   Lost lost(static_cast<std::size_t>(frames * markers), 0);
   Random random = stream(options.seed, Draw::gaps);
@@ -108,9 +116,7 @@ Lost random_gaps(std::int64_t frames, std::int64_t markers, const SubjectOptions
   while (left > 0) {
     const auto marker = static_cast<std::int64_t>(random.uniform(0.0, static_cast<double>(markers)));
     const auto start = static_cast<std::int64_t>(random.uniform(0.0, static_cast<double>(frames)));
-    const double mean_s = random.uniform() < kShortShare ? kShortGap_s : kLongGap_s;
-    const double length_s = -mean_s * std::log(1.0 - random.uniform());
-    const auto length = std::max<std::int64_t>(1, std::llround(length_s * options.rate_hz));
+    const auto length = draw_gap_frames(random, options.rate_hz);
     for (std::int64_t f = start; f < std::min(frames, start + length) && left > 0; ++f) {
       auto& flag = lost[static_cast<std::size_t>(f * markers + marker)];
       if (flag == 0) --left;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kinemark/core/random.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/simulation/internal/segments.h"
 #include "kinemark/stages/simulation/subject_options.h"
@@ -15,8 +16,14 @@ namespace kinemark::simulation::internal {
 /// One flag per marker-frame, frame first: 1 where the marker is lost.
 using Lost = std::vector<std::uint8_t>;
 
-/// Gaps at random until round(share frames markers) marker-frames are lost. Seven of ten gaps last 0.06 s on
-/// average, the others 0.5 s, both exponentially distributed, one frame at least.
+/// Mean duration of a random gap, s.
+[[nodiscard]] double mean_gap_s();
+
+/// Frames of one random gap: two numbers of `random`. Seven of ten gaps last 0.06 s on average, the others
+/// 0.5 s, both exponentially distributed, one frame at least.
+[[nodiscard]] std::int64_t draw_gap_frames(Random& random, double rate_hz);
+
+/// Gaps at random until round(share frames markers) marker-frames are lost.
 [[nodiscard]] Lost random_gaps(std::int64_t frames, std::int64_t markers, const SubjectOptions& options);
 
 /// The round(share frames markers) marker-frames that cameras see worst.

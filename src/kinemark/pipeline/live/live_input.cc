@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/live/live_source.h"
+#include "kinemark/pipeline/live/live_input.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,7 +20,8 @@
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/report/live_report.h"
-#include "kinemark/stages/simulation/subject.h"
+#include "kinemark/stages/simulation/subject_source.h"
+#include "kinemark/stream/recorded_source.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSim = "sim:";
 constexpr std::string_view kReplay = "replay:";
-constexpr std::int64_t kMostSimulatedFrames = 200'000;
+constexpr std::int64_t kMostSimulatedFrames = 10'000'000;  // what SubjectOptions allow
 
 /// A setting of a source: its name, its value, and the range that the value must lie in.
 struct Setting {
@@ -74,15 +75,14 @@ Result<std::shared_ptr<const model::Model>> own_human() {
   return std::make_shared<const model::Model>(std::move(*model));
 }
 
-Result<LiveSource> open_simulation(std::string_view argument, const fs::path& model_file,
-                                   std::uint64_t seed) {
+Result<LiveInput> open_simulation(std::string_view argument, const fs::path& model_file, std::uint64_t seed) {
   const auto text = argument.substr(kSim.size());
   const auto question = std::min(text.find('?'), text.size());
   const auto name = question == 0 ? std::string_view("walk") : text.substr(0, question);
   const auto motion = simulation::parse_motion_kind(name);
   if (!motion) return fail_at(std::string(argument), motion.error());
   std::vector<Setting> settings{{"rate", 240.0, 1.0, 1000.0},
-                                {"seconds", 60.0, 0.1, 3600.0},
+                                {"seconds", 60.0, 0.1, 36'000.0},
                                 {"noise", 1.0, 0.0, 100.0},
                                 {"missing", 0.0, 0.0, 0.9}};
   if (auto s = take_settings(argument, text.substr(std::min(question + 1, text.size())), settings); !s)
@@ -96,21 +96,21 @@ Result<LiveSource> open_simulation(std::string_view argument, const fs::path& mo
   if (options.frames() > kMostSimulatedFrames)
     return fail(Code::usage, fmt::format("{}: would be {} frames; need at most {}", argument,
                                          options.frames(), kMostSimulatedFrames));
-  LiveSource out{.name = std::string(argument), .title = fmt::format("Simulated subject, {}", name)};
   auto model = model_file.empty() ? own_human() : read_model(model_file);
   if (!model) return std::unexpected(model.error());
-  out.model = std::move(*model);
-  auto subject = simulation::simulate_subject(*out.model, options);
-  if (!subject) return fail_at(std::string(argument), subject.error());
-  out.markers = std::move(subject->markers);
-  if (const auto up = workflow::up_of(*out.model)) {
-    out.up = *up;
-    out.up_from = "the model's gravity";
+  stream::SourceFacts facts{.name = std::string(argument)};
+  if (const auto up = workflow::up_of(**model)) {
+    facts.up = *up;
+    facts.up_from = "the model's gravity";
   }
-  return out;
+  auto source = simulation::SubjectSource::create(*model, options, std::move(facts));
+  if (!source) return fail_at(std::string(argument), source.error());
+  return LiveInput{.source = std::move(*source),
+                   .title = fmt::format("Simulated subject, {}", name),
+                   .model = std::move(*model)};
 }
 
-Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_file) {
+Result<LiveInput> open_replay(std::string_view argument, const fs::path& model_file) {
   auto file = argument.substr(kReplay.size());
   std::vector<Setting> settings{{"rate", 0.0, 0.001, 10'000.0}};
   std::error_code ignored;
@@ -126,8 +126,7 @@ Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_
   auto input = read_marker_input(
       {.path = path, .rate_hz = rate_hz, .rate = RateRule::where_needed, .needs_samples = true});
   if (!input) return std::unexpected(input.error());
-  LiveSource out{
-      .name = std::string(argument), .title = printable(path.filename().string(), 200), .file = path};
+  LiveInput out{.title = printable(path.filename().string(), 200), .file = path};
   if (!model_file.empty()) {
     auto model = read_model(model_file);
     if (!model) return std::unexpected(model.error());
@@ -135,52 +134,40 @@ Result<LiveSource> open_replay(std::string_view argument, const fs::path& model_
   }
   const auto found = out.model ? workflow::find_vertical(input->trial, *out.model) : std::nullopt;
   const auto vertical = found ? *found : vertical_without_model(input->trial);
-  out.up = vertical.up;
-  out.up_from = vertical.from;
-  out.markers = std::move(input->trial.markers);
-  if (rate_hz > 0.0) out.markers.time.rate_hz = rate_hz;
-  return out;
-}
-
-/// Smallest and largest coordinates of all samples; nothing without any.
-std::optional<std::array<Eigen::Vector3d, 2>> extent_of(const data::Trajectories& markers) {
-  std::optional<std::array<Eigen::Vector3d, 2>> out;
-  for (std::int64_t f = 0; f < markers.frames(); ++f)
-    for (std::int64_t m = 0; m < markers.markers(); ++m) {
-      if (!markers.present(f, m)) continue;
-      const Eigen::Vector3d x = markers.x(f, m);
-      if (!out) out = {x, x};
-      (*out)[0] = (*out)[0].cwiseMin(x);
-      (*out)[1] = (*out)[1].cwiseMax(x);
-    }
+  auto markers = std::move(input->trial.markers);
+  if (rate_hz > 0.0) markers.time.rate_hz = rate_hz;
+  out.source = std::make_unique<stream::RecordedSource>(
+      std::move(markers),
+      stream::SourceFacts{.name = std::string(argument), .up = vertical.up, .up_from = vertical.from});
   return out;
 }
 
 }  // namespace
 
-bool names_live_source(std::string_view argument) {
+bool names_live_input(std::string_view argument) {
   return argument.starts_with(kSim) || argument.starts_with(kReplay);
 }
 
-Result<LiveSource> open_live_source(std::string_view argument, const fs::path& model, std::uint64_t seed) {
+Result<LiveInput> open_live_input(std::string_view argument, const fs::path& model, std::uint64_t seed) {
   if (argument.starts_with(kSim)) return open_simulation(argument, model, seed);
   if (argument.starts_with(kReplay)) return open_replay(argument, model);
   return fail(Code::usage,
               fmt::format("{}: is no live source; need sim:MOTION or replay:FILE", printable(argument, 200)));
 }
 
-std::string live_page(const LiveSource& source, const fs::path& recording) {
-  report::LiveReport report{.title = source.title,
-                            .source = source.name,
+std::string live_page(const LiveInput& input, const fs::path& recording) {
+  const auto& facts = input.source->facts();
+  report::LiveReport report{.title = input.title,
+                            .source = facts.name,
                             .version = std::string(kVersion),
                             .recording = recording.filename().string(),
-                            .rate_hz = source.markers.time.rate_hz,
-                            .markers = source.markers.names,
-                            .up = source.up,
-                            .up_from = source.up_from,
-                            .extent_m = extent_of(source.markers)};
-  if (source.model)
-    for (const auto& coordinate : source.model->description().coordinates)
+                            .rate_hz = facts.rate_hz,
+                            .markers = facts.markers,
+                            .up = facts.up,
+                            .up_from = facts.up_from,
+                            .extent_m = facts.extent_m};
+  if (input.model)
+    for (const auto& coordinate : input.model->description().coordinates)
       report.coordinates.push_back({.name = coordinate.name, .is_rotation = coordinate.is_rotation});
   return report::live_report_html(report);
 }
