@@ -40,6 +40,7 @@
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
+#include "kinemark/workflow/scale/scale.h"
 
 namespace kinemark {
 
@@ -77,6 +78,7 @@ using workflow::ik;
 using workflow::joints;
 using workflow::measure;
 using workflow::prepare;
+using workflow::scale;
 using workflow::track;
 
 // Cleaning.

@@ -2,13 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/scale/scale_recordings.h"
 
+#include <optional>
 #include <set>
-
-#include "kinemark/workflow/prepare/marker_screening.h"
+#include <utility>
 
 namespace kinemark::pipeline {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// One recording, or none where no file is named.
+struct TrialReader {
+  const ScaleJob& job;
+  std::size_t count;            ///< count_recordings()
+  const std::string& found_in;  ///< checksum
+
+  Status read(const fs::path& path, std::optional<workflow::ScaleTrial>& trial) const {
+    if (path.empty()) return {};
+    auto recording = open_scale_recording(job, count, path);
+    if (!recording) return std::unexpected(recording.error());
+    const auto hash = std::move(recording->file.hash);
+    trial = workflow::ScaleTrial{.recording = std::move(*recording),
+                                 .name = path.filename().string(),
+                                 .where = path.string(),
+                                 .holds_joints = !found_in.empty() && hash == found_in};
+    return {};
+  }
+};
+
+}  // namespace
 
 std::size_t count_recordings(const ScaleJob& job, const io::ScaleSetup* setup) {
   std::set<fs::path> files{job.static_trial, job.markers};
@@ -20,6 +42,7 @@ std::size_t count_recordings(const ScaleJob& job, const io::ScaleSetup* setup) {
 Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, const fs::path& path) {
   const RecordingSource source{.path = path,
                                .rate = count > 1 ? RateRule::where_needed : RateRule::given,
+                               .record = !job.joints.empty(),
                                .turns = false,
                                .force = job.force,
                                .seed = job.seed,
@@ -31,12 +54,20 @@ Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, c
   if (path != job.markers && !job.markers.empty())
     options.selection = job.selection.names_in(recording->trial);
   if (auto s = prepare_recording(source, options, *recording); !s) return std::unexpected(s.error());
-  if (!job.drops_doubtful(false)) return recording;
-  if (auto s =
-          workflow::leave_out_defects(recording->trial, false, recording->edits.swapped, recording->notes);
-      !s)
-    return fail_at(path.string(), s.error());
   return recording;
+}
+
+Status read_scale_recordings(const ScaleJob& job, const io::ScaleSetup* setup, const std::string& found_in,
+                             workflow::ScaleInputs& inputs) {
+  const TrialReader reader{.job = job, .count = count_recordings(job, setup), .found_in = found_in};
+  if (auto s = reader.read(job.markers, inputs.motion); !s) return s;
+  if (setup == nullptr || !job.static_trial.empty()) return reader.read(job.static_trial, inputs.still);
+  const bool places = setup->place, measures = setup->recipe.measures();
+  const auto &measured = setup->scale_marker_file, &placed = setup->place_marker_file;
+  if (measures && !(places && measured == placed))
+    if (auto s = reader.read(measured, inputs.measured); !s) return s;
+  if (!places) return {};
+  return reader.read(placed, inputs.still);
 }
 
 }  // namespace kinemark::pipeline

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/pipeline/files/file_hash.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -68,6 +69,46 @@ TEST_F(ScaleRecordingsTest, NamesHoldForAllAndMayBeMissingBesideAMotion) {
   EXPECT_THAT(open(job_.static_trial)->trial.markers.names, ElementsAre("CALC", "TOE"));
   job_.markers.clear();
   EXPECT_THAT(open(job_.static_trial).error().message, HasSubstr("no marker is named 'BOX'"));
+}
+
+TEST_F(ScaleRecordingsTest, OfTheSetupThoseAreReadThatAreOfUse) {
+  job_.static_trial.clear();
+  io::ScaleSetup setup;
+  setup.scale_marker_file = scratch_ / "still.c3d";
+  setup.place_marker_file = scratch_ / "walk.c3d";
+  setup.place = false;
+  const auto read = [&] {
+    workflow::ScaleInputs inputs;
+    EXPECT_TRUE(read_scale_recordings(job_, &setup, "", inputs));
+    return inputs;
+  };
+  auto inputs = read();
+  EXPECT_TRUE(inputs.motion);
+  EXPECT_FALSE(inputs.still || inputs.measured) << "it neither measures nor places";
+  setup.place = true;
+  setup.recipe.measurements = {{.name = "foot", .pairs = {{"HEEL", "TOE"}}, .bodies = {}}};
+  inputs = read();
+  EXPECT_EQ(inputs.measured->name, "still.c3d");
+  EXPECT_EQ(inputs.still->name, "walk.c3d");
+  setup.place_marker_file = setup.scale_marker_file;
+  inputs = read();
+  EXPECT_FALSE(inputs.measured) << "one file for both is read once";
+  EXPECT_EQ(inputs.still->where, (scratch_ / "still.c3d").string());
+  job_.static_trial = scratch_ / "walk.c3d";
+  inputs = read();
+  EXPECT_FALSE(inputs.measured);
+  EXPECT_EQ(inputs.still->name, "walk.c3d") << "the job's own takes precedence";
+}
+
+TEST_F(ScaleRecordingsTest, TheOneThatJointsWereFoundInIsKnown) {
+  job_.joints = scratch_ / "skeleton.json";
+  workflow::ScaleInputs inputs;
+  const auto hash = hash_file(job_.markers)->hex;
+  ASSERT_TRUE(read_scale_recordings(job_, nullptr, hash, inputs));
+  EXPECT_TRUE(inputs.motion->holds_joints);
+  EXPECT_FALSE(inputs.still->holds_joints);
+  ASSERT_TRUE(read_scale_recordings(job_, nullptr, "", inputs));
+  EXPECT_FALSE(inputs.motion->holds_joints) << "not known";
 }
 
 }  // namespace
