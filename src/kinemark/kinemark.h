@@ -41,6 +41,7 @@
 #include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
 #include "kinemark/workflow/scale/scale.h"
+#include "kinemark/workflow/segments/segments.h"
 
 namespace kinemark {
 
@@ -79,6 +80,7 @@ using workflow::joints;
 using workflow::measure;
 using workflow::prepare;
 using workflow::scale;
+using workflow::segments;
 using workflow::track;
 
 // Cleaning.

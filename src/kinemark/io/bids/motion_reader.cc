@@ -12,6 +12,7 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/distinct_names.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
@@ -19,7 +20,6 @@
 #include "kinemark/io/bids/channel_list.h"
 #include "kinemark/io/bids/motion_bids.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/length_unit.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/io/text_input.h"
 

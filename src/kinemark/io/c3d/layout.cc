@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/io/rate.h"
 
 namespace kinemark::io {

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/core/length_unit.h"
 #include "kinemark/io/c3d/foreign_groups.h"
 #include "kinemark/io/c3d/layout.h"
 #include "kinemark/io/c3d/point_types.h"
 #include "kinemark/io/c3d/provenance.h"
 #include "kinemark/io/c3d/unfiltered.h"
-#include "kinemark/io/length_unit.h"
 #include "kinemark/io/set_mark.h"
 
 namespace kinemark::io {

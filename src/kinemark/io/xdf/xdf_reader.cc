@@ -10,10 +10,10 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/distinct_names.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/length_unit.h"
 #include "kinemark/io/sample_clock.h"
 #include "kinemark/io/xdf/internal/streams.h"
 #include "kinemark/io/xdf/xdf.h"

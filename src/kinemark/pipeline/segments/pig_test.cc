@@ -10,8 +10,8 @@
 #include <map>
 
 #include "kinemark/pipeline/segments/definition_file.h"
-#include "kinemark/pipeline/segments/testing/offset_leg.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
+#include "kinemark/workflow/segments/testing/offset_leg.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -20,6 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using workflow::OffsetLeg;
 
 constexpr double kLeg = 0.92, kKnee = 0.102, kAnkle = 0.07, kMarker = 0.014, kAsis = 0.24, kWand = 0.25;
 

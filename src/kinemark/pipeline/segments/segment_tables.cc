@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "kinemark/core/number.h"
-#include "kinemark/pipeline/segments/subject_values.h"
+#include "kinemark/workflow/segments/subject_values.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -47,7 +47,7 @@ data::Table table_of(const SeriesList& list, const TimeBase& time, std::string n
 std::string_view table_unit(const SegmentSeries& series) {
   if (!series.unit.empty()) return series.unit;
   if (series.quantity == SubjectQuantity::length) return "m";
-  return shown_unit(series.quantity);
+  return workflow::shown_unit(series.quantity);
 }
 
 data::Quantity quantity_of(const SegmentSeries& series) {
@@ -222,9 +222,9 @@ nlohmann::ordered_json parameters_json(const SegmentMotion& motion) {
   auto out = nlohmann::ordered_json::array();
   for (const auto& p : motion.parameters)
     out.push_back({{"name", p.name},
-                   {"value", p.value / per_shown(p.quantity)},
-                   {"unit", shown_unit(p.quantity)},
-                   {"sd", p.sd > 0.0 ? nlohmann::ordered_json(p.sd / per_shown(p.quantity))
+                   {"value", p.value / workflow::per_shown(p.quantity)},
+                   {"unit", workflow::shown_unit(p.quantity)},
+                   {"sd", p.sd > 0.0 ? nlohmann::ordered_json(p.sd / workflow::per_shown(p.quantity))
                                      : nlohmann::ordered_json(nullptr)},
                    {"from", p.from},
                    {"assumed", p.assumed}});

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "kinemark/core/result.h"
@@ -16,11 +15,7 @@
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
-#include "kinemark/pipeline/segments/output_comparison.h"
-#include "kinemark/stages/analysis/kinetics/joint_loads.h"
-#include "kinemark/stages/analysis/segments/cross_talk.h"
-#include "kinemark/stages/analysis/segments/segment_motion.h"
-#include "kinemark/stages/motion/foundations/judge.h"
+#include "kinemark/workflow/segments/segments.h"
 
 namespace kinemark::pipeline {
 
@@ -42,26 +37,21 @@ struct SegmentsJob : JobSettings, RecordingOptions, GaitOutputs {
   double level = 0.95;           ///< of these intervals
 };
 
-/// Warnings: what was left out or could not be computed. Gate: static_trial.
-struct SegmentsOutcome : JobOutcome {
-  std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
-  std::vector<data::InputFile> inputs;                      ///< all that were read
-  std::string title;                                        ///< of the definition
-  analysis::SegmentMotion motion;                           ///< what it gives
-  analysis::JointLoads loads;  ///< where the definition has joints and the recording plates
-  std::vector<std::pair<std::string, analysis::CrossTalk>> cross_talk;  ///< of knees that flex
-  OutputComparison comparison;  ///< beside angles and centres that the file holds; empty: it holds none
-  std::optional<analysis::Gait> gait;  ///< walking, where its cycles were asked for and are there
+/// Warnings: those of the readers, then what the verb has to say. Gate: static_trial.
+struct SegmentsOutcome : JobOutcome, workflow::SegmentsFound {
+  std::vector<data::InputFile> inputs;  ///< all that were read
+  std::string title;                    ///< of the definition
+  std::optional<analysis::Gait> gait;   ///< walking, where its cycles were asked for and are there
 };
 
-/// Read, screen, compute, write into the folder `output`: angles.mot and angles_sd.sto (degrees, metres),
-/// angles.csv with states, centres.csv with covariances, segments.c3d (the recording with angles, loads and
-/// centres) and segments.json; loads.sto, loads_sd.sto and loads.csv where there are loads. Progress counts
-/// files. Figures, page, events and cycles that are asked for need walking in the recording: without it they
-/// are not there, which is a warning, or Code::bad_input where nothing else is written.
+/// Read, compute (workflow::segments()), write into the folder `output`: angles.mot and angles_sd.sto
+/// (degrees, metres), angles.csv with states, centres.csv with covariances, segments.c3d (the recording with
+/// angles, loads and centres) and segments.json; loads.sto, loads_sd.sto and loads.csv where there are loads.
+/// Progress counts files. Figures, page, events and cycles that are asked for need walking in the recording:
+/// without it they are not there, which is a warning, or Code::bad_input where nothing else is written.
 ///
 /// Code::usage for names and numbers that make no sense; Code::bad_input as the readers and
-/// analysis::compute_segments(); Code::io as Staging.
+/// workflow::segments(); Code::io as Staging.
 [[nodiscard]] Result<SegmentsOutcome> run_segments(const SegmentsJob& job);
 
 /// "0.02 to 0.3 mm a sample, median 0.1": what markers' samples err by, as deviations have it. Empty: it was

@@ -17,7 +17,7 @@
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
-#include "kinemark/pipeline/segments/testing/offset_leg.h"
+#include "kinemark/workflow/segments/testing/offset_leg.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -27,6 +27,7 @@ using ::testing::Contains;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using workflow::OffsetLeg;
 
 constexpr std::string_view kDefinition = R"toml(
 title = "A knee"
@@ -382,6 +383,38 @@ TEST_F(LegJobTest, ComparesWithTheFilesOwnAnglesAndTellsSoInJson) {
   const auto other = run();
   EXPECT_FALSE(other.comparison.agrees());
   EXPECT_THAT(other.warnings, Contains(HasSubstr("is explained by LKneeWidth")));
+}
+
+TEST_F(LegJobTest, JsonHasWhatExplainsInTheUnitsOfTheField) {
+  const OffsetLeg leg;
+  write(leg.trial(60, true));
+  give(leg);
+  for (auto& text : job_.subject)
+    if (text.starts_with("LKneeWidth")) text = "LKneeWidth=120";
+  const auto json = segments_outcome_json(run())["comparison"];
+  EXPECT_FALSE(json["agrees"].get<bool>());
+  ASSERT_EQ(json["explained_by"].size(), 1U);
+  const auto& cause = json["explained_by"][0];
+  EXPECT_EQ(cause["name"], "LKneeWidth");
+  EXPECT_NEAR(cause["shown"].get<double>(), 102.0, 1e-3);
+  EXPECT_NEAR(cause["used"].get<double>(), 120.0, 1e-9);
+  EXPECT_EQ(cause["unit"], "mm");
+  EXPECT_EQ(cause["from"], "--subject");
+  ASSERT_EQ(json["outputs"].size(), 4U);
+  for (const auto& one : json["outputs"]) {
+    EXPECT_LE(one["median"].get<double>(), one["p95"].get<double>());
+    EXPECT_LE(one["p95"].get<double>(), one["largest"].get<double>());
+    EXPECT_EQ(one["frames"], 60);
+  }
+}
+
+TEST_F(LegJobTest, JsonNamesACentreByAnotherRegression) {
+  const OffsetLeg leg{.hip_forward = 0.012};
+  write(leg.trial(60, true));
+  give(leg);
+  const auto json = segments_outcome_json(run())["comparison"];
+  ASSERT_FALSE(json["explained_by"].empty());
+  EXPECT_TRUE(json["explained_by"][0]["regression"].get<bool>());
 }
 
 }  // namespace

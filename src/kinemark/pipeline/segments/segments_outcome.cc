@@ -12,15 +12,50 @@
 #include "kinemark/pipeline/measures/noise_table.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/segments_job.h"
+#include "kinemark/workflow/segments/subject_values.h"
 
 namespace kinemark::pipeline {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// "agrees", "sentence", "outputs", "explained_by", "findings".
+nlohmann::ordered_json comparison_json(const workflow::OutputComparison& comparison) {
+  nlohmann::ordered_json out{{"agrees", comparison.agrees()},
+                             {"sentence", comparison.summary()},
+                             {"outputs", nlohmann::ordered_json::array()},
+                             {"explained_by", nlohmann::ordered_json::array()},
+                             {"findings", comparison.findings()}};
+  for (const auto& o : comparison.outputs) {
+    const double unit = o.angle ? kDegree : 1e-3;
+    out["outputs"].push_back({{"name", o.name},
+                              {"theirs", o.theirs},
+                              {"unit", o.angle ? "deg" : "mm"},
+                              {"median", o.median / unit},
+                              {"p95", o.p95 / unit},
+                              {"largest", o.largest / unit},
+                              {"frames", o.frames}});
+  }
+  for (const auto& p : comparison.explanation.parameters)
+    out["explained_by"].push_back({{"name", p.name},
+                                   {"shown", p.value / workflow::per_shown(p.quantity)},
+                                   {"used", p.used / workflow::per_shown(p.quantity)},
+                                   {"unit", workflow::shown_unit(p.quantity)},
+                                   {"from", p.from}});
+  for (const auto& point : comparison.explanation.points)
+    out["explained_by"].push_back({{"name", point}, {"regression", true}});
+  return out;
+}
+
+}  // namespace
 
 std::string assumed_measures(const analysis::SegmentMotion& motion) {
   std::vector<std::string> list;
   for (const auto& p : motion.parameters)
     if (p.assumed && p.sd > 0.0)
-      list.push_back(fmt::format("{} {:.4g} {} (SD {:.2g}{})", p.name, p.value / per_shown(p.quantity),
-                                 shown_unit(p.quantity), p.sd / per_shown(p.quantity),
+      list.push_back(fmt::format("{} {:.4g} {} (SD {:.2g}{})", p.name,
+                                 p.value / workflow::per_shown(p.quantity), workflow::shown_unit(p.quantity),
+                                 p.sd / workflow::per_shown(p.quantity),
                                  p.from.ends_with("outputs") ? "; by " + p.from : ""));
   return fmt::format("{}", fmt::join(list, ", "));
 }
@@ -56,7 +91,6 @@ nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
     out["steps"].push_back(
         {{"body", step.body}, {"plate", step.plate}, {"begin_s", step.begin_s}, {"end_s", step.end_s}});
   out["cross_talk"] = nlohmann::ordered_json::array();
-  constexpr double kDegree = std::numbers::pi / 180.0;
   for (const auto& [name, found] : outcome.cross_talk)
     out["cross_talk"].push_back({{"name", name},
                                  {"correlation", found.correlation},

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/metadata.h"
 #include "kinemark/io/rate.h"

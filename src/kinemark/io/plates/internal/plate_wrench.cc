@@ -9,7 +9,7 @@
 #include <cctype>
 #include <optional>
 
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -36,11 +36,11 @@ double newtons(const std::string& unit) {
 double newton_metres(const std::string& unit, double metres_per_unit) {
   const std::string text = plain(unit);
   if (text.size() < 2 || text.front() != 'n') return metres_per_unit;
-  return io::metres_per_unit(text.substr(1)).value_or(metres_per_unit);
+  return kinemark::metres_per_unit(text.substr(1)).value_or(metres_per_unit);
 }
 
 double metres(const std::string& unit, double metres_per_unit) {
-  return io::metres_per_unit(plain(unit)).value_or(metres_per_unit);
+  return kinemark::metres_per_unit(plain(unit)).value_or(metres_per_unit);
 }
 
 std::size_t channels_needed(int type) { return type == 3 || type == 7 ? 8 : 6; }

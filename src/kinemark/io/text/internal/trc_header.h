@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/length_unit.h"
 #include "kinemark/core/result.h"
-#include "kinemark/io/length_unit.h"
 #include "kinemark/io/text/internal/cells.h"
 
 namespace kinemark::io::internal {

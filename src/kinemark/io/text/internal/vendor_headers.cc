@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "kinemark/core/distinct_names.h"
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 
 namespace kinemark::io::internal {
 

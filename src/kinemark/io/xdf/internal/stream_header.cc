@@ -9,9 +9,9 @@
 #include <pugixml.hpp>
 #include <utility>
 
+#include "kinemark/core/length_unit.h"
 #include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/io/length_unit.h"
 
 namespace kinemark::io::internal {
 namespace {

@@ -12,7 +12,7 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/analysis/segments/segment_definition.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 
 /// All names that formulas of a definition have for what is no entry of it: markers, and points of a model.
 [[nodiscard]] std::set<std::string> names_of_points(const analysis::SegmentDefinition& definition);
@@ -32,4 +32,4 @@ struct MarkersAndModelled {
 [[nodiscard]] std::map<std::string, std::string> suffixed_names(const std::vector<std::string>& names,
                                                                 const std::set<std::string>& wanted);
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

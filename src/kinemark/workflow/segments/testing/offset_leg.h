@@ -12,7 +12,7 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 
 /// What the leg is made of: m, rad.
 struct OffsetLeg {
@@ -116,4 +116,4 @@ struct OffsetLeg {
   }
 };
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/segments/subject_values.h"
+#include "kinemark/workflow/segments/subject_values.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <bit>
 #include <numbers>
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 using analysis::SubjectQuantity;
@@ -32,35 +32,6 @@ data::ForeignParameter number(const std::string& name, float value) {
   return out;
 }
 
-TEST(SubjectValues, AreTypedInTheUnitsOfTheField) {
-  const auto leg = parse_subject_value("LeftLegLength=920", measures());
-  ASSERT_TRUE(leg);
-  EXPECT_EQ(leg->name, "LLegLength");
-  EXPECT_DOUBLE_EQ(leg->value, 0.92);
-  EXPECT_DOUBLE_EQ(parse_subject_value("LThighRotation=-90", measures())->value, -0.5 * std::numbers::pi);
-  EXPECT_DOUBLE_EQ(parse_subject_value("Bodymass=74.5", measures())->value, 74.5);
-}
-
-TEST(SubjectValues, CarryTheirDeviation) {
-  const auto turn = parse_subject_value("LThighRotation=-4+-2.5", measures());
-  ASSERT_TRUE(turn);
-  EXPECT_NEAR(turn->value, -4.0 * std::numbers::pi / 180.0, 1e-12);
-  ASSERT_TRUE(turn->sd);
-  EXPECT_NEAR(*turn->sd, 2.5 * std::numbers::pi / 180.0, 1e-12);
-  EXPECT_FALSE(parse_subject_value("LThighRotation=-4", measures())->sd);
-  EXPECT_EQ(*parse_subject_value("LLegLength=920+-0", measures())->sd, 0.0);
-}
-
-TEST(SubjectValues, OfAnotherFormAreRefused) {
-  for (const char* text : {"LLegLength", "=3", "LLegLength=", "LLegLength=long", "LLegLength=nan",
-                           "LLegLength=920+-", "LLegLength=920+--3", "LLegLength=920+-x", "LLegLength=+-3"})
-    EXPECT_THAT(parse_subject_value(text, measures()).error().message, HasSubstr("is not NAME=VALUE"))
-        << text;
-  const auto unknown = parse_subject_value("LLegLenght=920", measures());
-  EXPECT_EQ(unknown.error().code, Code::usage);
-  EXPECT_THAT(unknown.error().message, HasSubstr("no parameter 'LLegLenght'; it has LLegLength"));
-}
-
 TEST(SubjectValues, AreReadFromAC3dFilesProcessing) {
   data::Trial trial;
   trial.source = "walk.c3d";
@@ -81,15 +52,6 @@ TEST(SubjectValues, AreReadFromAC3dFilesProcessing) {
   EXPECT_EQ(subject_values(trial, measures()).size(), 1U);
 }
 
-TEST(SubjectValues, AreReadFromAVsk) {
-  io::Vsk vsk;
-  vsk.parameters = {{"LeftLegLength", "m", 0.94, ""}, {"LeftAsis", "m", std::nullopt, "2 * 3"}};
-  const auto values = subject_values(vsk, "Ann.vsk");
-  ASSERT_EQ(values.size(), 1U);
-  EXPECT_EQ(values[0].name, "LeftLegLength");
-  EXPECT_EQ(values[0].from, "Ann.vsk");
-}
-
 TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
   data::Trial trial;
   trial.units_in_file = "mm";
@@ -101,16 +63,19 @@ TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
   EXPECT_NEAR(values[0].value, 0.92, 1e-12);
 }
 
-TEST(SubjectValues, AreReadFromAParameterFile) {
-  const auto values =
-      parse_mp("!MKR\n$LLegLength = 920\r\n$LThighRotation=0.1\n$Other = 3\n", "Ann.mp", measures());
-  ASSERT_TRUE(values);
-  ASSERT_EQ(values->size(), 2U);
-  EXPECT_NEAR((*values)[0].value, 0.92, 1e-12);
-  EXPECT_EQ((*values)[1].value, 0.1);
-  EXPECT_EQ((*values)[1].from, "Ann.mp");
-  EXPECT_THAT(parse_mp("no parameters", "Ann.mp", measures()).error().message,
-              HasSubstr("Ann.mp: no line '$NAME = VALUE'"));
+TEST(SubjectValues, AMarkerSetWithADeviceMeasuresOffsets) {
+  data::Trial trial;
+  trial.markers.names = {"Ann:LKNE", "Ann:LTHI"};
+  EXPECT_FALSE(measures_offsets(trial));
+  trial.markers.names.emplace_back("Ann:LKAX");
+  EXPECT_TRUE(measures_offsets(trial)) << "a knee alignment device";
+  trial.markers.names.pop_back();
+  data::ForeignParameter set{.name = "MARKER_SETS", .type = -1, .dims = {3}};
+  for (const char letter : {'K', 'a', 'd'}) set.values.push_back(static_cast<std::byte>(letter));
+  trial.foreign = {{.name = "SUBJECTS", .parameters = {set}}};
+  EXPECT_TRUE(measures_offsets(trial)) << "its name says so";
+  trial.foreign[0].name = "OTHER";
+  EXPECT_FALSE(measures_offsets(trial));
 }
 
 TEST(SubjectValues, MendedUnitsAreSaidAndRightOnesAreNot) {
@@ -165,4 +130,4 @@ TEST(SubjectValues, AreMendedWhereNoBodyHasThem) {
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

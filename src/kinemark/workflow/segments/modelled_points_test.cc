@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/segments/modelled_points.h"
+#include "kinemark/workflow/segments/internal/modelled_points.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/pipeline/segments/definition_file.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 using ::testing::Contains;
@@ -61,7 +61,7 @@ TEST(ModelledPoints, NamesWithASuffixAreFound) {
 }
 
 TEST(ModelledPoints, NamesOfADefinitionAreThoseThatItDoesNotExplain) {
-  const auto definition = find_definition("pig");
+  const auto definition = pipeline::find_definition("pig");
   ASSERT_TRUE(definition) << definition.error().message;
   const auto names = names_of_points(*definition);
   for (const char* name : {"LTHI", "RKNE", "LKAX", "RMED", "LFEO", "RFEP", "SACR"})
@@ -71,4 +71,4 @@ TEST(ModelledPoints, NamesOfADefinitionAreThoseThatItDoesNotExplain) {
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

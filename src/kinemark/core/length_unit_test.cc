@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <vector>
 
-namespace kinemark::io {
+namespace kinemark {
 namespace {
 
 TEST(LengthUnit, WordsOfFilesAreKnownInAnyCase) {
@@ -46,4 +46,4 @@ TEST(LengthUnit, OfSeveralUnitsTheSizeOfABodyTells) {
 }
 
 }  // namespace
-}  // namespace kinemark::io
+}  // namespace kinemark

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/segments/output_comparison.h"
+#include "kinemark/workflow/segments/output_comparison.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -16,11 +16,11 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/data/name_index.h"
-#include "kinemark/io/length_unit.h"
-#include "kinemark/pipeline/segments/subject_values.h"
+#include "kinemark/workflow/segments/subject_values.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 using analysis::SegmentDefinition;
@@ -147,7 +147,7 @@ class FileOutputs {
   [[nodiscard]] std::optional<Vector3d> modelled_at(std::size_t c, std::int64_t f) const {
     const double* x = channel_at(c, f);
     Vector3d point =
-        io::metres_per_unit(recording_.channels.units[c]).value_or(1e-3) * Vector3d(x[0], x[1], x[2]);
+        metres_per_unit(recording_.channels.units[c]).value_or(1e-3) * Vector3d(x[0], x[1], x[2]);
     if (!point.allFinite() || point.isZero(0.0)) return std::nullopt;
     return point;
   }
@@ -393,31 +393,4 @@ Result<OutputComparison> compare_outputs(const SegmentDefinition& definition, co
   return out;
 }
 
-nlohmann::ordered_json comparison_json(const OutputComparison& comparison) {
-  nlohmann::ordered_json out{{"agrees", comparison.agrees()},
-                             {"sentence", comparison.summary()},
-                             {"outputs", nlohmann::ordered_json::array()},
-                             {"explained_by", nlohmann::ordered_json::array()},
-                             {"findings", comparison.findings()}};
-  for (const auto& o : comparison.outputs) {
-    const double unit = o.angle ? kDegree : 1e-3;
-    out["outputs"].push_back({{"name", o.name},
-                              {"theirs", o.theirs},
-                              {"unit", o.angle ? "deg" : "mm"},
-                              {"median", o.median / unit},
-                              {"p95", o.p95 / unit},
-                              {"largest", o.largest / unit},
-                              {"frames", o.frames}});
-  }
-  for (const auto& p : comparison.explanation.parameters)
-    out["explained_by"].push_back({{"name", p.name},
-                                   {"shown", p.value / per_shown(p.quantity)},
-                                   {"used", p.used / per_shown(p.quantity)},
-                                   {"unit", shown_unit(p.quantity)},
-                                   {"from", p.from}});
-  for (const auto& point : comparison.explanation.points)
-    out["explained_by"].push_back({{"name", point}, {"regression", true}});
-  return out;
-}
-
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/io/length_unit.h"
+#include "kinemark/core/length_unit.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "kinemark/core/nearest_name.h"
 
-namespace kinemark::io {
+namespace kinemark {
 
 std::optional<double> metres_per_unit(std::string_view unit) {
   std::string name(unit);
@@ -52,4 +52,4 @@ std::optional<LengthUnitName> unit_of_body_size(std::span<const LengthUnitName> 
   return found;
 }
 
-}  // namespace kinemark::io
+}  // namespace kinemark

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/analysis/segments/segment_motion.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 
 /// An angle or a centre beside the file's own, over the frames that have both; of its components the worst.
 struct ComparedOutput {
@@ -60,7 +59,4 @@ struct OutputComparison {
                                                        const analysis::SegmentMotion& motion,
                                                        const data::Trial& recording);
 
-/// "agrees", "sentence", "outputs", "explained_by", "findings".
-[[nodiscard]] nlohmann::ordered_json comparison_json(const OutputComparison& comparison);
-
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kinemark::io {
+namespace kinemark {
 
 /// Metres per unit of length ("mm", "m", "cm", "in", "feet", ... in any case); nothing when unknown.
 [[nodiscard]] std::optional<double> metres_per_unit(std::string_view unit);
@@ -29,4 +29,4 @@ struct LengthUnitName {
 [[nodiscard]] std::optional<LengthUnitName> unit_of_body_size(std::span<const LengthUnitName> units,
                                                               double extent);
 
-}  // namespace kinemark::io
+}  // namespace kinemark

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/segments/modelled_points.h"
+#include "kinemark/workflow/segments/internal/modelled_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/data/name_index.h"
-#include "kinemark/io/length_unit.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 using analysis::Formula;
@@ -110,7 +110,7 @@ std::optional<MarkersAndModelled> with_modelled_points(const data::Trial& trial,
     }
     for (std::size_t i = 0; i < taken.size(); ++i) {
       const auto c = taken[i];
-      const double metres = io::metres_per_unit(channels.units[c]).value_or(1e-3);
+      const double metres = metres_per_unit(channels.units[c]).value_or(1e-3);
       const double* x = &channels.values[(at(f) * channels.names.size() + c) * 3];
       const Eigen::Vector3d point = metres * Eigen::Vector3d(x[0], x[1], x[2]);
       if (!point.allFinite() || point.isZero(0.0)) continue;
@@ -141,4 +141,4 @@ std::map<std::string, std::string> suffixed_names(const std::vector<std::string>
   return out;
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow

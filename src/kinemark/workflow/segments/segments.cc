@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/workflow/segments/segments.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "kinemark/core/check.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/vertical.h"
+#include "kinemark/workflow/segments/internal/segment_notes.h"
+#include "kinemark/workflow/segments/internal/segment_trials.h"
+#include "kinemark/workflow/segments/subject_values.h"
+
+namespace kinemark::workflow {
+namespace {
+
+bool is_own_static(const data::Recording& recording, const SegmentsOptions& options) {
+  return options.static_trial == &recording;
+}
+
+/// The trial of a recording without what screening leaves out.
+Result<data::Trial> screened(const data::Recording& recording, const SegmentsOptions& options,
+                             const std::string& name, std::vector<std::string>& sentences) {
+  auto trial = recording.trial;
+  if (auto s = leave_out_defects(trial, !options.drop_doubtful, recording.edits.swapped, sentences); !s)
+    return fail_at(name, s.error());
+  return trial;
+}
+
+/// The recording into `found`, those beside it into `trials`.
+Status screen_all(const data::Recording& recording, const SegmentsOptions& options, SegmentTrials& trials,
+                  SegmentsFound& found) {
+  found.used = recording;
+  if (auto s = leave_out_defects(found.used.trial, !options.drop_doubtful, recording.edits.swapped,
+                                 found.screening.recording);
+      !s)
+    return s;
+  if (options.static_trial != nullptr && !is_own_static(recording, options)) {
+    auto still = screened(*options.static_trial, options, options.static_name, found.screening.static_trial);
+    if (!still) return std::unexpected(still.error());
+    trials.still = std::move(*still);
+  }
+  for (const auto& [name, shown] : options.trials) {
+    check(shown != nullptr, "segments() needs a recording for each trial");
+    auto trial = screened(*shown, options, name, found.screening.trials.emplace_back());
+    if (!trial) return std::unexpected(trial.error());
+    trials.shown[name] = std::move(*trial);
+  }
+  return {};
+}
+
+/// The static trial by the names of its markers, and against the recording, before anything is built on it.
+Status judge_static(const SegmentsOptions& options, const SegmentTrials& trials, SegmentsFound& found) {
+  if (options.static_trial == nullptr) return {};
+  const auto& recorded = found.used.trial.markers;
+  const auto& still = trials.still ? trials.still->markers : recorded;
+  std::vector<const data::Trajectories*> movements;
+  if (trials.still) movements.push_back(&recorded);
+  auto judgement = judge_static_trial(options.static_name, motion::body_of_names(still.names), still,
+                                      movements, found.remarks);
+  if (!judgement) return std::unexpected(judgement.error());
+  found.static_trial = std::move(*judgement);
+  return {};
+}
+
+Eigen::Vector3d up_of(const data::Recording& recording) {
+  if (recording.up) return *recording.up;
+  if (const auto plates = vertical_of_plates(recording.trial)) return plates->up;
+  if (const auto screen_up = vertical_of_screen(recording.trial)) return screen_up->up;
+  return Eigen::Vector3d::UnitZ();
+}
+
+/// What is known of the subject: given, then of its file, of the recording, of the static trial.
+void find_values(const analysis::SegmentDefinition& definition, const SegmentsOptions& options,
+                 const SegmentTrials& trials, SegmentsFound& found, analysis::SegmentInput& input) {
+  input.given = options.given;
+  const auto take = [&](std::vector<analysis::SubjectValue> values) {
+    mend_units(values, definition, found.remarks.warnings);
+    std::ranges::move(values, std::back_inserter(input.known));
+  };
+  take(options.known);
+  take(subject_values(found.used.trial, definition));
+  input.zeros_doubtful = measures_offsets(found.used.trial);
+  if (!trials.still) return;
+  take(subject_values(*trials.still, definition));
+  input.zeros_doubtful = input.zeros_doubtful || measures_offsets(*trials.still);
+}
+
+Status find_loads(const analysis::SegmentDefinition& definition, const SegmentsOptions& options,
+                  const analysis::SegmentInput& input, const analysis::SegmentOptions& how,
+                  SegmentsFound& found) {
+  if (!found.used.plates || input.static_trial == input.markers) return {};
+  auto loads = analysis::find_joint_loads(definition, input, *found.used.plates,
+                                          {.segments = how, .refits = options.refits, .seed = options.seed});
+  if (!loads) return std::unexpected(loads.error());
+  found.loads = std::move(*loads);
+  std::ranges::copy(found.loads.warnings, std::back_inserter(found.remarks.warnings));
+  return {};
+}
+
+/// Angles, what the recording's own outputs say of them, loads.
+Status compute(const analysis::SegmentDefinition& definition, const SegmentsOptions& options,
+               analysis::SegmentInput& input, SegmentsFound& found) {
+  const analysis::SegmentOptions how{
+      .noise_sd_m = options.noise_sd_m, .up = up_of(found.used), .threads = options.threads};
+  auto motion = analysis::compute_segments(definition, input, how);
+  if (!motion) return std::unexpected(motion.error());
+  found.motion = std::move(*motion);
+  if (found.motion.noise) {
+    input.noise = &*found.motion.noise;
+    std::ranges::move(input.noise->sentences(), std::back_inserter(found.remarks.warnings));
+  }
+  auto comparison = compare_outputs(definition, input, how, found.motion, found.used.trial);
+  if (!comparison) return std::unexpected(comparison.error());
+  found.comparison = std::move(*comparison);
+  return find_loads(definition, options, input, how, found);
+}
+
+}  // namespace
+
+Result<SegmentsFound> segments(const analysis::SegmentDefinition& definition,
+                               const data::Recording& recording, const SegmentsOptions& options) {
+  SegmentsFound found;
+  SegmentTrials trials;
+  if (auto s = screen_all(recording, options, trials, found); !s) return std::unexpected(s.error());
+  if (auto s = judge_static(options, trials, found); !s) return std::unexpected(s.error());
+  auto input = points_of(definition, options, is_own_static(recording, options), found.used.trial, trials,
+                         found.remarks.warnings);
+  find_values(definition, options, trials, found, input);
+  if (auto s = compute(definition, options, input, found); !s) return std::unexpected(s.error());
+  auto& warnings = found.remarks.warnings;
+  std::ranges::copy(found.motion.warnings, std::back_inserter(warnings));
+  std::ranges::move(found.comparison.findings(), std::back_inserter(warnings));
+  if (is_own_static(recording, options)) note_static_angles(found.motion, warnings);
+  if (input.static_trial != nullptr) note_choices(definition, found.motion, warnings);
+  find_cross_talk(definition, found);
+  return found;
+}
+
+}  // namespace kinemark::workflow
