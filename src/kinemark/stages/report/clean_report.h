@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What was done to every marker of a recording, and why: `kinemark.clean_report` and its page.
-// The JSON is described field by field in README.md.
+// docs/formats/pages.md describes each member of the JSON.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ struct CleanSeries {
   /// one standard deviation, likewise
   std::array<std::vector<float>, 3> position_sd, velocity_sd, acceleration_sd;
   std::array<std::vector<float>, 3> change;    ///< raw - position where both are present, m
-  std::vector<std::uint8_t> before, after;     ///< data::SampleState as ranked in README.md
+  std::vector<std::uint8_t> before, after;     ///< data::SampleState by rank, 0 to 5
   std::int64_t place_step = 1;                 ///< frames per place
   std::vector<Eigen::Vector3f> positions;      ///< of the result in every place_step-th frame, m; NaN: absent
   std::vector<data::SampleState> place_state;  ///< likewise

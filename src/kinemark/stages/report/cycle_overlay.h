@@ -32,11 +32,10 @@ struct CycleSpan {
 /// Cycles that a page draws of one overlay at most, evenly chosen; its mean is that of all.
 inline constexpr std::int64_t kMostCyclesDrawn = 20;
 
-/// As src/kinemark/stages/report/README.md describes it: `null` without overlays. Angles in deg, lengths in
-/// m.
+/// EncodedCycles of docs/formats/pages.md: `null` without overlays. Angles in deg, lengths in m.
 [[nodiscard]] nlohmann::ordered_json cycles_json(std::span<const CycleOverlay> overlays);
 
-/// As src/kinemark/stages/report/README.md describes it: `null` without cycles.
+/// CycleSpans of docs/formats/pages.md: `null` without cycles.
 [[nodiscard]] nlohmann::ordered_json cycle_spans_json(std::span<const CycleSpan> cycles);
 
 }  // namespace kinemark::report

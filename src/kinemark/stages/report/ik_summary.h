@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // One solved trial in numbers: what Q_report.json holds and what the report page shows around its plots.
-// The JSON is described field by field in README.md.
+// docs/formats/pages.md describes each member of the JSON.
 #pragma once
 
 #include <array>

@@ -32,7 +32,7 @@ struct LiveReport {
   std::vector<LiveCoordinate> coordinates;                 ///< none without a model
 };
 
-/// `kinemark.live`, as README.md describes it.
+/// LivePage of docs/formats/pages.md.
 [[nodiscard]] nlohmann::ordered_json live_report_json(const LiveReport& report);
 
 /// One HTML page, which asks its own server for frames. The same report gives the same bytes.

@@ -37,7 +37,7 @@ struct MarkersReport {
 /// that were made or rejected, points that nobody named, remarks of the reader.
 [[nodiscard]] std::vector<NoticeGroup> markers_notices(const MarkersReport& report);
 
-/// `kinemark.markers_report` with its scene, as README.md describes it.
+/// MarkersPage of docs/formats/pages.md.
 [[nodiscard]] nlohmann::ordered_json markers_report_json(const MarkersReport& report,
                                                          const SceneOptions& options = {});
 

@@ -31,7 +31,7 @@ void add_gates(std::vector<NoticeGroup>& groups, std::span<const Gate> gates);
 /// A group for each kind of remark, one sentence each.
 void add_remarks(std::vector<NoticeGroup>& groups, std::span<const std::string> remarks);
 
-/// `kinemark.result_report`, as README.md describes it.
+/// A page of results of docs/formats/pages.md, by its kind.
 [[nodiscard]] nlohmann::ordered_json result_report_json(const ResultReport& report,
                                                         const SceneOptions& options = {});
 

@@ -67,7 +67,7 @@ struct SceneOptions {
   [[nodiscard]] Status check() const;  ///< Ranges hold: at least 1000 bytes, frames of 0 or more.
 };
 
-/// The scene as README.md describes it. Every `frame_step`-th frame is kept, the fewest left out that meet
+/// PackedScene of docs/formats/pages.md. Every `frame_step`-th frame is kept, the fewest left out that meet
 /// the bound, but never fewer than two points; a point is a frame as it is, nothing is averaged. Positions
 /// are rounded to 0.02 mm or the 65,535th part of their range, at most 0.5 mm (above that they are float32).
 [[nodiscard]] nlohmann::ordered_json scene_json(const Scene& scene, const SceneOptions& options = {});

@@ -26,7 +26,7 @@ constexpr double kUsualStep_deg = 0.01, kUsualStep_m = 1e-4, kUsualStep_mm = 0.0
 /// The step of a curve of standard deviations: a 40th of the smallest, at least a 1,000th of the median.
 [[nodiscard]] double deviation_step(std::span<const float> sd);
 
-/// One curve, as README.md describes it ("kind": "rounded"). NaN comes back as NaN.
+/// PackedCurve of docs/formats/pages.md. NaN comes back as NaN.
 /// @param step  > 0, and at least a 2^31st part of the largest value
 [[nodiscard]] nlohmann::ordered_json pack_curve(std::span<const float> values, double step);
 

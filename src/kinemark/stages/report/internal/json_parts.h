@@ -21,7 +21,7 @@ namespace kinemark::report::internal {
 /// A length in mm, to 0.1 micrometre.
 [[nodiscard]] nlohmann::ordered_json millimetres(double metres);
 
-/// The parts that all reports share, as README.md describes them.
+/// The parts that all reports share, as docs/formats/pages.md describes them.
 [[nodiscard]] nlohmann::ordered_json gates_json(std::span<const Gate> gates);
 [[nodiscard]] nlohmann::ordered_json findings_json(std::span<const Notice> findings);
 /// Each with 2,000 items at most, so that a page stays usable.

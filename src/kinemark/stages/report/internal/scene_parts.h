@@ -12,13 +12,13 @@
 
 namespace kinemark::report::internal {
 
-/// Centres, covariances and states of every step-th frame, and which joints a segment joins; README.md.
+/// Centres, covariances and states of every step-th frame, and which joints a segment joins: PackedJoints.
 [[nodiscard]] nlohmann::ordered_json skeleton_json(const data::Skeleton& skeleton, std::int64_t step);
 
-/// Names, masses, and origin and end of every step-th frame; README.md.
+/// Names, masses, and origin and end of every step-th frame: PackedBodies.
 [[nodiscard]] nlohmann::ordered_json bodies_json(const SceneBodies& bodies, std::int64_t step);
 
-/// One object a camera; README.md.
+/// PackedCamera of each camera.
 [[nodiscard]] nlohmann::ordered_json cameras_json(std::span<const SceneCamera> cameras);
 
 }  // namespace kinemark::report::internal

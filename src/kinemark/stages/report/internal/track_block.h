@@ -13,7 +13,7 @@ namespace kinemark::report::internal {
 /// Base64 of a zlib stream of the bytes; the browser's "deflate" reads it.
 [[nodiscard]] std::string deflated(std::span<const std::uint8_t> bytes);
 
-/// Series of numbers of one length, packed as README.md describes ("kind", "offset", "step", "data").
+/// PackedSeries of docs/formats/pages.md: numbers of series of one length.
 ///
 /// @param values      series after series, each of `points` numbers; NaN where there is none, which reads
 /// back
