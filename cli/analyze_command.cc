@@ -14,6 +14,7 @@
 #include "cli/heeded_options.h"
 #include "cli/many_inputs.h"
 #include "cli/measures_options.h"
+#include "cli/option_needs.h"
 #include "cli/recording_options.h"
 #include "cli/segments_options.h"
 #include "cli/word_list.h"
@@ -61,6 +62,14 @@ void share(AnalyzeArguments& arguments) {
   if (std::isfinite(times.last_time_s)) motion.last_time_s = times.last_time_s;
 }
 
+/// What the command that does the work needs beside its options.
+Status check_needs_of_kind(AnalysisKind kind, const CLI::App& command) {
+  if (kind == AnalysisKind::segments) return check_needs_of("segments", command);
+  if (kind == AnalysisKind::motion || kind == AnalysisKind::tables)
+    return check_needs_of("dynamics", command);
+  return {};
+}
+
 /// A sentence, where the command did its work; its exit status.
 int said(const CommonOptions& common, const char* sentence, int status) {
   if (status <= 1) say(common, sentence);
@@ -77,6 +86,7 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
   const auto input =
       inputs.empty() ? std::string("the motion of the setup") : inputs.front().filename().string();
   if (auto s = check_heeded(command, kind, input); !s) return report_error(s.error());
+  if (auto s = check_needs_of_kind(kind, command); !s) return report_error(s.error());
   switch (kind) {
     case AnalysisKind::list:
     case AnalysisKind::markers:

@@ -148,14 +148,19 @@ Status check_need(const Need& need, const CLI::App& command, const CLI::Option& 
 
 }  // namespace
 
-Status check_needs(const CLI::App& command) {
-  const auto words = words_of(command);
+Status check_needs_of(std::string_view words, const CLI::App& command) {
   for (const auto& need : kNeeds) {
     if (!is_among(need.commands, words)) continue;
     const auto* choice = find_option(command, need.choice);
     if (choice == nullptr) continue;
     if (auto s = check_need(need, command, *choice); !s) return s;
   }
+  return {};
+}
+
+Status check_needs(const CLI::App& command) {
+  const auto words = words_of(command);
+  if (auto s = check_needs_of(words, command); !s) return s;
   for (const auto& useless : kUseless) {
     const auto* option = find_option(command, useless.option);
     if (is_among(useless.commands, words) && option != nullptr && option->count() > 0)

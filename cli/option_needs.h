@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string_view>
 
 #include "kinemark/core/result.h"
 
@@ -13,5 +14,8 @@ namespace kinemark::cli {
 /// that was made.
 /// @param command  that was reached, parsed
 [[nodiscard]] Status check_needs(const CLI::App& command);
+
+/// The same by the needs of another command, which `command` stands for: `analyze` for `segments`.
+[[nodiscard]] Status check_needs_of(std::string_view words, const CLI::App& command);
 
 }  // namespace kinemark::cli

@@ -164,7 +164,9 @@ REFUSED = [
       for option in ("--turned=3", "--leds=2", "--glint", "--z-up", "--keep-place", "--marker=A", "--markers=legs.trc")),
     ("simulate rig wheel -o o", "--pose=3", "is for the scene tree; scene is wheel"),
     ("simulate rig -o o --highest-rate", "--rate=50", "--highest-rate is given too"),
-    *((f"{command} legs.trc --definition pig", "--level=0.95", "is for the measures of a gait report") for command in ("segments",)),
+    *((command, "--level=0.95", "is for the measures of a gait report; --report is not given")
+      for command in ("segments legs.trc --definition pig", "analyze legs.trc --segments pig")),
+    ("analyze q.mot -m body.osim --no-error-bars", "--refits=20", "is for intervals; --no-error-bars is given too"),
     *((f"{words}", option, "is no time; need a number of seconds") for option in ("--start=inf", "--end=-inf")
       for words in ("measure legs.trc", "clean legs.trc o.csv", "dynamics q.mot -m body.osim")),
     ("measure legs.trc --refits 0", "--level=0.8", "is for intervals; --refits is 0"),

@@ -28,6 +28,9 @@ void add_recorded_kinetics(const data::Recording& recording, const analysis::Gai
 Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, Staging& staging) {
   GaitDrawing out;
   if (auto s = job.gait.check(true); !s) return std::unexpected(s.error());
+  if (!(job.level > 0.5 && job.level < 1.0))
+    return fail(Code::usage,
+                fmt::format("intervals of level {:g}; need one above 0.5 and below 1", job.level));
   auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   out.formats_ = std::move(*formats);

@@ -42,8 +42,9 @@ class GaitDrawing {
  public:
   /// Reads the norms, so that what cannot work is reported at once, and adds page, events and cycles to the
   /// files of the job.
-  /// @return  Code::usage as GaitRequest::check() and parse_figure_formats(); else as read_gait_norms() and
-  ///          Staging::add_page()
+  /// @return  Code::usage as GaitRequest::check() and parse_figure_formats(), and for a level that is none;
+  /// else
+  ///          as read_gait_norms() and Staging::add_page()
   static Result<GaitDrawing> begin(GaitDrawingJob job, Staging& staging);
 
   /// Find walking in the recording. Code::bad_input as workflow::measure_gait().

@@ -136,6 +136,17 @@ TEST_F(GaitDrawingTest, WhatCannotWorkIsReportedBeforeAnything) {
   EXPECT_EQ(GaitDrawing::begin(job_, staging).error().code, Code::usage);
 }
 
+TEST_F(GaitDrawingTest, ALevelThatIsNoneIsRefused) {
+  auto staging = Staging::create({}, job_, {}).value();
+  for (const double level : {0.5, 1.0, 2.0}) {
+    job_.level = level;
+    const auto begun = GaitDrawing::begin(job_, staging);
+    ASSERT_FALSE(begun);
+    EXPECT_EQ(begun.error().code, Code::usage);
+    EXPECT_THAT(begun.error().message, HasSubstr("need one above 0.5 and below 1"));
+  }
+}
+
 TEST_F(GaitDrawingTest, WhoDoesNotWalkIsNotDrawn) {
   auto still = trial_.markers;
   for (std::int64_t f = 0; f < still.frames(); ++f)
