@@ -46,11 +46,12 @@ class Scaling {
     found_.model = model;
   }
 
-  /// Recordings without what is left out, shoulders set free, factors of 1.
+  /// Recordings without what does not count, shoulders set free, factors of 1.
   Status begin() {
     for (auto* trial : {&in_.still, &in_.measured, &in_.motion}) {
       if (!*trial) continue;
       if ((*trial)->where.empty()) (*trial)->where = (*trial)->name;
+      if (auto s = keep_measured(**trial); !s) return s;
       if (options_.drop_doubtful)
         if (auto s = leave_out_doubtful(**trial); !s) return s;
     }

@@ -105,10 +105,12 @@ struct ScaleFound {
 /// static trial is judged against the model as it is given, before sizes and markers move, and against the
 /// motion where there is one. Without a recipe the model first gets the subject's overall size from distances
 /// between markers of one segment. Joints that were measured may leave their position in the model so far.
+/// Frames that a recorder made between those that it measured are left out, which is said.
 ///
 /// Code::usage as ScaleMethod::check() and where an input is missing, or is there without a use. Else fails,
-/// naming what it is of, as bring_into_axes() of prepare, motion::scale_model(), place_markers(),
-/// adapt_model(), add_clavicles(), scale_paths(). About 1 ms per frame and step for a whole body.
+/// naming what it is of, as screen_markers(), bring_into_axes() of prepare, motion::scale_model(),
+/// place_markers(), adapt_model(), add_clavicles(), scale_paths(). About 1 ms per frame and step for a whole
+/// body.
 [[nodiscard]] Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs,
                                        const ScaleOptions& options = {});
 

@@ -288,6 +288,34 @@ TEST(Scale, DoubtfulSamplesAreLeftOutWhereThatIsAsked) {
   EXPECT_THAT(dropped.remarks.warnings, Contains(HasSubstr("eft out")));
 }
 
+/// The recording at four times its rate, on lines between its samples.
+data::Trajectories upsampled(const data::Trajectories& low) {
+  auto time = low.time;
+  time.rate_hz *= 4.0;
+  time.frames = 4 * (low.frames() - 1) + 1;
+  auto high = data::Trajectories::all_missing(low.names, time);
+  for (std::int64_t f = 0; f < high.frames(); ++f)
+    for (std::int64_t m = 0; m < high.markers(); ++m) {
+      const auto before = f / 4, after = std::min(before + 1, low.frames() - 1);
+      const double share = static_cast<double>(f % 4) / 4.0;
+      high.x(f, m) = (1.0 - share) * low.x(before, m) + share * low.x(after, m);
+      high.state[high.index(f, m)] = data::SampleState::measured;
+    }
+  return high;
+}
+
+TEST(Scale, FramesThatTheRecorderMadeAreNoMeasurements) {
+  auto inputs = by_motion();
+  const auto low = scale(person().small, inputs, quick()).value();
+  EXPECT_THAT(low.remarks.warnings, Not(Contains(HasSubstr("sizes are found from measured frames alone"))));
+  inputs.motion->recording.trial.markers = upsampled(person().moving);
+  const auto high = scale(person().small, std::move(inputs), quick()).value();
+  EXPECT_THAT(high.remarks.warnings, Contains(HasSubstr("the recorder measured at 60 Hz")));
+  EXPECT_THAT(high.remarks.warnings, Contains(HasSubstr("sizes are found from measured frames alone")));
+  EXPECT_EQ(high.from_motion->frames, low.from_motion->frames);
+  EXPECT_NEAR(factor_of(high, "femur_r"), factor_of(low, "femur_r"), 1e-6);
+}
+
 TEST(Scale, MusclesFollowTheirBodiesAndPathsThatCannotBeReadAreSaid) {
   ScaleOptions options;
   options.recipe.emplace().manual = {{.body = "femur_r", .factors = Vector3d::Constant(1.1)}};

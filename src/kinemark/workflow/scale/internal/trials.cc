@@ -23,6 +23,18 @@ void say(const std::string& where, const std::string& note, std::vector<std::str
 
 }  // namespace
 
+Status keep_measured(ScaleTrial& trial) {
+  auto& recording = trial.recording;
+  const auto made = note_on_upsampling(recording.trial.markers);
+  if (!made) return fail_at(trial.where, made.error());
+  if (made->empty()) return {};
+  const auto screening =
+      screen_markers(recording.trial, {.recorder_made = RecorderMade::decimate, .find_defects = false});
+  if (!screening) return fail_at(trial.where, screening.error());
+  recording.notes.push_back(*made + "; sizes are found from measured frames alone");
+  return {};
+}
+
 Status leave_out_doubtful(ScaleTrial& trial) {
   auto& recording = trial.recording;
   const auto s = leave_out_defects(recording.trial, false, recording.edits.swapped, recording.notes);

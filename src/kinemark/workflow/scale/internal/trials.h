@@ -12,7 +12,12 @@
 
 namespace kinemark::workflow {
 
-/// Fails as leave_out_defects(), naming the trial. @param trial  its doubtful samples are left out
+/// Frames that the recorder made between those that it measured are left out, which is a note: a fit would
+/// take them for measurements of their own. Fails as screen_markers(), naming the trial.
+Status keep_measured(ScaleTrial& trial);
+
+/// Samples that are surely swapped, stuck or false are left out. Fails as leave_out_defects(), naming the
+/// trial.
 Status leave_out_doubtful(ScaleTrial& trial);
 
 /// The still recordings against a model, before anything moves, and against the motion where there is one:
