@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/foundations/foundation_gate.h"
+#include "kinemark/pipeline/foundations/foundation_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

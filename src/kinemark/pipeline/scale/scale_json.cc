@@ -3,7 +3,7 @@
 #include "kinemark/pipeline/scale/scale_json.h"
 
 #include "kinemark/core/version.h"
-#include "kinemark/pipeline/foundations/foundation_gate.h"
+#include "kinemark/pipeline/foundations/foundation_json.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "kinemark/math/statistics.h"
-#include "kinemark/pipeline/foundations/foundation_gate.h"
+#include "kinemark/pipeline/foundations/foundation_json.h"
 #include "kinemark/pipeline/measures/noise_table.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/segments_job.h"

@@ -1,26 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/foundations/foundation_gate.h"
+#include "kinemark/pipeline/foundations/foundation_json.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
-#include "kinemark/workflow/foundations/foundation_gate.h"
-
 namespace kinemark::pipeline {
-
-Result<motion::FoundationJudgement> judge_static_trial(const std::string& file,
-                                                       const motion::StandingBody& body,
-                                                       const data::Trajectories& still,
-                                                       std::span<const data::Trajectories* const> movements,
-                                                       JobOutcome& outcome) {
-  workflow::Remarks remarks;
-  auto judgement = workflow::judge_static_trial(file, body, still, movements, remarks);
-  std::ranges::move(remarks.warnings, std::back_inserter(outcome.warnings));
-  std::ranges::move(remarks.gates, std::back_inserter(outcome.gates));
-  return judgement;
-}
 
 nlohmann::ordered_json foundation_json(const std::string& file,
                                        const motion::FoundationJudgement& judgement) {
