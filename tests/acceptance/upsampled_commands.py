@@ -50,6 +50,12 @@ def centres(path):
     return tuple({key: [float(line[name.format(axis)]) for axis in "xyz"] for key, line in found.items()} for name in ("{}_m", "sd_{}_m"))
 
 
+def sizes(path):
+    """{parameter: its value} of a model that was adapted, and the same of their standard deviations."""
+    found = json.loads(path.read_text())["motion"]["parameters"]
+    return tuple({one["name"]: [one[key]] for one in found} for key in ("value", "sd"))
+
+
 def in_deviations(low, high, deviations):
     """The largest difference, in standard deviations, of what both have; how many numbers that are."""
     worst, count = 0.0, 0
@@ -77,12 +83,36 @@ def check_arm(folder, how):
         run(folder, "simulate", "macaque", "-o", name, "--duration", 10, "--seed", 1, *more)
         run(folder / name, "ik", "-m", ARM, "-t", "markers.c3d", "-o", "q.mot")
         run(folder / name, "joints", "markers.c3d", "--segments", "segments.toml", "-o", "joints")
+        run(folder / name, "scale", "-m", ARM, "-t", "markers.c3d", "-o", "sized.osim")
     low, high = folder / "low", folder / "high"
     show_followed(folder, low, high, how)
     show(f"ik, {how}", *in_deviations(table(low / "q.mot"), table(high / "q.mot"), table(low / "q_sd.sto")))
     one, deviations = centres(low / "joints" / "centres.csv")
     other, _ = centres(high / "joints" / "centres.csv")
     show(f"joints, {how}", *in_deviations(one, other, deviations))
+    one, deviations = sizes(low / "sized_report.json")
+    other, _ = sizes(high / "sized_report.json")
+    show(f"scale, {how}", *in_deviations(one, other, deviations))
+
+
+WAY_OUT = "kinemark clean IN OUT --upsampled decimate"
+RATES = ("q_Kinematics_u", "q_Kinematics_dudt", "q_BodyKinematics_acc_global", "q_inverse_dynamics")
+
+
+def check_rates(folder, how):
+    """Speeds, accelerations and torques of the motion; `real.csv` is what the way out leaves of the recording."""
+    low, high = folder / "low", folder / "high"
+    words = ("dynamics", "q.mot", "-m", ARM, "--torques", "-o", "rates")
+    refused = run(high, *words)
+    row(refused.returncode == 3 and WAY_OUT.replace("IN OUT ", "") in refused.stderr and not (high / "rates").exists(), f"dynamics, {how}", "refused, the way out is named", refused.stderr.strip()[:60])
+    run(low, *words)
+    run(high, "ik", "-m", ARM, "-t", "real.csv", "-o", "q.mot", "--force")
+    run(high, *words)
+    worst, count = 0.0, 0
+    for name in RATES:
+        found = in_deviations(*(table(place / "rates" / f"{name}{end}.sto") for place, end in ((low, ""), (high, ""), (low, "_sd"))))
+        worst, count = max(worst, found[0]), count + found[1]
+    show(f"dynamics after that way, {how}", worst, count)
 
 
 def values(folder, recording):
@@ -94,8 +124,7 @@ def values(folder, recording):
 
 def check_measures(folder, how):
     refused = values(folder / "high", "markers.c3d")
-    way_out = "'kinemark clean IN OUT --upsampled decimate'"
-    row(isinstance(refused, str) and way_out in refused, f"measures of paths, {how}", "refused, the way out is named", str(refused).strip()[:60])
+    row(isinstance(refused, str) and f"'{WAY_OUT}'" in refused, f"measures of paths, {how}", "refused, the way out is named", str(refused).strip()[:60])
     run(folder / "high", "clean", "markers.c3d", "real.csv", "--upsampled", "decimate", "--filter", "none")
     one, other = values(folder / "low", "markers.c3d"), values(folder / "high", "real.csv")
     row(one == other and len(one) > 10, f"measures of paths after that way, {how}", "those of the low rate", f"{len(one)} and {len(other)} numbers")
@@ -138,6 +167,7 @@ def main():
             place.mkdir()
             check_arm(place, how)
             check_measures(place, how)
+            check_rates(place, how)
             shutil.rmtree(place)
         if WALK.is_file():
             check_walk(Path(folder))

@@ -179,6 +179,39 @@ TEST_F(RunAnalysis, ALowPassLeavesNoDeviationsAndSmootherAngles) {
   EXPECT_LT(roughness(table("out5/truth_Kinematics_q.sto")), roughness(table("in/truth.mot")));
 }
 
+/// The table at four times its rate, on lines between its rows.
+data::Table upsampled(const data::Table& low) {
+  data::Table high = low;
+  high.header.clear(), high.time_s.clear(), high.values.clear();
+  const auto columns = low.columns.size();
+  for (std::int64_t r = 0; r < 4 * (low.rows() - 1); ++r) {
+    const double share = static_cast<double>(r % 4) / 4.0;
+    const auto row = static_cast<std::size_t>(r / 4);
+    const auto between = [&](double a, double b) { return (1.0 - share) * a + share * b; };
+    high.time_s.push_back(between(low.time_s[row], low.time_s[row + 1]));
+    for (std::size_t c = 0; c < columns; ++c)
+      high.values.push_back(between(low.values[row * columns + c], low.values[(row + 1) * columns + c]));
+  }
+  return high;
+}
+
+TEST_F(RunAnalysis, FramesThatWereMadeBetweenOthersHaveNoRates) {
+  ASSERT_TRUE(run_ik(IkJob(this->job("noisy.mot"))));
+  const auto low = table("noisy.mot");
+  ASSERT_TRUE(io::write_table(at("made.mot"), upsampled(low)));
+  auto job = analysis("out_made");
+  job.motion = at("made.mot");
+  const auto message = refused(job);
+  EXPECT_THAT(message, HasSubstr("made 3 of every 4 frames"));
+  EXPECT_THAT(message, HasSubstr("clean --upsampled decimate"));
+  EXPECT_FALSE(fs::exists(at("out_made")));
+  job.cutoff_hz = 6.0;
+  EXPECT_TRUE(run_analysis(job)) << "what is low-passed follows no line between two frames";
+  job = analysis("out_low");
+  job.motion = at("noisy.mot");
+  EXPECT_TRUE(run_analysis(job)) << "as it was measured";
+}
+
 TEST_F(RunAnalysis, NothingIsWrittenOfWhatIsRefused) {
   auto none = analysis("out6");
   none.motion.clear();

@@ -18,6 +18,7 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -79,6 +80,31 @@ void couple(const model::Model& model, RatedMotion& read) {
   }
 }
 
+/// Coordinates that the file has, as if each were the path of a marker along x.
+data::Trajectories as_paths(const RatedMotion& read, const CoordinateRows& rows) {
+  const auto& motion = read.motion;
+  auto paths = data::Trajectories::all_missing(motion.coordinates, motion.time);
+  for (std::int64_t f = 0; f < motion.frames(); ++f)
+    for (std::int64_t c = 0; c < motion.size(); ++c) {
+      const auto i = motion.index(f, c);
+      if (read.is_filled[i] != 0 || rows.is_assumed[at(c)]) continue;
+      paths.x(f, c) = Eigen::Vector3d(motion.q[i], 0.0, 0.0);
+      paths.state[paths.index(f, c)] = data::SampleState::measured;
+    }
+  return paths;
+}
+
+/// Rates of frames that were made between others are those of the lines between them, not of the movement.
+Status refuse_made_frames(const fs::path& path, const RatedMotion& read, const CoordinateRows& rows) {
+  const auto made = workflow::note_on_upsampling(as_paths(read, rows));
+  if (!made) return fail_at(path.string(), made.error());
+  if (made->empty()) return {};
+  return fail(Code::bad_input,
+              fmt::format("{}: {}, and rates between them are not those of the movement; solve "
+                          "the motion from what that leaves, or give --cutoff",
+                          path.string(), *made));
+}
+
 }  // namespace
 
 Result<RatedMotion> read_rated_motion(const fs::path& path, const model::Model& model, double cutoff_hz) {
@@ -104,6 +130,7 @@ Result<RatedMotion> read_rated_motion(const fs::path& path, const model::Model& 
                               2.0 * cutoff_hz, motion.time.rate_hz));
     low_pass(cutoff_hz, motion);
   } else {
+    if (auto s = refuse_made_frames(path, read, *rows); !s) return std::unexpected(s.error());
     const auto deviations = read_deviations(path, *table, read);
     if (!deviations) return std::unexpected(deviations.error());
     if (*deviations) set_deviations(**deviations, model.description(), motion);
