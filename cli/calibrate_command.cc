@@ -53,7 +53,7 @@ void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run) {
       "when the\n"
       "model of the cameras does not fit the counts.");
   const auto job = std::make_shared<pipeline::CalibrateJob>();
-  using Method = pipeline::CalibrateJob::Method;
+  using Method = workflow::CalibrateMethod;
   command
       ->add_option("INPUT", job->inputs,
                    "Recordings (.mcap) of the tree, of the grid before each camera, or of both")
@@ -62,10 +62,10 @@ void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* output = command->add_option("-o,--output", job->output, "Rig to write, rig.toml");
   command->add_option("--report", job->report, "Also write the page that shows the result, R.html");
   auto* align = command->add_flag(
-      "--align", job->align_only,
+      "--align", job->options.align_only,
       "Only report how far the cameras are from their nominal poses, and the next adjustment");
   output->excludes(align);
-  add_choice<Method>(*command, "--method", job->method,
+  add_choice<Method>(*command, "--method", job->options.method,
                      {{"bundle", Method::bundle}, {"grid-lut", Method::grid_lut}, {"scan", Method::scan}},
                      "bundle: tree and grid, everything at once; scan: an LED on a motor stage; grid-lut: "
                      "the table of 1986");
@@ -75,11 +75,13 @@ void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run) {
       ->expected(3);
   command->add_option("--frames-per-pose", job->frames_per_pose,
                       "Frames of each pose of the tree; as recorded when absent");
-  command->add_option("--warp-degree", job->bundle.warp_degree, "Degree of the detector's warp to begin with")
+  command
+      ->add_option("--warp-degree", job->options.bundle.warp_degree,
+                   "Degree of the detector's warp to begin with")
       ->capture_default_str();
-  command->add_flag("--no-crosstalk{false},--crosstalk", job->bundle.crosstalk,
+  command->add_flag("--no-crosstalk{false},--crosstalk", job->options.bundle.crosstalk,
                     "Leave terms between electrodes out");
-  command->add_flag("--no-escalate{false},--escalate", job->bundle.escalate,
+  command->add_flag("--no-escalate{false},--escalate", job->options.bundle.escalate,
                     "Keep the model as it is, fit or not");
   command->callback([&common, job, output, align, &run] {
     if (output->count() == 0 && align->count() == 0) throw CLI::RequiredError("--output or --align");

@@ -16,7 +16,7 @@ int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
   const auto outcome = pipeline::run_reconstruct(job);
   if (!outcome) return report_error(outcome.error());
   for (const auto& warning : outcome->warnings) say(common, warning);
-  for (const auto& led : outcome->leds)
+  for (const auto& led : outcome->found.leds)
     say(common,
         fmt::format("{}: {} of {} frames located, {} occluded, {} inconsistent, {} near the edge", led.name,
                     led.located, led.frames, led.occluded, led.inconsistent, led.near_edge));
@@ -28,7 +28,7 @@ int run_command(const CommonOptions& common, pipeline::ReconstructJob& job) {
 }  // namespace
 
 void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run) {
-  using Method = pipeline::ReconstructJob::Method;
+  using Method = workflow::ReconstructMethod;
   auto* command = app.add_subcommand("reconstruct", "Points in space from counts and a calibrated rig");
   const auto job = std::make_shared<pipeline::ReconstructJob>();
   using trajectory::Flicker;
@@ -37,27 +37,29 @@ void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("-o,--output", job->output, "Markers to write: .c3d, .trc or .csv")->required();
   command->add_option("--report", job->report, "Also write the page that shows the result, R.html");
   add_choice<Method>(
-      *command, "--method", job->method,
+      *command, "--method", job->options.method,
       {{"smoother", Method::smoother}, {"frames", Method::frames}, {"classic", Method::classic}},
       "smoother: every count at its own time; frames: each frame alone; classic: look-up table and midpoint");
   add_choice<Flicker>(
-      *command, "--flicker", job->smoother.flicker,
+      *command, "--flicker", job->options.smoother.flicker,
       {{"regress", Flicker::regress}, {"dark-slot", Flicker::dark_slot}, {"ignore", Flicker::ignore}},
       "Light of the room: regress, dark-slot or ignore");
-  command->add_option("--order", job->smoother.order, "smoother: integrations, 3 to 5; 0 chooses")
+  command->add_option("--order", job->options.smoother.order, "smoother: integrations, 3 to 5; 0 chooses")
       ->capture_default_str();
   command
-      ->add_option("--half-gain", job->smoother.half_gain_hz,
+      ->add_option("--half-gain", job->options.smoother.half_gain_hz,
                    "smoother: frequency of half gain, Hz; 0 chooses")
       ->capture_default_str();
-  command->add_option("--longest-gap", job->smoother.longest_gap_s, "smoother: longest gap to bridge, s")
+  command
+      ->add_option("--longest-gap", job->options.smoother.longest_gap_s, "smoother: longest gap to bridge, s")
       ->capture_default_str();
   command
-      ->add_option("--dim", job->frames.dim_share, "Light below this share of the LED's median is not used")
+      ->add_option("--dim", job->options.frames.dim_share,
+                   "Light below this share of the LED's median is not used")
       ->capture_default_str();
   command->callback([&common, job, &run] {
     run = [&common, job] {
-      job->smoother.dim_share = job->frames.dim_share;
+      job->options.smoother.dim_share = job->options.frames.dim_share;
       return run_command(common, *job);
     };
   });

@@ -29,7 +29,6 @@
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/scaling/scale.h"
-#include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
@@ -40,6 +39,8 @@
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
+#include "kinemark/workflow/rig/calibrate.h"
+#include "kinemark/workflow/rig/reconstruct.h"
 #include "kinemark/workflow/scale/scale.h"
 #include "kinemark/workflow/segments/segments.h"
 
@@ -72,6 +73,7 @@ using io::write_osim;
 using pipeline::find_definition;  // "pig", "isb-shoulder", or a .toml
 
 // As the commands do it: from a recording to what is found, with what there is to say of it.
+using workflow::calibrate;
 using workflow::clean;
 using workflow::emg;
 using workflow::gait;
@@ -79,6 +81,7 @@ using workflow::ik;
 using workflow::joints;
 using workflow::measure;
 using workflow::prepare;
+using workflow::reconstruct;
 using workflow::scale;
 using workflow::segments;
 using workflow::track;
@@ -93,7 +96,6 @@ using trajectory::smooth;
 using motion::inverse_dynamics;
 using motion::scale_model;
 using motion::solve_ik;
-using reconstruction::reconstruct;
 using skeleton::fit_articulated;
 
 // What a movement was.

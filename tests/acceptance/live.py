@@ -61,6 +61,20 @@ def at_share(values, share):
     return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
 
 
+def memory_kb(process):
+    """The most that a process has held so far."""
+    status = Path(f"/proc/{process.pid}/status").read_text()
+    return int(next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1])
+
+
+def most_held(scratch, seconds):
+    """kB that a server of a simulation of so many seconds has held when 200 frames have come."""
+    with Server(PROGRAM, f"sim:walk?rate={RATE}&seconds={seconds}", "--no-open", cwd=scratch) as server:
+        while json.loads(server.request("/api/live")[2])["frames"] < 200:
+            time.sleep(0.05)
+        return memory_kb(server.process)
+
+
 def main(seconds, seed):
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         source = f"sim:walk?rate={RATE}&seconds={seconds}&missing=0.02"
@@ -99,6 +113,8 @@ def main(seconds, seed):
         socket_ms = min(viewers, key=lambda v: v["dropped"])["to_socket_ms"]
         row(socket_ms["p99"] < ASKED_MS, "from due to the socket, 99 %", f"< {ASKED_MS:g} ms",
             f"{socket_ms['p99']:.2f} ms (half {socket_ms['p50']:.2f}, longest {socket_ms['longest']:.1f}); at the viewer {at_share(ages, 0.99):.2f} ms")
+        minute, hours = most_held(scratch, 60), most_held(scratch, 36_000)
+        row(hours < 1.1 * minute, "memory for a simulation of 10 hours beside one of a minute", "< 1.1 times", f"{hours / minute:.2f} times ({hours / 1024:.0f} MB)")
     return 1 if failed else 0
 
 

@@ -42,8 +42,8 @@ class CalibrateJobTest : public testing::SharedFolder<CalibrateJobTest> {
     job.inputs = {lab("tree_poses.mcap"), lab("grid_A.mcap"), lab("grid_B.mcap")};
     job.nominal = lab("rig_nominal.toml");
     job.output = fresh(output);
-    job.bundle.warp_degree = 6;  // quick, and enough for this rig
-    job.bundle.crosstalk = false;
+    job.options.bundle.warp_degree = 6;  // quick, and enough for this rig
+    job.options.bundle.crosstalk = false;
     return job;
   }
 };
@@ -71,26 +71,26 @@ TEST_F(CalibrateJobTest, FromRecordingsToMarkers) {
   job.recording = lab("recording.mcap");
   job.rig = fresh("rig.toml");
   job.output = fresh("points.csv");
-  job.method = ReconstructJob::Method::frames;
+  job.options.method = workflow::ReconstructMethod::frames;
   const auto made = run_reconstruct(job);
   ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->leds.at(0).located, 30);
+  EXPECT_EQ(made->found.leds.at(0).located, 30);
   const auto markers = io::read_markers(fresh("points.csv")).value().markers;
   const auto truth = io::read_markers(lab("truth.trc")).value().markers;
   double side = 0.0;
   for (std::int64_t f = 0; f < 30; ++f) side += (markers.x(f, 0) - markers.x(f, 1)).norm() / 30.0;
   EXPECT_NEAR(side, (truth.x(0, 0) - truth.x(0, 1)).norm(), 0.6e-3);
   job.output = fresh("points.c3d");
-  job.method = ReconstructJob::Method::smoother;
+  job.options.method = workflow::ReconstructMethod::smoother;
   ASSERT_TRUE(run_reconstruct(job));
-  job.method = ReconstructJob::Method::classic;
+  job.options.method = workflow::ReconstructMethod::classic;
   job.output = fresh("classic.trc");
   EXPECT_TRUE(run_reconstruct(job)) << "the grid left tables in the rig";
 }
 
 TEST_F(CalibrateJobTest, GridLutAndScan) {
   auto job = bundle("lut.toml");
-  job.method = CalibrateJob::Method::grid_lut;
+  job.options.method = workflow::CalibrateMethod::grid_lut;
   auto recording = io::read_counts(lab("tree_poses.mcap")).value();
   auto& counts = recording.counts;
   const auto last = static_cast<std::size_t>(--counts.time.frames);
@@ -106,7 +106,7 @@ TEST_F(CalibrateJobTest, GridLutAndScan) {
               Contains(HasSubstr("frames are of a pose that was not recorded to its end; not used")));
   EXPECT_EQ(io::read_rig(job.output)->cameras[1].table.nodes, 15);
   job = bundle("scan.toml");
-  job.method = CalibrateJob::Method::scan;
+  job.options.method = workflow::CalibrateMethod::scan;
   job.inputs = {lab("scan.mcap")};
   const auto outcome = run_calibrate(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -115,7 +115,7 @@ TEST_F(CalibrateJobTest, GridLutAndScan) {
 
 TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   auto job = bundle("none.toml");
-  job.align_only = true;
+  job.options.align_only = true;
   job.inputs = {lab("tree_poses.mcap")};
   const auto outcome = run_calibrate(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -134,8 +134,8 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
 
 TEST_F(CalibrateJobTest, AModelThatTheCountsContradictIsAMissedGate) {
   auto job = bundle("poor.toml");
-  job.bundle.warp_degree = 2;
-  job.bundle.escalate = false;
+  job.options.bundle.warp_degree = 2;
+  job.options.bundle.escalate = false;
   const auto refused = run_calibrate(job);
   ASSERT_TRUE(refused) << refused.error().message;
   EXPECT_EQ(refused->exit_status(), 1);
@@ -163,7 +163,7 @@ TEST_F(CalibrateJobTest, RefusesWhatIsMissingOrWrong) {
   classic.recording = lab("recording.mcap");
   classic.rig = lab("rig_nominal.toml");
   classic.output = fresh("x.trc");
-  classic.method = ReconstructJob::Method::classic;
+  classic.options.method = workflow::ReconstructMethod::classic;
   EXPECT_THAT(run_reconstruct(classic).error().message, HasSubstr("no look-up table"));
 }
 

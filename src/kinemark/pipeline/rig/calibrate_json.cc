@@ -27,7 +27,7 @@ Json alignment_json(const calibration::Alignment& alignment) {
 
 Json calibrate_json(const CalibrateOutcome& outcome) {
   Json json;
-  json["method"] = method_name(outcome.method);
+  json["method"] = to_string(outcome.method);
   if (outcome.bundle) {
     json["chi2_per_dof"] = outcome.bundle->chi2_per_dof;
     json["warp_degree"] = outcome.bundle->warp_degree;

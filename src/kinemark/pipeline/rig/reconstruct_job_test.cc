@@ -34,12 +34,12 @@ class RunReconstruct : public testing::SharedFolder<RunReconstruct> {
   }
 
  protected:
-  static ReconstructJob job(const std::string& output, ReconstructJob::Method method) {
+  static ReconstructJob job(const std::string& output, workflow::ReconstructMethod method) {
     ReconstructJob out;
     out.recording = at("lab/recording.mcap");
     out.rig = at("lab/rig_true.toml");
     out.output = at(output);
-    out.method = method;
+    out.options.method = method;
     return out;
   }
   /// Distances to the truth over the samples that both cameras saw, RMS, mm.
@@ -84,13 +84,13 @@ class RunReconstruct : public testing::SharedFolder<RunReconstruct> {
 };
 
 TEST_F(RunReconstruct, FramesAloneFindThePointsThatTwoCamerasSee) {
-  const auto outcome = run_reconstruct(job("frames.csv", ReconstructJob::Method::frames));
+  const auto outcome = run_reconstruct(job("frames.csv", workflow::ReconstructMethod::frames));
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->frames, 50);
   EXPECT_THAT(outcome->written, ElementsAre(at("frames.csv")));
-  EXPECT_TRUE(outcome->fits.empty());
-  ASSERT_EQ(outcome->leds.size(), 4U);
-  for (const auto& led : outcome->leds) {
+  EXPECT_TRUE(outcome->found.fits.empty());
+  ASSERT_EQ(outcome->found.leds.size(), 4U);
+  for (const auto& led : outcome->found.leds) {
     EXPECT_EQ(led.frames, 50);
     EXPECT_EQ(led.occluded, led.name == "hand" ? 5 : 0) << led.name;
     EXPECT_EQ(led.located + led.occluded + led.saturated + led.inconsistent, 50) << led.name;
@@ -108,10 +108,10 @@ TEST_F(RunReconstruct, FramesAloneFindThePointsThatTwoCamerasSee) {
 }
 
 TEST_F(RunReconstruct, TheSmootherBridgesAndTellsHowItSmoothed) {
-  const auto outcome = run_reconstruct(job("smooth.csv", ReconstructJob::Method::smoother));
+  const auto outcome = run_reconstruct(job("smooth.csv", workflow::ReconstructMethod::smoother));
   ASSERT_TRUE(outcome) << outcome.error().message;
-  ASSERT_EQ(outcome->fits.size(), 4U);
-  for (const auto& fit : outcome->fits) {
+  ASSERT_EQ(outcome->found.fits.size(), 4U);
+  for (const auto& fit : outcome->found.fits) {
     EXPECT_GT(fit.bandwidth.cutoff_hz, 0.0);
     EXPECT_NEAR(fit.chi2_per_dof, 1.0, 0.5) << fit.name;
   }
@@ -121,13 +121,13 @@ TEST_F(RunReconstruct, TheSmootherBridgesAndTellsHowItSmoothed) {
   const Misses misses = misses_of(at("smooth.csv"), false);
   EXPECT_EQ(misses.points, 200) << "the hidden frames are bridged";
   EXPECT_NEAR(std::pow(misses.found_mm / misses.stated_mm, 2), 1.0, 0.42);
-  ASSERT_TRUE(run_reconstruct(job("alone.csv", ReconstructJob::Method::frames)));
+  ASSERT_TRUE(run_reconstruct(job("alone.csv", workflow::ReconstructMethod::frames)));
   EXPECT_LT(misses.found_mm, misses_of(at("alone.csv"), true).stated_mm) << "surer than frame by frame";
 }
 
 TEST_F(RunReconstruct, AnyNumberOfThreadsGivesTheSameFile) {
-  auto one = job("one.csv", ReconstructJob::Method::smoother);
-  auto two = job("two.csv", ReconstructJob::Method::smoother);
+  auto one = job("one.csv", workflow::ReconstructMethod::smoother);
+  auto two = job("two.csv", workflow::ReconstructMethod::smoother);
   two.threads = 2;
   ASSERT_TRUE(run_reconstruct(one));
   ASSERT_TRUE(run_reconstruct(two));
@@ -135,19 +135,19 @@ TEST_F(RunReconstruct, AnyNumberOfThreadsGivesTheSameFile) {
 }
 
 TEST_F(RunReconstruct, RefusesWhatDoesNotFitAndWritesNothing) {
-  auto wrong = job("none.csv", ReconstructJob::Method::frames);
+  auto wrong = job("none.csv", workflow::ReconstructMethod::frames);
   wrong.recording = at("lab/none.mcap");
   EXPECT_EQ(run_reconstruct(wrong).error().code, Code::io);
-  wrong = job("none.csv", ReconstructJob::Method::frames);
+  wrong = job("none.csv", workflow::ReconstructMethod::frames);
   wrong.rig = at("lab/truth.trc");
   EXPECT_EQ(run_reconstruct(wrong).error().code, Code::bad_input);
-  wrong = job("none.csv", ReconstructJob::Method::frames);
-  wrong.frames.dim_share = -1.0;
+  wrong = job("none.csv", workflow::ReconstructMethod::frames);
+  wrong.options.frames.dim_share = -1.0;
   EXPECT_FALSE(run_reconstruct(wrong));
-  wrong = job("none.xyz", ReconstructJob::Method::frames);
+  wrong = job("none.xyz", workflow::ReconstructMethod::frames);
   EXPECT_EQ(run_reconstruct(wrong).error().code, Code::usage);
   EXPECT_FALSE(fs::exists(at("none.csv")));
-  auto again = job("mine.csv", ReconstructJob::Method::frames);
+  auto again = job("mine.csv", workflow::ReconstructMethod::frames);
   ASSERT_TRUE(io::write_text(at("mine.csv"), "mine", false));
   EXPECT_EQ(run_reconstruct(again).error().code, Code::io) << "nothing is replaced unasked";
   EXPECT_EQ(io::read_text(at("mine.csv")).value(), "mine");
@@ -157,17 +157,17 @@ TEST_F(RunReconstruct, RefusesWhatDoesNotFitAndWritesNothing) {
 
 TEST(ReconstructJson, HasTheFitOnlyWhereThereIsOne) {
   ReconstructOutcome outcome;
-  outcome.method = ReconstructJob::Method::classic;
+  outcome.method = workflow::ReconstructMethod::classic;
   outcome.frames = 7;
   outcome.written = {"p.csv"};
   outcome.warnings = {"odd"};
-  outcome.leds = {{.name = "hand", .frames = 7, .located = 5, .occluded = 2}};
+  outcome.found.leds = {{.name = "hand", .frames = 7, .located = 5, .occluded = 2}};
   EXPECT_EQ(reconstruct_json(outcome).dump(),
             R"({"method":"classic","frames":7,"written":"p.csv","warnings":["odd"],"leds":[{"name":"hand",)"
             R"("frames":7,"located":5,"occluded":2,"saturated":0,"inconsistent":0,"near_edge":0}]})");
-  outcome.fits.emplace_back().chi2_per_dof = 1.5;
-  outcome.fits[0].bandwidth.order = 3;
-  outcome.fits[0].flicker_counts = {0.5, 0.25};
+  outcome.found.fits.emplace_back().chi2_per_dof = 1.5;
+  outcome.found.fits[0].bandwidth.order = 3;
+  outcome.found.fits[0].flicker_counts = {0.5, 0.25};
   const auto led = reconstruct_json(outcome)["leds"][0];
   EXPECT_EQ(led["order"], 3);
   EXPECT_EQ(led["chi2_per_dof"], 1.5);

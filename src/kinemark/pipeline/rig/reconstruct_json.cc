@@ -28,9 +28,9 @@ void add_fit(const trajectory::LedFit& fit, Json& to) {
 
 Json reconstruct_json(const ReconstructOutcome& outcome) {
   Json leds = Json::array();
-  for (const auto& led : outcome.leds) leds.push_back(summary_of(led));
-  for (std::size_t i = 0; i < outcome.fits.size(); ++i) add_fit(outcome.fits[i], leds[i]);
-  return Json{{"method", method_name(outcome.method)},
+  for (const auto& led : outcome.found.leds) leds.push_back(summary_of(led));
+  for (std::size_t i = 0; i < outcome.found.fits.size(); ++i) add_fit(outcome.found.fits[i], leds[i]);
+  return Json{{"method", to_string(outcome.method)},
               {"frames", outcome.frames},
               {"written", outcome.written.front().string()},
               {"warnings", outcome.warnings},

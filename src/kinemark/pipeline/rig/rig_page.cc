@@ -52,7 +52,7 @@ data::Trajectories poses_of(const CalibrateOutcome& outcome) {
 std::vector<report::NoticeGroup> groups_of(const ReconstructOutcome& outcome) {
   std::vector<report::NoticeGroup> groups;
   std::vector<Notice> never, few, contradicted;
-  for (const auto& led : outcome.leds) {
+  for (const auto& led : outcome.found.leds) {
     const double share =
         led.frames > 0 ? static_cast<double>(led.located) / static_cast<double>(led.frames) : 0.0;
     const Notice notice{.subject = led.name,

@@ -38,9 +38,9 @@ TEST(RigPage, AReconstructionJudgesEachLed) {
   ReconstructOutcome outcome;
   outcome.frames = 100;
   outcome.written = {"points.c3d"};
-  outcome.leds = {{.name = "hand", .frames = 100, .located = 100},
-                  {.name = "wrist", .frames = 100, .located = 70, .occluded = 25, .inconsistent = 5},
-                  {.name = "lost", .frames = 100, .occluded = 100}};
+  outcome.found.leds = {{.name = "hand", .frames = 100, .located = 100},
+                        {.name = "wrist", .frames = 100, .located = 70, .occluded = 25, .inconsistent = 5},
+                        {.name = "lost", .frames = 100, .occluded = 100}};
   const auto points = data::Trajectories::all_missing({"hand", "wrist", "lost"},
                                                       {.rate_hz = 100.0, .t0_s = 0.0, .frames = 100});
   const auto page = reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points);
@@ -50,7 +50,7 @@ TEST(RigPage, AReconstructionJudgesEachLed) {
   EXPECT_THAT(page,
               HasSubstr("wrist: the cameras contradict each other in 5 of 100 frames; no point there."));
   EXPECT_THAT(page, HasSubstr(R"("precision":[null,null])"));
-  outcome.leds.resize(1);
+  outcome.found.leds.resize(1);
   EXPECT_THAT(reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points),
               HasSubstr(R"("verdict":"good")"));
 }

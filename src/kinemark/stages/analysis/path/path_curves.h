@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemark/stages/analysis/path/path_facts.h"
+#include "kinemark/stages/analysis/path/path_samples.h"
+#include "kinemark/stages/analysis/path/timing.h"
 
 namespace kinemark::analysis {
 

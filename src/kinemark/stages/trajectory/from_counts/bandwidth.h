@@ -7,21 +7,13 @@
 #include <span>
 
 #include "kinemark/math/wiener_smoother.h"
+#include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
 
 namespace kinemark::trajectory {
 
 /// One observation of a point in space: position and inverse covariance (singular where only one camera saw
 /// it, zero where none did).
 using LedObservation = math::PositionObservation<3>;
-
-/// A smoother of the family "order-times integrated Wiener process".
-struct Bandwidth {
-  int order = 4;                  ///< 3, 4 or 5
-  double spectral_density = 0.0;  ///< q of the order-th derivative, m^2 s^(1 - 2 order)
-  double time_constant_s = 0.0;   ///< 1 / omega0
-  double cutoff_hz = 0.0;         ///< -3 dB of the whole smoother
-  double sure = 0.0;              ///< risk found, less a constant
-};
 
 /// The smoother with this `order` and half-gain frequency, for samples of inverse variance
 /// `information` (m^-2 per axis) `interval_s` apart: q = omega0^(2 order) interval / information.

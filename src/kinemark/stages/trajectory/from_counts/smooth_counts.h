@@ -11,7 +11,6 @@
 #include "kinemark/data/derivatives.h"
 #include "kinemark/data/rig.h"
 #include "kinemark/data/trajectories.h"
-#include "kinemark/stages/trajectory/from_counts/bandwidth.h"
 
 namespace kinemark::trajectory {
 
@@ -38,6 +37,15 @@ struct SmoothCountsOptions {
   int threads = 0;               ///< LEDs are smoothed beside each other
 
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
+};
+
+/// A smoother of the family "order-times integrated Wiener process".
+struct Bandwidth {
+  int order = 4;                  ///< 3, 4 or 5
+  double spectral_density = 0.0;  ///< q of the order-th derivative, m^2 s^(1 - 2 order)
+  double time_constant_s = 0.0;   ///< 1 / omega0
+  double cutoff_hz = 0.0;         ///< -3 dB of the whole smoother
+  double sure = 0.0;              ///< risk found, less a constant
 };
 
 /// Parameters and statistics of one LED's path.

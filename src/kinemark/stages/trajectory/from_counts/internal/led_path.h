@@ -9,6 +9,7 @@
 
 #include "kinemark/data/counts.h"
 #include "kinemark/data/rig.h"
+#include "kinemark/stages/trajectory/from_counts/bandwidth.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
 
 namespace kinemark::trajectory::internal {
