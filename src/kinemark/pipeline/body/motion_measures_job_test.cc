@@ -133,20 +133,13 @@ TEST_F(RunMotionMeasures, LowPassedCoordinatesHaveNoIntervals) {
   EXPECT_EQ(outcome->measures[0].interval.kind, data::IntervalKind::none);
 }
 
-/// The motion, eight times as slow, at the same rate: 4 s.
-void slow_down(const std::filesystem::path& from, const std::filesystem::path& to) {
-  const auto fast = io::read_table(from).value();
-  auto slow = fast;
-  slow.time_s.clear();
-  slow.values.clear();
-  for (std::int64_t i = 0; i <= 8 * (fast.rows() - 1); ++i) {
-    slow.time_s.push_back(static_cast<double>(i) / 60.0);
-    const auto row = std::min(i / 8, fast.rows() - 2);
-    const double share = static_cast<double>(i - 8 * row) / 8.0;
-    for (std::int64_t c = 0; c < std::ssize(fast.columns); ++c)
-      slow.values.push_back((1.0 - share) * fast(row, c) + share * fast(row + 1, c));
-  }
-  ASSERT_TRUE(io::write_table(to, slow, {.force = true}));
+/// Four seconds of the simulated subject.
+void simulate_longer_into(const std::filesystem::path& folder) {
+  SimulateSubjectJob job;
+  job.folder = folder;
+  job.options.duration_s = 4.0;
+  job.options.rate_hz = 60.0;
+  ASSERT_TRUE(run_simulate_subject(job));
 }
 
 /// Somebody who walks for 6 s beside a plate that bears nothing.
@@ -166,10 +159,10 @@ data::Trial walk_beside_a_plate() {
 }
 
 TEST_F(RunMotionMeasures, WhereStretchesAreFromAndWhichLieBeyondTheMotionIsSaid) {
-  slow_down(at("in/truth.mot"), at("slow.mot"));
+  simulate_longer_into(at("longer"));
   auto trial = walk_beside_a_plate();
   ASSERT_TRUE(io::write_markers(at("found.c3d"), trial, true));
-  auto job = measuring("slow.mot");
+  auto job = measuring("longer/truth.mot");
   job.measures = {"joint_range"};
   job.select = {"knee_angle_r"};
   job.between = {"Foot Strike"};
