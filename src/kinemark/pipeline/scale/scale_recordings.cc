@@ -62,11 +62,11 @@ Status read_scale_recordings(const ScaleJob& job, const io::ScaleSetup* setup, c
   const TrialReader reader{.job = job, .count = count_recordings(job, setup), .found_in = found_in};
   if (auto s = reader.read(job.markers, inputs.motion); !s) return s;
   if (setup == nullptr || !job.static_trial.empty()) return reader.read(job.static_trial, inputs.still);
-  const bool places = setup->place, measures = setup->recipe.measures();
+  const bool wants_place = setup->place, wants_sizes = setup->recipe.measures();
   const auto &measured = setup->scale_marker_file, &placed = setup->place_marker_file;
-  if (measures && !(places && measured == placed))
+  if (wants_sizes && !(wants_place && measured == placed))
     if (auto s = reader.read(measured, inputs.measured); !s) return s;
-  if (!places) return {};
+  if (!wants_place) return {};
   return reader.read(placed, inputs.still);
 }
 

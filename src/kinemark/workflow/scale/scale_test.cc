@@ -129,7 +129,7 @@ TEST(Scale, FindsSizesFromAMotionAndSaysHowWellTheyFit) {
   EXPECT_THAT(strict.remarks.warnings, Contains(HasSubstr("at most 0.0 mm is accepted")));
 }
 
-TEST(Scale, AStaticTrialGivesSizesAndPlacesMarkers) {
+TEST(Scale, AStaticTrialGivesSizesAndMarkersWhereTheyAre) {
   const auto found = scale(person().small, by_static_trial(), quick()).value();
   ASSERT_TRUE(found.from_static && found.placed);
   EXPECT_EQ(found.from_static->tissue_sd_m, 0.0) << "one posture: not asked";
