@@ -207,6 +207,14 @@ class Gait(CommandTest):
         result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
         self.assertIn("the names of the sides are exchanged, or the recording is mirrored", result.err)
 
+    def test_limbs_that_are_moved_in_the_air_are_no_gait(self):
+        for seed in (1, 3, 7):
+            folder = self.folder / f"moved{seed}"
+            self.assertEqual(self.run_in("simulate", "subject", "-o", folder, "--seed", seed).status, 0)
+            result = self.run_in("gait", folder / "markers.c3d", "--refits", "0")
+            self.assertEqual(result.status, 3, result.out)
+            self.assertIn("not locomotion: ", result.err)
+
     def test_kinematics_never_sees_plates(self):
         recording = real_file("btk-others/PiG_Motion3_FF.c3d")
         reported = self.measures(recording, "--measures", "gait", "--events", "kinematics")

@@ -739,7 +739,7 @@ export interface Parameter {
 /** A calibrated rig. */
 export interface CalibrateResult {
   /** As asked for. */ method: string;
-  /** 1 where the model explains the counts. As all of the fit, of the method `bundle` alone. */ chi2_per_dof?: number | null;
+  /** 1 where the model explains the counts. As all of the fit, of the methods `bundle` and `scan` alone. */ chi2_per_dof?: number | null;
   /** Degree of the detector's warp. */ warp_degree?: number;
   /** True: terms between electrodes were fitted. */ crosstalk?: boolean;
   /** Steps. */ iterations?: number;
@@ -748,7 +748,7 @@ export interface CalibrateResult {
   /** Sightings left out. */ outliers?: number;
   /** RMS error of the tree's sides, triangulated without it. */ side_rms_mm?: number | null;
   /** The rig against its nominal poses. */ alignment?: Alignment;
-  /** The rig's file. */ written?: string;
+  /** The first file that was written: the rig's, or the page where no rig was found. */ written?: string;
   /** One sentence each. */ warnings: string[];
   /** One per camera. */ cameras: CalibratedCamera[];
 }

@@ -9,6 +9,7 @@ import { createInterface } from "node:readline";
 import type { Page } from "playwright-core";
 import { ink, open, settle, type Opened } from "./browser.ts";
 import { clipped, violations } from "./looks.ts";
+import { problemsOf } from "../../schema/problems.ts";
 
 const program = process.env["KINEMARK_PROGRAM"] ?? "build/release/bin/kinemark";
 const pictures = process.env["KINEMARK_SCREENSHOTS"];
@@ -44,6 +45,11 @@ const keep = async (page: Page, name: string): Promise<void> => {
 };
 
 const checks: Record<string, (opened: Opened, server: Served) => Promise<void>> = {
+  "its data follow the schema": async ({ page }) => {
+    await running(page);
+    const data = await page.evaluate(() => document.getElementById("kinemark-data")?.textContent ?? "");
+    assert.deepEqual(problemsOf(JSON.parse(data)), []);
+  },
   "markers move in space and angles in their curves": async ({ page }) => {
     await running(page);
     assert.equal(await page.locator("#live-state").textContent(), "Live");

@@ -24,10 +24,6 @@ Status LiveRecorder::push(const stream::Frame& frame) {
   return status;
 }
 
-Status LiveRecorder::finish() {
-  if (auto s = writer_.close(); !s)
-    return fail(s.error().code, "the recording is not closed: " + s.error().message);
-  return {};
-}
+Status LiveRecorder::finish() { return writer_.close(); }
 
 }  // namespace kinemark::pipeline

@@ -94,15 +94,18 @@ data::Trajectories as_paths(const RatedMotion& read, const CoordinateRows& rows)
   return paths;
 }
 
-/// Rates of frames that were made between others are those of the lines between them, not of the movement.
+/// Rates of frames that were made between others are those of what made them, not of the movement.
 Status refuse_made_frames(const fs::path& path, const RatedMotion& read, const CoordinateRows& rows) {
-  const auto made = workflow::note_on_upsampling(as_paths(read, rows));
-  if (!made) return fail_at(path.string(), made.error());
-  if (made->empty()) return {};
-  return fail(Code::bad_input,
-              fmt::format("{}: {}, and rates between them are not those of the movement; solve "
-                          "the motion from what that leaves, or give --cutoff",
-                          path.string(), *made));
+  const auto factor = workflow::made_factor(as_paths(read, rows));
+  if (!factor) return fail_at(path.string(), factor.error());
+  if (*factor == 1) return {};
+  return fail(
+      Code::bad_input,
+      fmt::format("{}: {} of every {} frames were interpolated between the others, which come at {:g} "
+                  "Hz; their rates are not those of the movement. Solve the motion from the measured "
+                  "frames of its recording ('kinemark clean --upsampled decimate' leaves them), or give "
+                  "--cutoff",
+                  path.string(), *factor - 1, *factor, read.motion.time.rate_hz / *factor));
 }
 
 }  // namespace

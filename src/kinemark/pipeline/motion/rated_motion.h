@@ -30,7 +30,7 @@ struct RatedMotion {
 /// not hold, or Q_sd.sto has no number for, is not `determined`.
 ///
 /// Frames that were made between those that were measured, as a motion of an upsampled recording has them,
-/// are refused unless it is filtered here: rates would be those of the lines between.
+/// are refused unless it is filtered here: rates would be those of what made them.
 ///
 /// @param cutoff_hz  low-pass of the coordinates beforehand (Butterworth, third order, both ways); 0: none
 /// @return  Code::bad_input as the readers, coordinate_rows() and estimate_rates(), and for deviations of

@@ -25,9 +25,9 @@ class Gaps {
  public:
   Gaps(const SubjectOptions& options, std::size_t marker)
       : random_(internal::stream(options.seed, internal::Draw::gaps, 1 + marker)), rate_hz_(options.rate_hz) {
-    // Seen for 1 / begins_ frames in the mean, then hidden for the mean length of a gap.
+    // Seen for 1 / begins_ - 1 frames in the mean, then lost for the mean length of a gap.
     const double share = options.dropout_random;
-    begins_ = share / ((1.0 - share) * internal::mean_gap_s() * rate_hz_);
+    begins_ = share / (internal::mean_gap_frames(rate_hz_) * (1.0 - share) + share);
   }
   /// Whether the marker is lost in the next frame.
   bool next() {

@@ -43,8 +43,13 @@ TEST(SubjectSource, GivesTheFramesOfTheWholeSimulationToTheBit) {
 }
 
 TEST(SubjectSource, LosesTheShareThatIsAskedForInGapsOfTheSameLengths) {
-  for (const double share : {0.1, 0.5}) {
-    const SubjectOptions options{.duration_s = 60.0, .noise_sd_m = 0.0, .dropout_random = share};
+  struct Case {
+    double share, rate_hz;
+  };
+  for (const auto& [share, rate_hz] :
+       {Case{0.1, 100.0}, {0.5, 100.0}, {0.9, 100.0}, {0.5, 10.0}, {0.9, 30.0}, {0.2, 1.0}}) {
+    const SubjectOptions options{
+        .duration_s = 6000.0 / rate_hz, .rate_hz = rate_hz, .noise_sd_m = 0.0, .dropout_random = share};
     const auto source = source_of(options);
     const auto markers = source->facts().markers.size();
     std::vector<bool> before(markers, false);
@@ -56,8 +61,8 @@ TEST(SubjectSource, LosesTheShareThatIsAskedForInGapsOfTheSameLengths) {
         samples += 1.0, lost += is_lost, gaps += is_lost && !before[m];
         before[m] = is_lost;
       }
-    EXPECT_NEAR(lost / samples, share, 0.04);
-    if (share < 0.2) EXPECT_NEAR(lost / gaps / options.rate_hz, 0.192, 0.04) << "s, where gaps hardly touch";
+    EXPECT_NEAR(lost / samples, share, 0.03) << rate_hz << " Hz";
+    if (share == 0.1) EXPECT_NEAR(lost / gaps / options.rate_hz, 0.192, 0.04) << "s, where gaps hardly touch";
   }
 }
 

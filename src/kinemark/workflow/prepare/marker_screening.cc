@@ -176,12 +176,18 @@ std::vector<std::string> swap_sentences(const Screening& screening, const TimeBa
   return out;
 }
 
-Result<std::string> note_on_upsampling(const data::Trajectories& markers) {
+Result<int> made_factor(const data::Trajectories& markers) {
   const auto glimpse = glimpse_of(markers);
-  if (glimpse.markers() == 0) return std::string();
+  if (glimpse.markers() == 0) return 1;
   const auto found = trajectory::detect_upsampling(glimpse);
   if (!found) return std::unexpected(found.error());
-  return upsampling_sentence(found->factor(), markers.time.rate_hz);
+  return found->factor();
+}
+
+Result<std::string> note_on_upsampling(const data::Trajectories& markers) {
+  const auto factor = made_factor(markers);
+  if (!factor) return std::unexpected(factor.error());
+  return upsampling_sentence(*factor, markers.time.rate_hz);
 }
 
 Status leave_out_defects(data::Trial& trial, bool keep_defects,

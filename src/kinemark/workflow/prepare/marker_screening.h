@@ -65,8 +65,12 @@ struct Screening {
 /// trajectory::screen(), detect_upsampling() and keep_real_samples().
 [[nodiscard]] Result<Screening> screen_markers(data::Trial& trial, const ScreeningRules& rules);
 
+/// Of how many frames one was measured, where the others were made between those; 1: no frame was. Looks at
+/// 2,048 frames of 12 markers. Fails as trajectory::detect_upsampling().
+[[nodiscard]] Result<int> made_factor(const data::Trajectories& markers);
+
 /// That the recorder made frames between those that it measured, and at what rate it measured; empty where
-/// none are seen. Looks at 2,048 frames of 12 markers. Fails as trajectory::detect_upsampling().
+/// none are seen. As made_factor().
 [[nodiscard]] Result<std::string> note_on_upsampling(const data::Trajectories& markers);
 
 /// A sentence on each label swap that was exchanged back, and on each that stays, as edits have it.

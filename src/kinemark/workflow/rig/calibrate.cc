@@ -10,6 +10,7 @@
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/core/utf8.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/scan.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -26,10 +27,18 @@ struct Evidence {
   std::vector<GridObservations> grids;  ///< of every camera, or none
 };
 
-int camera_of(const data::Counts& counts, const data::Rig& rig) {
-  if (counts.cameras.size() != 1) return -1;
-  const auto found = std::ranges::find(rig.cameras, counts.cameras.front(), &data::Camera::name);
-  return found == rig.cameras.end() ? -1 : static_cast<int>(found - rig.cameras.begin());
+/// The only camera of a recording, as the rig counts its own.
+Result<int> camera_of(const ShownCounts& one, const data::Rig& rig) {
+  const auto& cameras = one.counts.cameras;
+  if (cameras.size() != 1)
+    return fail(Code::bad_input,
+                fmt::format("{}: a grid is recorded by one camera of the rig; this recording has {}",
+                            one.name, cameras.size()));
+  const auto found = std::ranges::find(rig.cameras, cameras.front(), &data::Camera::name);
+  if (found == rig.cameras.end())
+    return fail(Code::bad_input, fmt::format("{}: its camera '{}' is none of the rig", one.name,
+                                             printable(cameras.front(), 60)));
+  return static_cast<int>(found - rig.cameras.begin());
 }
 
 /// A recording that was cut off within a pose says how much of it is not used.
@@ -74,16 +83,13 @@ class Sorting {
                 out_.scan);
   }
   Status add(const ShownCounts& one, const ShownGrid& grid) {
-    const int camera = camera_of(one.counts, nominal_);
-    if (camera < 0)
-      return fail(Code::bad_input,
-                  fmt::format("{}: a grid is recorded by one camera of the rig; this recording has {}",
-                              one.name, one.counts.cameras.size()));
+    const auto camera = camera_of(one, nominal_);
+    if (!camera) return std::unexpected(camera.error());
     auto observed = calibration::grid_observations(
-        one.counts, nominal_, camera,
+        one.counts, nominal_, *camera,
         {.nodes = grid.nodes, .spacing_m = grid.spacing_m, .distance_m = grid.distance_m});
     if (!observed) return fail_at(one.name, observed.error());
-    seen_[at(camera)] = std::move(*observed);
+    seen_[at(*camera)] = std::move(*observed);
     return {};
   }
   Status keep(const ShownCounts& one, Result<StillPoses> poses, std::optional<StillPoses>& to) {

@@ -43,9 +43,9 @@ struct ShownScan {
 
 /// A recording of counts, and the thing of known size that it shows.
 struct ShownCounts {
-  std::string name;  ///< begins the sentences about it: a path, or what a program calls it
-  data::Counts counts;
-  std::variant<ShownTree, ShownGrid, ShownScan> shows;
+  std::string name;     ///< begins the sentences about it: a path, or what a program calls it
+  data::Counts counts;  ///< as recorded
+  std::variant<ShownTree, ShownGrid, ShownScan> shows;  ///< the thing, with its size
 };
 
 /// How a rig is calibrated.
@@ -71,7 +71,7 @@ struct Calibrated {
   std::optional<calibration::BundleReport>
       bundle;  ///< by bundle and scan, unless only the alignment is asked
   std::optional<calibration::Alignment> alignment;  ///< against the nominal rig, by bundle and scan
-  Remarks remarks;
+  Remarks remarks;  ///< what of the recordings is not used; the bound on chi2 per degree of freedom
 };
 
 /// Calibrate a rig. Of several trees, or scans, the last one counts. A model of the cameras that the counts

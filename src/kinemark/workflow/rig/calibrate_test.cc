@@ -142,6 +142,10 @@ TEST(Calibrate, WhatIsNotShownIsNamed) {
   two.counts = laboratory().tree.counts;
   EXPECT_THAT(refused({two}, CalibrateMethod::grid_lut, Code::bad_input),
               HasSubstr("grid: a grid is recorded by one camera of the rig; this recording has 2"));
+  two = laboratory().grids[0];
+  two.counts.cameras[0] = "C";
+  EXPECT_THAT(refused({two}, CalibrateMethod::grid_lut, Code::bad_input),
+              HasSubstr("grid: its camera 'C' is none of the rig"));
   EXPECT_EQ(to_string(CalibrateMethod::grid_lut), "grid-lut");
 }
 

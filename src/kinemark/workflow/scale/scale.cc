@@ -204,8 +204,6 @@ class Scaling {
 Status ScaleMethod::check() const {
   if (!std::isfinite(mass_kg) || mass_kg < 0.0)
     return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", mass_kg));
-  if (dempster && mass_kg == 0.0)
-    return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
   for (const double sd : {size_prior_sd, position_prior_sd_m, joint_prior_sd_m})
     if (!(sd > 0.0 && sd <= 1.0))
       return fail(Code::usage, fmt::format("a prior of {}; need above 0, at most 1", sd));
@@ -215,6 +213,8 @@ Status ScaleMethod::check() const {
 Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs,
                          const ScaleOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (options.dempster && options.mass_kg == 0.0 && !(options.recipe && options.recipe->mass_kg > 0.0))
+    return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
   if (auto s = check_inputs(inputs, options); !s) return std::unexpected(s.error());
   Scaling scaling(model, std::move(inputs), options);
   for (const auto step : {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials,

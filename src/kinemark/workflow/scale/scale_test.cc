@@ -362,6 +362,10 @@ TEST(Scale, SaysWhichOptionIsOutOfRange) {
   options = quick();
   options.dempster = true;
   EXPECT_THAT(refusal(by_motion(), options), HasSubstr("need the body mass"));
+  options.recipe = right_thigh();
+  options.recipe->mass_kg = 70.0;
+  options.place.emplace();
+  EXPECT_EQ(refusal(by_static_trial(), options), "it was scaled") << "the recipe has the mass";
   options = quick();
   options.size_prior_sd = 0.0;
   EXPECT_THAT(refusal(by_motion(), options), HasSubstr("a prior of 0"));

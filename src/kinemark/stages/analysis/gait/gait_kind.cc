@@ -33,6 +33,7 @@ constexpr double kTogether = 0.12;  // of a stride: strikes of both feet in a ju
 constexpr double kFlat = 0.2;       // of the usual speed: a foot that points somewhere
 constexpr double kFlat_s = 0.03, kLeastFoot_m = 0.03, kPelvisStep_s = 0.3;
 constexpr double kMovesOfMedian = 0.3, kAlong = 0.5, kStands_m_per_s = 0.05;
+constexpr double kUnevenBelt_m = 0.03;  // 1 mm on real belts, 40 and more where none is
 constexpr double kTurn_rad = std::numbers::pi / 4.0;
 
 // Where foot or pelvis points at a time, and where the body goes then.
@@ -86,6 +87,25 @@ class Kinds {
     return out.empty() ? kNaN : math::median(out);
   }
 
+  // How far the heights of two stances of a foot in a row scatter, one standard deviation by their median
+  // difference, m; NaN of too few. A belt that is raised or lowered differs little from one to the next.
+  [[nodiscard]] double uneven_m() const {
+    constexpr double kOfMedian = 1.05;  // a deviation over the median difference of two normal numbers
+    std::vector<double> steps;
+    for (const Side side : data::kBothSides) {
+      const auto& foot = paths_.foot(side);
+      double before = kNaN;
+      if (foot.present())
+        each_flat_span(side, [&](std::int64_t first, std::int64_t n) {
+          const double height =
+              foot.heel.col(2).segment(first, n).cwiseMin(foot.toe.col(2).segment(first, n)).mean();
+          if (std::isfinite(before)) steps.push_back(std::abs(height - before));
+          before = height;
+        });
+    }
+    return steps.empty() ? kNaN : kOfMedian * math::median(steps);
+  }
+
   // Speed over the ground and the middle velocity, where the pelvis is known.
   [[nodiscard]] std::pair<double, RowVector2d> speeds() const {
     std::vector<double> speed, x, y;
@@ -99,22 +119,29 @@ class Kinds {
   }
 
  private:
-  void add_stances(Side side, std::vector<Heading>& out) const {
-    const auto& foot = paths_.foot(side);
+  // Frames that a foot is flat in, one span a stance or part of one: visit(first, count).
+  template <class Visit>
+  void each_flat_span(Side side, const Visit& visit) const {
     if (steps_.foot(side).speed.size() == 0) return;
     const auto least = std::max<std::int64_t>(3, std::llround(kFlat_s * paths_.rate_hz));
     for (std::int64_t f = 0; f < paths_.frames(); ++f) {
       if (!flat(side, f)) continue;
       auto last = f;
       while (last + 1 < paths_.frames() && flat(side, last + 1)) ++last;
-      const auto n = last - f + 1;
-      const RowVector2d points = (foot.toe - foot.heel).block(f, 0, n, 2).colwise().mean();
-      if (n >= least && points.norm() >= kLeastFoot_m)
-        out.push_back({.frame = 0.5 * static_cast<double>(f + last),
-                       .points = points.normalized(),
-                       .goes = progress_.velocity.middleRows(f, n).colwise().mean()});
+      if (last - f + 1 >= least) visit(f, last - f + 1);
       f = last;
     }
+  }
+
+  void add_stances(Side side, std::vector<Heading>& out) const {
+    const auto& foot = paths_.foot(side);
+    each_flat_span(side, [&](std::int64_t first, std::int64_t n) {
+      const RowVector2d points = (foot.toe - foot.heel).block(first, 0, n, 2).colwise().mean();
+      if (points.norm() >= kLeastFoot_m)
+        out.push_back({.frame = static_cast<double>(first) + 0.5 * static_cast<double>(n - 1),
+                       .points = points.normalized(),
+                       .goes = progress_.velocity.middleRows(first, n).colwise().mean()});
+    });
   }
 
   void add_pelvis(std::vector<Heading>& out) const {
@@ -256,6 +283,12 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
         fmt::format("the feet land and leave {} times in all; need {}", events.size(), kLeastEvents);
   else if (lands_together(events, steps.stride_s))
     out.not_gait = "both feet land together, as in a jump";
+  else if (const double uneven_m = kinds.uneven_m(); out.belt && uneven_m > kUnevenBelt_m)
+    out.not_gait = fmt::format(
+        "the feet slide back as on a treadmill, but stand in heights that differ by {:.0f} mm from one "
+        "stance "
+        "to the next (standard deviation); need {:.0f} at most",
+        1e3 * uneven_m, 1e3 * kUnevenBelt_m);
   return out;
 }
 

@@ -165,6 +165,30 @@ TEST(GaitKind, WhatIsNoLocomotionIsSaidWhy) {
   EXPECT_TRUE(few);
 }
 
+TEST(GaitKind, ABeltIsOneFloor) {
+  KnownWalk walk;
+  walk.treadmill = true;
+  const auto on_belt = walk.markers(0.0003, 3);
+  EXPECT_EQ(judged(on_belt).kind.not_gait, "");
+  EXPECT_TRUE(judged(on_belt).kind.belt);
+  auto swings = on_belt;  // somebody who hangs, and moves the legs as in a walk
+  for (std::int64_t f = 0; f < swings.frames(); ++f)
+    for (std::int64_t m = 0; m < swings.markers(); ++m)
+      swings.x(f, m).z() += 0.12 * std::sin(2.0 * std::numbers::pi * 0.23 * swings.time.time_s(f));
+  EXPECT_THAT(judged(swings).kind.not_gait, HasSubstr("but stand in heights that differ by"));
+  for (const double rise_m : {0.02, 0.1}) {  // the belt's front goes up while somebody walks: 0.2 m in all
+    auto rising = on_belt;
+    for (std::int64_t f = 0; f < rising.frames(); ++f)
+      for (std::int64_t m = 0; m < rising.markers(); ++m)
+        rising.x(f, m).z() += rise_m < 0.05 ? rise_m * rising.time.time_s(f) : f > 300 ? rise_m : 0.0;
+    EXPECT_EQ(judged(rising).kind.not_gait, "") << rise_m;
+  }
+  const auto noisy = judged(walk.markers(0.01, 3)).kind;  // 10 mm of noise are no other floor
+  EXPECT_EQ(noisy.not_gait, "");
+  EXPECT_THAT(noisy.not_gait, Not(HasSubstr("but stand in heights that differ by")));
+  EXPECT_TRUE(noisy.belt);
+}
+
 TEST(GaitKind, WithoutHeelsAndPelvisTheDirectionIsNotSaid) {
   auto markers = KnownWalk{}.markers(0.0003, 3);
   markers.names = {"X1", "LTOE", "X2", "RTOE", "SACR"};

@@ -101,7 +101,14 @@ double second_best(const Vector3d& marker, const Vector3d& outward, int own_segm
 
 }  // namespace
 
-double mean_gap_s() { return kShortShare * kShortGap_s + (1.0 - kShortShare) * kLongGap_s; }
+double mean_gap_frames(double rate_hz) {
+  // One frame, and one more for each k >= 1 that a gap is longer than k + 0.5 frames.
+  const auto more = [rate_hz](double mean_s) {
+    const double mean = mean_s * rate_hz;
+    return std::exp(-1.5 / mean) / (1.0 - std::exp(-1.0 / mean));
+  };
+  return 1.0 + kShortShare * more(kShortGap_s) + (1.0 - kShortShare) * more(kLongGap_s);
+}
 
 std::int64_t draw_gap_frames(Random& random, double rate_hz) {
   const double mean_s = random.uniform() < kShortShare ? kShortGap_s : kLongGap_s;

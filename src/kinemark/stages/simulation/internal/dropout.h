@@ -16,8 +16,8 @@ namespace kinemark::simulation::internal {
 /// One flag per marker-frame, frame first: 1 where the marker is lost.
 using Lost = std::vector<std::uint8_t>;
 
-/// Mean duration of a random gap, s.
-[[nodiscard]] double mean_gap_s();
+/// Mean of draw_gap_frames().
+[[nodiscard]] double mean_gap_frames(double rate_hz);
 
 /// Frames of one random gap: two numbers of `random`. Seven of ten gaps last 0.06 s on average, the others
 /// 0.5 s, both exponentially distributed, one frame at least.

@@ -31,7 +31,8 @@ Status keep_measured(ScaleTrial& trial) {
   const auto screening =
       screen_markers(recording.trial, {.recorder_made = RecorderMade::decimate, .find_defects = false});
   if (!screening) return fail_at(trial.where, screening.error());
-  recording.notes.push_back(*made + "; sizes are found from measured frames alone");
+  if (screening->upsampling->factor() > 1)
+    recording.notes.push_back(*made + "; sizes are found from measured frames alone");
   return {};
 }
 
