@@ -748,7 +748,7 @@ export interface CalibrateResult {
   /** Sightings left out. */ outliers?: number;
   /** RMS error of the tree's sides, triangulated without it. */ side_rms_mm?: number | null;
   /** The rig against its nominal poses. */ alignment?: Alignment;
-  /** The first file that was written: the rig's, or the page where no rig was found. */ written?: string;
+  /** The rig's file, where one was found. */ written?: string;
   /** One sentence each. */ warnings: string[];
   /** One per camera. */ cameras: CalibratedCamera[];
 }

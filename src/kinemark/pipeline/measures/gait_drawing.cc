@@ -13,6 +13,7 @@
 #include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/recording_name.h"
+#include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
@@ -28,9 +29,9 @@ void add_recorded_kinetics(const data::Recording& recording, const analysis::Gai
 Result<GaitDrawing> GaitDrawing::begin(GaitDrawingJob job, Staging& staging) {
   GaitDrawing out;
   if (auto s = job.gait.check(true); !s) return std::unexpected(s.error());
-  if (!(job.level > 0.5 && job.level < 1.0))
-    return fail(Code::usage,
-                fmt::format("intervals of level {:g}; need one above 0.5 and below 1", job.level));
+  const analysis::PathMeasureOptions intervals{
+      .refits = job.refits, .noise_sd_m = job.noise_sd_m, .level = job.level};
+  if (auto s = intervals.check(); !s) return std::unexpected(s.error());
   auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   out.formats_ = std::move(*formats);

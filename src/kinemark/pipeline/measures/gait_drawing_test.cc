@@ -145,6 +145,10 @@ TEST_F(GaitDrawingTest, ALevelThatIsNoneIsRefused) {
     EXPECT_EQ(begun.error().code, Code::usage);
     EXPECT_THAT(begun.error().message, HasSubstr("need one above 0.5 and below 1"));
   }
+  job_.level = 0.95;
+  job_.refits = 20;  // too few for an interval
+  EXPECT_THAT(GaitDrawing::begin(job_, staging).error().message,
+              HasSubstr("need 0 (no intervals) or at least 39"));
 }
 
 TEST_F(GaitDrawingTest, WhoDoesNotWalkIsNotDrawn) {

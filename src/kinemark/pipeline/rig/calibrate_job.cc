@@ -133,6 +133,7 @@ Result<CalibrateOutcome> write(const CalibrateJob& job, Staging& staging, const 
                                const std::optional<data::Rig>& found, CalibrateOutcome out) {
   std::vector<ResultFile> files;
   if (found) {
+    out.has_rig = true;
     out.written = {job.output};  // as the page says
     files.push_back({job.output, [&found](const fs::path& staged, const std::string&) {
                        return io::write_rig(staged, *found, false);

@@ -29,8 +29,9 @@ struct CalibrateJob : JobSettings {
 /// What `kinemark calibrate` found.
 struct CalibrateOutcome : JobOutcome {
   workflow::CalibrateMethod method = workflow::CalibrateMethod::bundle;  ///< as asked
-  std::optional<calibration::BundleReport> bundle;                       ///< as workflow::Calibrated
-  std::optional<calibration::Alignment> alignment;                       ///< likewise
+  bool has_rig = false;                             ///< a rig was found and is the first file that is written
+  std::optional<calibration::BundleReport> bundle;  ///< as workflow::Calibrated
+  std::optional<calibration::Alignment> alignment;  ///< likewise
 };
 
 /// Calibrate and write the rig. A model of the cameras that the recordings contradict misses the gate

@@ -117,11 +117,12 @@ TEST_F(CalibrateJobTest, AlignmentWritesNothing) {
   auto job = bundle("none.toml");
   job.options.align_only = true;
   job.inputs = {lab("tree_poses.mcap")};
+  job.report = fresh("none.html");
   const auto outcome = run_calibrate(job);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_FALSE(outcome->alignment->next.empty());
   EXPECT_FALSE(fs::exists(fresh("none.toml")));
-  EXPECT_TRUE(outcome->written.empty());
+  EXPECT_EQ(outcome->written, std::vector{fresh("none.html")}) << "the page alone";
   const auto json = calibrate_json(*outcome);
   EXPECT_FALSE(json.contains("written"));
   EXPECT_FALSE(json.contains("chi2_per_dof"));

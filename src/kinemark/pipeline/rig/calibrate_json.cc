@@ -39,7 +39,7 @@ Json calibrate_json(const CalibrateOutcome& outcome) {
     json["side_rms_mm"] = 1e3 * outcome.bundle->side_rms_m;
   }
   if (outcome.alignment) json["alignment"] = alignment_json(*outcome.alignment);
-  if (!outcome.written.empty()) json["written"] = outcome.written.front().string();
+  if (outcome.has_rig) json["written"] = outcome.written.front().string();
   json["warnings"] = outcome.warnings;
   return json;
 }

@@ -124,6 +124,7 @@ workflow::SegmentsOptions options_of(const SegmentsJob& job, const Files& files)
   if (files.static_trial) out.static_trial = &*files.static_trial;
   for (const auto& [name, trial] : files.trials) out.trials.push_back({name, &trial});
   out.name = job.input.filename().string();
+  out.where = job.input.string();
   out.static_name = job.static_trial.filename().string();
   out.noise_sd_m = job.noise_sd_m;
   out.drop_doubtful = job.drops_doubtful(true);
@@ -160,7 +161,7 @@ Status find(const SegmentsJob& job, const analysis::SegmentDefinition& definitio
   auto options = options_of(job, *files);
   if (auto s = read_values(job, definition, options, outcome); !s) return s;
   auto found = workflow::segments(definition, files->recording, options);
-  if (!found) return fail_at(job.input.string(), found.error());
+  if (!found) return std::unexpected(found.error());
   take(std::move(*found), *files, outcome);
   return {};
 }

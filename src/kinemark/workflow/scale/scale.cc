@@ -29,6 +29,9 @@ Status check_inputs(const ScaleInputs& inputs, const ScaleOptions& options) {
     return fail(Code::usage, "a recipe that measures, but no recording to measure in");
   if (options.place && !options.recipe)
     return fail(Code::usage, "how markers are placed is asked beside a recipe only");
+  if (inputs.still && options.recipe && !options.place && !(measures && !inputs.measured))
+    return fail(Code::usage,
+                "a static trial, but the recipe neither measures in it nor places markers by it");
   if (options.place && !inputs.still)
     return fail(Code::usage, "markers are to be placed, but there is no static trial");
   if (inputs.joints && !inputs.motion && (!inputs.still || options.recipe))
@@ -201,9 +204,11 @@ class Scaling {
 
 }  // namespace
 
-Status ScaleMethod::check() const {
+Status ScaleMethod::check(double recipe_mass_kg) const {
   if (!std::isfinite(mass_kg) || mass_kg < 0.0)
     return fail(Code::usage, fmt::format("a mass of {} kg; need a number above 0", mass_kg));
+  if (dempster && mass_kg == 0.0 && !(recipe_mass_kg > 0.0))
+    return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
   for (const double sd : {size_prior_sd, position_prior_sd_m, joint_prior_sd_m})
     if (!(sd > 0.0 && sd <= 1.0))
       return fail(Code::usage, fmt::format("a prior of {}; need above 0, at most 1", sd));
@@ -212,9 +217,8 @@ Status ScaleMethod::check() const {
 
 Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs,
                          const ScaleOptions& options) {
-  if (auto s = options.check(); !s) return std::unexpected(s.error());
-  if (options.dempster && options.mass_kg == 0.0 && !(options.recipe && options.recipe->mass_kg > 0.0))
-    return fail(Code::usage, "Dempster's fractions need the body mass; give --mass");
+  if (auto s = options.check(options.recipe ? options.recipe->mass_kg : 0.0); !s)
+    return std::unexpected(s.error());
   if (auto s = check_inputs(inputs, options); !s) return std::unexpected(s.error());
   Scaling scaling(model, std::move(inputs), options);
   for (const auto step : {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials,

@@ -35,8 +35,9 @@ struct ScaleMethod {
   motion::AdaptOptions adapt;         ///< of the fit of sizes; its `joints` are set by scale()
   double max_rms_m = 0.05;            ///< quality gate: RMS distance of measured and model markers
 
-  /// Code::usage for a mass below 0, and for priors that are not above 0 and at most 1.
-  [[nodiscard]] Status check() const;
+  /// Code::usage for a mass below 0 or none for Dempster's fractions, for priors that are not above 0 and at
+  /// most 1. @param recipe_mass_kg  of a recipe beside it; 0: none
+  [[nodiscard]] Status check(double recipe_mass_kg = 0.0) const;
 };
 
 /// What is asked of scale().

@@ -350,8 +350,13 @@ TEST(Scale, SaysWhatIsMissingOrWithoutUse) {
   EXPECT_THAT(refusal(by_static_trial(), options), HasSubstr("beside a recipe only"));
   options.recipe.emplace();
   EXPECT_THAT(refusal(by_motion(), options), HasSubstr("there is no static trial"));
+  options = quick();
+  options.recipe.emplace();
+  EXPECT_THAT(refusal(by_static_trial(), options),
+              HasSubstr("neither measures in it nor places markers by it"));
   inputs = by_static_trial();
   inputs.joints.emplace();
+  options.place.emplace();
   EXPECT_THAT(refusal(inputs, options), HasSubstr("a model that is adapted"));
 }
 

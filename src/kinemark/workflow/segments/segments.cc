@@ -17,6 +17,10 @@
 namespace kinemark::workflow {
 namespace {
 
+const std::string& where_of(const SegmentsOptions& options) {
+  return options.where.empty() ? options.name : options.where;
+}
+
 bool is_own_static(const data::Recording& recording, const SegmentsOptions& options) {
   return options.static_trial == &recording;
 }
@@ -37,7 +41,7 @@ Status screen_all(const data::Recording& recording, const SegmentsOptions& optio
   if (auto s = leave_out_defects(found.used.trial, !options.drop_doubtful, recording.edits.swapped,
                                  found.screening.recording);
       !s)
-    return s;
+    return fail_at(where_of(options), s.error());
   if (options.static_trial != nullptr && !is_own_static(recording, options)) {
     auto still = screened(*options.static_trial, options, options.static_name, found.screening.static_trial);
     if (!still) return std::unexpected(still.error());
@@ -130,7 +134,7 @@ Result<SegmentsFound> segments(const analysis::SegmentDefinition& definition,
   auto input = points_of(definition, options, is_own_static(recording, options), found.used.trial, trials,
                          found.remarks.warnings);
   find_values(definition, options, trials, found, input);
-  if (auto s = compute(definition, options, input, found); !s) return std::unexpected(s.error());
+  if (auto s = compute(definition, options, input, found); !s) return fail_at(where_of(options), s.error());
   auto& warnings = found.remarks.warnings;
   std::ranges::copy(found.motion.warnings, std::back_inserter(warnings));
   std::ranges::move(found.comparison.findings(), std::back_inserter(warnings));

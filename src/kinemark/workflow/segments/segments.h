@@ -34,7 +34,8 @@ struct SegmentsOptions {
   std::vector<analysis::SubjectValue> given;     ///< measures of the subject, SI; taken first
   std::vector<analysis::SubjectValue> known;     ///< of a file of the subject; before those of recordings
   std::string name = "the recording";            ///< what sentences call the recording by
-  std::string static_name = "the static trial";  ///< and the static trial
+  std::string where = {};                        ///< in front of errors of the recording; empty: the name
+  std::string static_name = "the static trial";  ///< what sentences call the static trial by
   double noise_sd_m = 0.0;    ///< per axis; 0: the markers' covariance, else found from the samples
   bool drop_doubtful = true;  ///< samples that are surely swapped, stuck or false are not used
   std::int64_t refits = 99;   ///< behind deviations of loads; 0: none
@@ -68,8 +69,9 @@ struct SegmentsFound {
 /// Up is Recording::up, else as the plates or the file have it, else z. Static trials have no loads. Edits
 /// of the recordings that swap markers stay (leave_out_defects()).
 ///
-/// Code::usage and Code::bad_input as analysis::compute_segments() and find_joint_loads(). Cost: that of
-/// compute_segments(), a few times where outputs differ and causes are tried.
+/// Code::usage and Code::bad_input as analysis::compute_segments() and find_joint_loads(), naming the
+/// recording that they are of. Cost: that of compute_segments(), a few times where outputs differ and causes
+/// are tried.
 [[nodiscard]] Result<SegmentsFound> segments(const analysis::SegmentDefinition& definition,
                                              const data::Recording& recording,
                                              const SegmentsOptions& options = {});

@@ -8,6 +8,8 @@
 #include <bit>
 #include <numbers>
 
+#include "kinemark/workflow/segments/testing/subject_measures.h"
+
 namespace kinemark::workflow {
 namespace {
 
@@ -15,15 +17,6 @@ using analysis::SubjectQuantity;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-analysis::SegmentDefinition measures() {
-  analysis::SegmentDefinition d;
-  d.parameters.push_back(
-      {.name = "LLegLength", .also = {"LeftLegLength"}, .quantity = SubjectQuantity::length});
-  d.parameters.push_back({.name = "LThighRotation", .quantity = SubjectQuantity::angle});
-  d.parameters.push_back({.name = "Bodymass", .quantity = SubjectQuantity::mass});
-  return d;
-}
 
 data::ForeignParameter number(const std::string& name, float value) {
   data::ForeignParameter out{.name = name, .type = 4, .dims = {1}};
@@ -42,14 +35,14 @@ TEST(SubjectValues, AreReadFromAC3dFilesProcessing) {
                    {.name = "PROCESSING",
                     .parameters = {number("LeftLegLength", 920.0F), number("Unknown", 3.0F), text,
                                    number("LThighRotation", 0.25F)}}};
-  const auto values = subject_values(trial, measures());
+  const auto values = subject_values(trial, subject_measures());
   ASSERT_EQ(values.size(), 2U);
   EXPECT_EQ(values[0].name, "LLegLength");
   EXPECT_NEAR(values[0].value, 0.92, 1e-12);
   EXPECT_EQ(values[0].from, "walk.c3d");
   EXPECT_DOUBLE_EQ(values[1].value, 0.25);
   trial.foreign[1].parameters[0].values.pop_back();
-  EXPECT_EQ(subject_values(trial, measures()).size(), 1U);
+  EXPECT_EQ(subject_values(trial, subject_measures()).size(), 1U);
 }
 
 TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
@@ -58,7 +51,7 @@ TEST(SubjectValues, AreReadFromWholeNumbersOfAC3dFileToo) {
   data::ForeignParameter leg{.name = "LLegLength", .type = 2, .dims = {1}};
   leg.values = {std::byte{0x98}, std::byte{0x03}};  // 920
   trial.foreign = {{.name = "PROCESSING", .parameters = {leg}}};
-  const auto values = subject_values(trial, measures());
+  const auto values = subject_values(trial, subject_measures());
   ASSERT_EQ(values.size(), 1U);
   EXPECT_NEAR(values[0].value, 0.92, 1e-12);
 }
@@ -83,7 +76,7 @@ TEST(SubjectValues, MendedUnitsAreSaidAndRightOnesAreNot) {
     std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"},
                                                {"LThighRotation", turn, "a.c3d"}};
     std::vector<std::string> out;
-    mend_units(values, measures(), out);
+    mend_units(values, subject_measures(), out);
     return out;
   };
   EXPECT_THAT(notes(0.92, 12.0),
@@ -98,7 +91,7 @@ TEST(SubjectValues, MendedUnitsAreSaidAndRightOnesAreNot) {
 TEST(SubjectValues, LengthsThatNoFactorMendsStayAsTheyAre) {
   std::vector<analysis::SubjectValue> values{{"LLegLength", 3.0e-7, "a.c3d"}};
   std::vector<std::string> notes;
-  mend_units(values, measures(), notes);
+  mend_units(values, subject_measures(), notes);
   EXPECT_EQ(values[0].value, 3.0e-7);
   EXPECT_TRUE(notes.empty());
 }
@@ -118,7 +111,7 @@ TEST(SubjectValues, AreMendedWhereNoBodyHasThem) {
     std::vector<analysis::SubjectValue> values{{"LLegLength", leg, "a.c3d"},
                                                {"LThighRotation", turn, "a.c3d"}};
     std::vector<std::string> warnings;
-    mend_units(values, measures(), warnings);
+    mend_units(values, subject_measures(), warnings);
     EXPECT_EQ(warnings.size(), notes);
     return std::pair(values[0].value, values[1].value);
   };
