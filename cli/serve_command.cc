@@ -165,9 +165,10 @@ int serve(const CommonOptions& common, ServeArguments& arguments) {
   const auto address = [&tls, host = keys->hosts.front()](const std::string& token) {
     return fmt::format("{}://{}/?token={}", *tls ? "https" : "http", host, token);
   };
+  // The address comes last: whoever waits for it may end the server at once.
+  say(common, "the address, with its token, lets in whoever has it; Ctrl-C ends the server");
   print_result(address(keys->token) + "\n");
   if (output_failed()) return 0;  // which main() reports
-  say(common, "this address, with its token, lets in whoever has it; Ctrl-C ends the server");
   if (opens && !server::open_browser(address(keys->opening)))
     say(common, "note: no browser could be opened; open the address by hand");
   if (live) return serve_live(**http, std::move(*keys), **source, std::move(*feed));

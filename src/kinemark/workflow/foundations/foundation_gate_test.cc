@@ -36,6 +36,15 @@ data::Trajectories standing() {
   return out;
 }
 
+void exchange(data::Trajectories& trial, const std::string& one, const std::string& other) {
+  const auto i = trial.find(one), j = trial.find(other);
+  for (std::int64_t f = 0; f < trial.frames(); ++f) {
+    const Vector3d kept = trial.x(f, i);
+    trial.x(f, i) = trial.x(f, j);
+    trial.x(f, j) = kept;
+  }
+}
+
 TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
   Remarks remarks;
   const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), standing(), {}, remarks);
@@ -72,12 +81,7 @@ TEST(FoundationGate, SaysWhereTheTrialMoves) {
 
 TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
   auto trial = standing();
-  const auto toe = trial.find("LTOE"), heel = trial.find("LHEE");
-  for (std::int64_t f = 0; f < trial.frames(); ++f) {
-    const Vector3d kept = trial.x(f, toe);
-    trial.x(f, toe) = trial.x(f, heel);
-    trial.x(f, heel) = kept;
-  }
+  exchange(trial, "LTOE", "LHEE");
   Remarks remarks;
   const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, remarks);
   ASSERT_TRUE(judged) << judged.error().message;
@@ -94,14 +98,8 @@ TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
 
 TEST(FoundationGate, NamesEachOfTwoExchanges) {
   auto trial = standing();
-  for (const auto& [a, b] : {std::pair{"LTOE", "LHEE"}, std::pair{"RASI", "RPSI"}}) {
-    const auto i = trial.find(a), j = trial.find(b);
-    for (std::int64_t f = 0; f < trial.frames(); ++f) {
-      const Vector3d kept = trial.x(f, i);
-      trial.x(f, i) = trial.x(f, j);
-      trial.x(f, j) = kept;
-    }
-  }
+  exchange(trial, "LTOE", "LHEE");
+  exchange(trial, "RASI", "RPSI");
   Remarks remarks;
   const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, remarks);
   ASSERT_TRUE(judged) << judged.error().message;
