@@ -56,7 +56,7 @@ def check_words():
 def numbers_of(path):
     """Lines of a result, without names of its input and of its set of files."""
     text = re.sub(r"walk\.(c3d|mat|nwb|csv)", "walk", path.read_text())
-    return [line for line in text.splitlines() if line and not line.startswith(("#", "kinemark_set"))]
+    return [line for line in text.splitlines() if line and not line.startswith(("#", "kinemark_s"))]
 
 
 def results(folder, name):

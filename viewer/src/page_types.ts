@@ -16,6 +16,7 @@ export interface IkPage {
 /** `Q_report.json`; a page holds the same, without the set. */
 export interface IkSummary {
   /** Digest that the files of one run share, 16 hexadecimal digits; in the file alone. */ kinemark_set?: string;
+  /** Checksum of the file, 16 hexadecimal digits; in the file alone. */ kinemark_sum?: string;
   /** Which report this is. */ schema: "kinemark.ik_report";
   /** It counts up when a member changes its meaning or goes away. Version 1 counted frames from 0. */ schema_version: 2;
   /** Name of the recording for people. */ trial: string;
@@ -152,6 +153,7 @@ export interface CleanPage {
 /** The report file; a page holds the same, without the set. */
 export interface CleanSummary {
   /** Digest that the files of one run share, 16 hexadecimal digits; in the file alone. */ kinemark_set?: string;
+  /** Checksum of the file, 16 hexadecimal digits; in the file alone. */ kinemark_sum?: string;
   /** Which report this is. */ schema: "kinemark.clean_report";
   /** It counts up when a member changes its meaning or goes away. */ schema_version: 2;
   /** Name of the recording for people. */ trial: string;
@@ -506,6 +508,7 @@ export interface MeasuresPage {
 /** Segments, joints and lengths. */
 export interface JointsResult {
   /** Digest that the files of one run share, 16 hexadecimal digits; in the file alone. */ kinemark_set?: string;
+  /** Checksum of the file, 16 hexadecimal digits; in the file alone. */ kinemark_sum?: string;
   /** Which document this is. */ schema: "kinemark.skeleton";
   /** It counts up when a member changes its meaning. Version 1 counted frames from 0. */ schema_version: 2;
   /** Frames of the recording, F. */ frames: number;
@@ -640,6 +643,7 @@ export interface MarkerNoise {
 /** A model made to fit a subject. */
 export interface ScaleResult {
   /** Digest that the files of one run share, 16 hexadecimal digits; in the file alone. */ kinemark_set?: string;
+  /** Checksum of the file, 16 hexadecimal digits; in the file alone. */ kinemark_sum?: string;
   /** Which document this is. */ format: "kinemark-scale";
   /** Its version. */ version: 1;
   /** Version of the program. */ program: string;

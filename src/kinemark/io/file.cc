@@ -6,13 +6,16 @@
 #include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
+#include "kinemark/core/check.h"
 #include "kinemark/io/place.h"
 #include "kinemark/io/regular_file.h"
+#include "kinemark/io/seal.h"
 
 namespace kinemark::io {
 namespace {
@@ -97,7 +100,10 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& path, bool fo
   return OutputFile(path, std::move(*target), force, std::move(*temporary));
 }
 
+void OutputFile::Free::operator()(XXH3_state_s* state) const { XXH3_freeState(state); }
+
 Status OutputFile::write(std::span<const std::byte> bytes) {
+  if (sum_) XXH3_64bits_update(sum_.get(), bytes.data(), bytes.size());
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::write(temporary_.fd(), bytes.data() + done, bytes.size() - done);
@@ -110,7 +116,22 @@ Status OutputFile::write(std::span<const std::byte> bytes) {
 
 Status OutputFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
 
+Status OutputFile::write_sealed(std::string_view text) {
+  sum_at_ = find_sum(text);
+  check(sum_at_ != std::string_view::npos && !sum_,
+        "OutputFile::write_sealed: the text holds no place of a sum");
+  sum_.reset(XXH3_createState());
+  XXH3_64bits_reset(sum_.get());
+  return write(text);
+}
+
 Status OutputFile::commit() {
+  if (sum_) {
+    const auto digits = fmt::format("{:016x}", XXH3_64bits_digest(sum_.get()));
+    if (::pwrite(temporary_.fd(), digits.data(), digits.size(), static_cast<off_t>(sum_at_)) !=
+        static_cast<ssize_t>(digits.size()))
+      return fail(Code::io, fmt::format("{}: cannot be written ({})", name_.string(), reason()));
+  }
   if (::fsync(temporary_.fd()) != 0)
     return fail(Code::io, fmt::format("{}: cannot be written ({})", name_.string(), reason()));
   {
@@ -126,6 +147,13 @@ Status write_text(const std::filesystem::path& path, std::string_view text, bool
   auto file = OutputFile::create(path, force);
   if (!file) return std::unexpected(file.error());
   if (auto status = file->write(text); !status) return status;
+  return file->commit();
+}
+
+Status write_sealed_text(const std::filesystem::path& path, std::string_view text, bool force) {
+  auto file = OutputFile::create(path, force);
+  if (!file) return std::unexpected(file.error());
+  if (auto status = file->write_sealed(text); !status) return status;
   return file->commit();
 }
 

@@ -4,12 +4,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "kinemark/core/result.h"
 #include "kinemark/io/temporary.h"
+
+struct XXH3_state_s;
 
 namespace kinemark::io {
 
@@ -57,6 +60,9 @@ class OutputFile {
   [[nodiscard]] Status write(std::span<const std::byte> bytes);
   /// Append text, byte by byte as it is.
   [[nodiscard]] Status write(std::string_view text);
+  /// The first text of a file, which holds the place of a sum (kSumKey and kNoSum, io/seal.h): commit() puts
+  /// the checksum of the whole file there.
+  [[nodiscard]] Status write_sealed(std::string_view text);
   /// Make the file appear under its name, on the disk for good. Code::io when that fails: then there is none.
   [[nodiscard]] Status commit();
   /// The file as it is called until commit(), for libraries that must open it by name. They may change its
@@ -69,9 +75,17 @@ class OutputFile {
   std::filesystem::path target_;  ///< with links followed
   bool force_ = false;
   Temporary temporary_;
+  std::size_t sum_at_ = 0;  ///< where its digits go
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> sum_;  ///< of all that was written; none: it is not sealed
 };
 
 /// create(), write() and commit() in one call.
 [[nodiscard]] Status write_text(const std::filesystem::path& path, std::string_view text, bool force);
+
+/// The same with write_sealed().
+[[nodiscard]] Status write_sealed_text(const std::filesystem::path& path, std::string_view text, bool force);
 
 }  // namespace kinemark::io

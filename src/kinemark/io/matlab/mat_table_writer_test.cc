@@ -41,7 +41,9 @@ TEST(MatTable, EveryNumberIsInItsColumn) {
   const auto values = table("data").frame_first(3, 2, 1).value();
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(std::isnan(values[i]), i == 3) << i;
-    if (i != 3) EXPECT_EQ(values[i], sample().values[i]) << i;
+    if (i != 3) {
+      EXPECT_EQ(values[i], sample().values[i]) << i;
+    }
   }
   EXPECT_TRUE(std::signbit(values[5]));
 }

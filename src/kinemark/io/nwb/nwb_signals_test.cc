@@ -209,7 +209,9 @@ class HostileSignals : public ::testing::Test {
       spoil(module.id());
     }
     const auto read = internal::read_nwb_here(scratch_ / "small.nwb");
-    if (read) EXPECT_TRUE(read->trial.validate());
+    if (read) {
+      EXPECT_TRUE(read->trial.validate());
+    }
     if (read) return "was read";
     EXPECT_EQ(read.error().code, Code::bad_input);
     EXPECT_EQ(read.error().message.find('\n'), std::string::npos);

@@ -36,7 +36,9 @@ void expect_values(const PoseTable& table, std::size_t people, bool score_of_mis
         const double x = 100.0 * static_cast<double>(p) + 10.0 * m + f;
         EXPECT_EQ(std::isnan(value[0]), missing);
         EXPECT_EQ(std::isnan(value[1]), missing);
-        if (missing && !score_of_missing) EXPECT_TRUE(std::isnan(value[2]));
+        if (missing && !score_of_missing) {
+          EXPECT_TRUE(std::isnan(value[2]));
+        }
         if (missing) continue;
         EXPECT_EQ(value[0], x);
         EXPECT_EQ(value[1], x + 0.5);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "kinemark/core/result.h"
@@ -14,6 +15,7 @@ namespace kinemark::io {
 /// nColumns, inDegrees) and version 3 (DataType=double, or VecN whose cells "1,2,3" become the columns
 /// name_1, name_2, name_3), and tables that begin with the line of labels (warning).
 ///
+/// A table whose checksum does not fit its content is read, with a warning.
 /// Values are as written; blank and NaN cells are NaN. Where the header's counts differ from the labels and
 /// rows, the labels and rows are used (warning). A row that repeats the time of the row before is left out
 /// (warning). Jumps of an even time column and values that nothing measured can be are warnings. A blank
@@ -37,13 +39,13 @@ struct TableWriteOptions {
   bool force = false;  ///< replace a file that exists
   int version = 1;     ///< 1 (read by every OpenSim) or 3
   int decimals = -1;   ///< digits after the point, 0 to 17; -1: the shortest that read back exactly
+  std::string set;     ///< that the file belongs to: then it names it and holds its own checksum; empty: none
 };
 
-/// Write a table as OpenSim reads it. Header lines that the table carries are kept, except those that count
-/// or version; inDegrees is written as angles_are_degrees(), and left out where it is no and the input did
-/// not state it. An empty name becomes the file's. Code::bad_input when the table is invalid or a name holds
-/// a tab or
-/// line end; Code::io as OutputFile.
+/// Write a table as OpenSim reads it. Header lines that the table carries are kept, except those that count,
+/// version, name a set or sum up; inDegrees is written as angles_are_degrees(), and left out where it is no
+/// and the input did not state it. An empty name becomes the file's. Code::bad_input when the table is
+/// invalid or a name holds a tab or line end; Code::io as OutputFile.
 [[nodiscard]] Status write_table(const std::filesystem::path& path, const data::Table& table,
                                  const TableWriteOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/io/seal.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
 #include "kinemark/io/text/internal/table_values.h"
@@ -153,6 +154,7 @@ Result<data::Table> parse_table(std::string_view text) {
 Result<data::Table> parse_table(std::string_view text, std::string_view name) {
   auto table = parse_table(text);
   if (!table) return fail_at(name, table.error());
+  if (check_seal(text) == Seal::broken) table->warnings.push_back(broken_seal());
   return table;
 }
 

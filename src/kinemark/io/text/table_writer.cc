@@ -8,6 +8,8 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/number.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/seal.h"
+#include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
 #include "kinemark/io/text/table_file.h"
@@ -32,10 +34,13 @@ Status check_texts(const data::Table& table) {
   return {};
 }
 
-std::string header_text(const std::filesystem::path& path, const data::Table& table, int version) {
+std::string header_text(const std::filesystem::path& path, const data::Table& table,
+                        const TableWriteOptions& options) {
+  const int version = options.version;
   std::string out = (table.name.empty() ? path.stem().string() : table.name) + "\n";
   if (version == 1)
     out += fmt::format("version=1\nnRows={}\nnColumns={}\n", table.rows(), table.columns.size() + 1);
+  if (!options.set.empty()) out += fmt::format("{}\n{}={}\n", set_mark(options.set), kSumKey, kNoSum);
   // A SIMM header without a statement means degrees; without the header the new file would mean radians.
   if (table.degrees_stated || angles_are_degrees(table))
     out += angles_are_degrees(table) ? "inDegrees=yes\n" : "inDegrees=no\n";
@@ -62,7 +67,9 @@ Status write_table(const std::filesystem::path& path, const data::Table& table,
   if (auto status = check_texts(table); !status) return fail_at(path.string(), status.error());
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());
-  if (auto status = file->write(header_text(path, table, options.version)); !status) return status;
+  const auto header = header_text(path, table, options);
+  if (auto status = options.set.empty() ? file->write(header) : file->write_sealed(header); !status)
+    return status;
   fmt::memory_buffer out;
   const auto end = std::back_inserter(out);
   const auto put = [&](double value) {

@@ -10,6 +10,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
+#include "kinemark/io/seal.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
 #include "kinemark/io/text/internal/time_column.h"
@@ -280,6 +281,7 @@ Result<data::Trial> parse(std::string_view text) {
 Result<data::Trial> parse_trc(std::string_view text, std::string_view name) {
   auto trial = parse(text);
   if (!trial) return fail_at(name, trial.error());
+  if (check_seal(text) == Seal::broken) trial->warnings.push_back(broken_seal());
   trial->source = name;
   return trial;
 }

@@ -7,7 +7,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/io/file.h"
-#include "kinemark/io/set_mark.h"
+#include "kinemark/io/seal.h"
 #include "kinemark/io/text/trc.h"
 
 namespace kinemark::io {
@@ -24,8 +24,8 @@ std::string header_text(const std::filesystem::path& path, const data::Trial& tr
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n"
       "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n"
       "Frame#\tTime",
-      path.filename().string(), options.set.empty() ? "" : "\t" + set_mark(options.set), markers.time.rate_hz,
-      markers.time.rate_hz, markers.frames(), markers.markers(),
+      path.filename().string(), options.set.empty() ? "" : "\t" + sealed_mark(options.set),
+      markers.time.rate_hz, markers.time.rate_hz, markers.frames(), markers.markers(),
       options.units == LengthUnit::metre ? "m" : "mm", markers.time.rate_hz, trial.first_frame,
       markers.frames());
   // Three cells per name; the last two tabs of the last one would be trailing.
@@ -54,7 +54,9 @@ Status write_trc(const std::filesystem::path& path, const data::Trial& trial,
 
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());
-  if (auto status = file->write(header_text(path, trial, options)); !status) return status;
+  const auto header = header_text(path, trial, options);
+  if (auto status = options.set.empty() ? file->write(header) : file->write_sealed(header); !status)
+    return status;
   const double scale = options.units == LengthUnit::metre ? 1.0 : 1000.0;
   fmt::memory_buffer out;
   const auto end = std::back_inserter(out);

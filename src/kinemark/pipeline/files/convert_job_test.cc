@@ -234,8 +234,8 @@ TEST_F(ConvertFile, AMotionBecomesASkeletonWithItsModelOnly) {
   EXPECT_THAT(outcome->warnings, Contains("lengths are in cm and y is up, which a .bvh file cannot say"));
   const auto skeleton = io::read_markers(at("walk.bvh")).value();
   EXPECT_EQ(skeleton.markers.frames(), io::read_table(job.in).value().rows());
-  for (const auto& body : io::read_osim(job.model).value().bodies)
-    EXPECT_GE(skeleton.markers.find(body.name), 0);
+  const auto model = io::read_osim(job.model).value();
+  for (const auto& body : model.bodies) EXPECT_GE(skeleton.markers.find(body.name), 0);
   job.out = at("walk.sto");
   EXPECT_EQ(run_convert(job).error().code, Code::usage) << "a table needs no model";
   job.model.clear();

@@ -50,7 +50,9 @@ class EditJobTest : public ::testing::Test {
     EXPECT_FALSE(out);
     const auto after = io::read_text(journal_);
     EXPECT_EQ(before.has_value(), after.has_value()) << "a refusal makes no journal";
-    if (before && after) EXPECT_EQ(*before, *after);
+    if (before && after) {
+      EXPECT_EQ(*before, *after);
+    }
     return out ? Error{} : out.error();
   }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/seal.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/pipeline/files/job_settings.h"
 
@@ -57,6 +58,25 @@ std::string find_mark(std::string_view text) {
       return std::string(digits);
   }
   return {};
+}
+
+/// Whether a file was changed since it was written; of those that hold a sum (io/seal.h).
+bool is_changed(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> kSealed = {".mot", ".sto", ".json", ".trc"};
+  if (std::ranges::find(kSealed, ending_of(file)) == kSealed.end()) return false;
+  const auto text = io::read_text(file);
+  return text && io::check_seal(*text) == io::Seal::broken;
+}
+
+std::string name_changed(const fs::path& file) {
+  return fmt::format("{}: {}", file.string(), io::broken_seal());
+}
+
+std::string name_strangers(const fs::path& file, const fs::path& other) {
+  return fmt::format(
+      "{}: was not written together with {}: a run was interrupted while it replaced them, or one of them "
+      "comes from elsewhere; make them anew",
+      other.string(), file.string());
 }
 
 /// The stem of the result that a file belongs to.
@@ -127,13 +147,10 @@ std::string set_in(const fs::path& path) {
 
 Status check_same_set(const std::vector<SetMember>& members) {
   for (const auto& member : members)
+    if (is_changed(member.file)) return fail(Code::bad_input, name_changed(member.file));
+  for (const auto& member : members)
     if (member.set != members.front().set)
-      return fail(
-          Code::bad_input,
-          fmt::format(
-              "{}: was not written together with {}: a run was interrupted while it replaced them, or "
-              "one of them comes from elsewhere; make them anew",
-              member.file.string(), members.front().file.string()));
+      return fail(Code::bad_input, name_strangers(members.front().file, member.file));
   return {};
 }
 
@@ -141,6 +158,8 @@ std::vector<std::string> find_strangers(const fs::path& file) {
   std::vector<std::string> out;
   const std::string set = set_in(file);
   if (set.empty()) return out;
+  // Of tables and markers their reader says so.
+  if (ending_of(file) == ".json" && is_changed(file)) out.push_back(name_changed(file));
   std::vector<fs::path> beside_it;
   const std::string stem = stem_of_result(file), name = file.filename().string();
   const auto look_at = [&](const fs::path& other) {
@@ -155,7 +174,9 @@ std::vector<std::string> find_strangers(const fs::path& file) {
     if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;
     const std::string theirs = set_in(other);
     if (!theirs.empty() && theirs != set)
-      out.push_back(check_same_set({{file, set}, {other, theirs}}).error().message);
+      out.push_back(name_strangers(file, other));
+    else if (is_changed(other))
+      out.push_back(name_changed(other));
   }
   return out;
 }

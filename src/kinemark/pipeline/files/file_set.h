@@ -49,11 +49,12 @@ struct SetMember {
   std::string set;             ///< as set_in()
 };
 
-/// Code::bad_input, naming two of them, unless all members name the same set or none does.
+/// Code::bad_input, naming two of them, unless all members name the same set or none does; and where the
+/// content of one is not what was written (io/seal.h).
 [[nodiscard]] Status check_same_set(const std::vector<SetMember>& members);
 
-/// Files beside `file` that by their names belong to one result with it but name another set, one sentence
-/// each.
+/// Files beside `file` that by their names belong to one result with it but name another set, or were changed
+/// since they were written, one sentence each.
 [[nodiscard]] std::vector<std::string> find_strangers(const std::filesystem::path& file);
 
 }  // namespace kinemark::pipeline

@@ -20,8 +20,11 @@ namespace kinemark::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kSet = "0123456789abcdef";
 constexpr const char* kOther = "fedcba9876543210";
@@ -72,6 +75,58 @@ TEST(FileSet, ReadersPassTheMarkOver) {
   EXPECT_THAT(io::read_table(scratch / "with.mot").value().warnings, ElementsAre());
 }
 
+/// Put other digits in the place of these, where they occur last.
+void change(const fs::path& file, const std::string& digits, const std::string& others) {
+  auto text = io::read_text(file).value();
+  const auto at = text.rfind(digits);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_TRUE(io::write_text(file, text.replace(at, digits.size(), others), true));
+}
+
+constexpr const char* kChanged = "its content is not what was written: kinemark_sum does not fit";
+
+TEST(FileSet, AChangedDigitIsFoundByReaders) {
+  const testing_support::ScratchFolder scratch;
+  auto trial = small_trial();
+  trial.markers.x(0, 0) = {0.1, 0.2, 0.3};
+  trial.markers.state[0] = data::SampleState::measured;
+  put(marker_file(scratch / "a.trc", trial), kSet);
+  put(table_file(scratch / "q.mot", small_table), kSet);
+  EXPECT_THAT(io::read_table(scratch / "q.mot")->warnings, Not(Contains(HasSubstr(kChanged))));
+  EXPECT_THAT(io::read_trc(scratch / "a.trc")->warnings, Not(Contains(HasSubstr(kChanged))));
+  change(scratch / "q.mot", "2", "3");
+  change(scratch / "a.trc", "200", "201");
+  EXPECT_THAT(io::read_table(scratch / "q.mot")->warnings, Contains(HasSubstr(kChanged)));
+  EXPECT_THAT(io::read_trc(scratch / "a.trc")->warnings, Contains(HasSubstr(kChanged)));
+}
+
+TEST(FileSet, AMemberThatWasChangedIsNotUsedWithOthers) {
+  const testing_support::ScratchFolder scratch;
+  put(table_file(scratch / "q.mot", small_table), kSet);
+  put(table_file(scratch / "q_sd.sto", small_table), kSet);
+  const auto report =
+      json_file(scratch / "q_report.json", [] { return nlohmann::ordered_json{{"frames", 1}}; });
+  put(report, kSet);
+  const std::vector<SetMember> members{{scratch / "q.mot", kSet}, {scratch / "q_report.json", kSet}};
+  EXPECT_TRUE(check_same_set(members));
+  EXPECT_THAT(find_strangers(scratch / "q_sd.sto"), ElementsAre());
+  change(scratch / "q_report.json", "1", "2");
+  const auto refused = check_same_set(members);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, AllOf(HasSubstr("q_report.json: "), HasSubstr(kChanged)));
+  for (const char* name : {"q_sd.sto", "q_report.json"})
+    EXPECT_THAT(find_strangers(scratch / name), ElementsAre(HasSubstr(kChanged))) << name;
+}
+
+// Whoever converts a table takes it out of its set.
+TEST(FileSet, ATableThatIsWrittenAnewNamesNoSet) {
+  const testing_support::ScratchFolder scratch;
+  put(table_file(scratch / "q.mot", small_table), kSet);
+  ASSERT_TRUE(io::write_table(scratch / "r.mot", io::read_table(scratch / "q.mot").value()));
+  EXPECT_EQ(set_in(scratch / "r.mot"), "");
+  EXPECT_THAT(io::read_table(scratch / "r.mot")->warnings, ElementsAre());
+}
+
 TEST(FileSet, FilesWithoutAMarkNameNone) {
   const testing_support::ScratchFolder scratch;
   EXPECT_EQ(set_in(scratch / "absent"), "");
@@ -106,7 +161,7 @@ TEST(FileSet, StrangersBesideAFileAreFound) {
   put(table_file(scratch / "q.mot", small_table), kSet);
   put(table_file(scratch / "q_marker_errors.sto", small_table), kSet);
   put(table_file(scratch / "r_sd.sto", small_table), kOther);
-  EXPECT_THAT(find_strangers(scratch / "q.mot"), ElementsAre());
+  EXPECT_THAT(find_strangers(scratch / "q.mot"), Not(Contains(HasSubstr("was not written together with"))));
   put(table_file(scratch / "q_sd.sto", small_table), kOther);
   EXPECT_THAT(find_strangers(scratch / "q.mot"),
               ElementsAre(HasSubstr("q_sd.sto: was not written together with")));

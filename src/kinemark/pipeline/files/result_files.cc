@@ -10,6 +10,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_writer.h"
+#include "kinemark/io/seal.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/json_text.h"
@@ -35,20 +36,21 @@ ResultFile json_file(fs::path target, std::function<nlohmann::ordered_json()> ma
   return {std::move(target), [make = std::move(make)](const fs::path& staged, const std::string& set) {
             auto json = make();
             if (!set.empty()) {
-              // First, so that it is found at the beginning of a long file.
-              auto named = nlohmann::ordered_json{{std::string(io::kSetKey), set}};
+              // First, so that they are found at the beginning of a long file.
+              auto named = nlohmann::ordered_json{{std::string(io::kSetKey), set},
+                                                  {std::string(io::kSumKey), std::string(io::kNoSum)}};
               named.update(json);
               json = std::move(named);
             }
-            return io::write_text(staged, json_text(json) + "\n", false);
+            const auto text = json_text(json) + "\n";
+            return set.empty() ? io::write_text(staged, text, false)
+                               : io::write_sealed_text(staged, text, false);
           }};
 }
 
 ResultFile table_file(fs::path target, std::function<data::Table()> make) {
   return {std::move(target), [make = std::move(make)](const fs::path& staged, const std::string& set) {
-            auto table = make();
-            if (!set.empty()) table.header.emplace_back(io::kSetKey, set);
-            return io::write_table(staged, table, {});
+            return io::write_table(staged, make(), {.set = set});
           }};
 }
 

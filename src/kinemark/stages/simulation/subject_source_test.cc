@@ -62,7 +62,9 @@ TEST(SubjectSource, LosesTheShareThatIsAskedForInGapsOfTheSameLengths) {
         before[m] = is_lost;
       }
     EXPECT_NEAR(lost / samples, share, 0.03) << rate_hz << " Hz";
-    if (share == 0.1) EXPECT_NEAR(lost / gaps / options.rate_hz, 0.192, 0.04) << "s, where gaps hardly touch";
+    if (share == 0.1) {
+      EXPECT_NEAR(lost / gaps / options.rate_hz, 0.192, 0.04) << "s, where gaps hardly touch";
+    }
   }
 }
 

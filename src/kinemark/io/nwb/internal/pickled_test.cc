@@ -54,7 +54,9 @@ TEST(PickledLabels, EveryShorterOneIsRefusedAndAChangedOneGivesNoMore) {
     for (int c = 0; c < 256; ++c) {
       auto text = kTwo;
       text[i] = static_cast<char>(c);
-      if (const auto read = parse_pickled_labels(text); read) EXPECT_LE(read->size(), 2U);
+      if (const auto read = parse_pickled_labels(text); read) {
+        EXPECT_LE(read->size(), 2U);
+      }
     }
 }
 

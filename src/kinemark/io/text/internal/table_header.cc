@@ -10,6 +10,8 @@
 
 #include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/io/seal.h"
+#include "kinemark/io/set_mark.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -162,9 +164,9 @@ Status read_labels(std::string_view line, std::int64_t number, TableHeader& head
 }  // namespace
 
 bool is_written_by_us(std::string_view key) {
-  static constexpr std::array<std::string_view, 12> kKeys{
-      "name",  "version",     "nrows",    "ncolumns",  "indegrees",      "datatype",
-      "range", "datacolumns", "datarows", "otherdata", "opensimversion", "datarate"};
+  static constexpr std::array<std::string_view, 14> kKeys{
+      "name",        "version",  "nrows",     "ncolumns",       "indegrees", "datatype", "range",
+      "datacolumns", "datarows", "otherdata", "opensimversion", "datarate",  kSetKey,    kSumKey};
   return std::ranges::find(kKeys, lower(key)) != kKeys.end();
 }
 

@@ -223,7 +223,9 @@ TEST(JointLoads, AnotherVerticalGivesTheSame) {
     EXPECT_EQ(std::vector(one.state.begin(), one.state.end()),
               std::vector(other.state.begin(), other.state.end()));
     for (std::size_t i = 0; i < one.value.size(); ++i)
-      if (std::isfinite(one.value[i])) EXPECT_NEAR(one.value[i], other.value[i], 1e-9) << name << i;
+      if (std::isfinite(one.value[i])) {
+        EXPECT_NEAR(one.value[i], other.value[i], 1e-9) << name << i;
+      }
   }
 }
 

@@ -108,7 +108,9 @@ TEST(EditLaws, UnfillTakesAFillBack) {
   for (std::int64_t f = 0; f < a.frames(); ++f)
     for (std::int64_t m = 0; m < a.markers(); ++m) {
       ASSERT_EQ(a.present(f, m), b.present(f, m));
-      if (a.present(f, m)) ASSERT_EQ(Eigen::Vector3d(a.x(f, m)), Eigen::Vector3d(b.x(f, m)));
+      if (a.present(f, m)) {
+        ASSERT_EQ(Eigen::Vector3d(a.x(f, m)), Eigen::Vector3d(b.x(f, m)));
+      }
     }
 }
 
