@@ -49,7 +49,7 @@ Seal check_seal(std::string_view text) {
 std::string broken_seal() {
   return fmt::format(
       "its content is not what was written: {} does not fit, so it was edited or damaged since; make it "
-      "anew, or remove that line to use it as it is",
+      "anew, or take that sum out of it to use it as it is",
       kSumKey);
 }
 

@@ -88,7 +88,7 @@ constexpr const char* kChanged = "its content is not what was written: kinemark_
 TEST(FileSet, AChangedDigitIsFoundByReaders) {
   const testing_support::ScratchFolder scratch;
   auto trial = small_trial();
-  trial.markers.x(0, 0) = {0.1, 0.2, 0.3};
+  trial.markers.x(0, 0) = Eigen::Vector3d(0.1, 0.2, 0.3);
   trial.markers.state[0] = data::SampleState::measured;
   put(marker_file(scratch / "a.trc", trial), kSet);
   put(table_file(scratch / "q.mot", small_table), kSet);
