@@ -83,7 +83,7 @@ TEST(Live, FramesGivenOneAtATimeHaveTheAnglesOfTheRecording) {
 
 TEST(Live, AnglesComeAsManyFramesLaterAsItSays) {
   Walk walk;
-  for (const double lookahead_s : {0.1, 0.2}) {
+  for (const double lookahead_s : {0.2, 0.3}) {
     walk.options.lookahead_s = lookahead_s;
     stream::RecordedSource source(walk.markers, {.name = "walk"});
     std::int64_t last = -1;
