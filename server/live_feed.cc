@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "kinemark/core/counted.h"
-#include "kinemark/pipeline/live/live_angles.h"
+#include "kinemark/workflow/live/live.h"
 
 namespace kinemark::server {
 namespace {
@@ -21,12 +21,13 @@ Result<std::unique_ptr<LiveFeed>> LiveFeed::create(LiveFeedOptions options) {
   std::unique_ptr<LiveFeed> feed(new LiveFeed(std::move(options)));
   const auto& given = feed->options_;
   const auto& facts = given.source->facts();
-  std::unique_ptr<pipeline::LiveAngles> angles;
+  std::unique_ptr<workflow::LiveAngles> angles;
   if (given.model) {
-    auto made = pipeline::LiveAngles::create(given.model, facts, [self = feed.get()](const auto& frame) {
-      const double when_s = self->due_s(frame.frame);
-      self->send(angles_message(frame, when_s), LiveKind::angles, when_s);
-    });
+    const auto to_viewers = [self = feed.get(), units = message_units(*given.model)](const auto& pose) {
+      const double when_s = self->due_s(pose.frame);
+      self->send(angles_message(pose, units, when_s), LiveKind::angles, when_s);
+    };
+    auto made = workflow::live(*given.model, facts, to_viewers);
     if (!made) return std::unexpected(made.error());
     angles = std::move(*made);
   }

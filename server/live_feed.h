@@ -17,7 +17,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/live/live_recorder.h"
-#include "kinemark/stream/source.h"
+#include "kinemark/stream/stream.h"
 #include "server/live_clock.h"
 #include "server/live_viewer.h"
 #include "server/sink_thread.h"
@@ -51,7 +51,7 @@ struct LiveState {
 /// back. Memory: the frames that wait.
 class LiveFeed {
  public:
-  /// Make the recording and the tracker. Fails as LiveRecorder::create() and LiveAngles::create().
+  /// Make the recording and the tracker. Fails as LiveRecorder::create() and workflow::live().
   [[nodiscard]] static Result<std::unique_ptr<LiveFeed>> create(LiveFeedOptions options);
   LiveFeed(const LiveFeed&) = delete;
   LiveFeed& operator=(const LiveFeed&) = delete;

@@ -9,7 +9,9 @@
 #include <thread>
 
 #include "kinemark/io/recording/mcap_markers.h"
+#include "kinemark/pipeline/live/live_input.h"
 #include "kinemark/stream/recorded_source.h"
+#include "kinemark/workflow/live/live.h"
 #include "server/testing/fake_clock.h"
 #include "support/scratch.h"
 
@@ -101,6 +103,34 @@ TEST_F(LiveFeedThread, AViewerThatTakesNothingHoldsNobodyBack) {
   std::int64_t taken = 0;
   while (idle->next() != nullptr) ++taken;
   EXPECT_EQ(taken, 5) << "no more are under way";
+}
+
+TEST_F(LiveFeedThread, AnglesAreThoseOfTheFramesGivenOneAtATime) {
+  constexpr const char* kWalk =
+      "sim:walk?rate=100&seconds=0.4";  // no frame waits for longer than the patience
+  auto input = pipeline::open_live_input(kWalk).value();
+  auto given = options(std::move(input.source));
+  given.model = input.model;
+  given.limits = {.waiting = 1000, .under_way = 1000, .at_first = 1000};
+  const auto feed = LiveFeed::create(std::move(given)).value();
+  const auto viewer = feed->add_viewer();
+  feed->start();
+  feed->wait();
+  EXPECT_EQ(feed->state().unsolved, 0);
+  std::vector<std::string> seen;
+  while (const auto message = viewer->next())
+    if (message->front() == static_cast<char>(LiveKind::angles))
+      seen.push_back(message->substr(kLiveHeadBytes));
+  std::vector<std::string> expected;
+  const auto again = pipeline::open_live_input(kWalk).value();
+  const auto units = message_units(*again.model);
+  const auto angles = workflow::live(*again.model, again.source->facts(), [&](const auto& pose) {
+                        expected.push_back(angles_message(pose, units, 0.0).substr(kLiveHeadBytes));
+                      }).value();
+  for (stream::Frame frame; again.source->next(frame).value();) ASSERT_TRUE(angles->push(frame));
+  ASSERT_TRUE(angles->finish());
+  EXPECT_EQ(expected.size(), 40U);
+  EXPECT_EQ(seen, expected);
 }
 
 TEST_F(LiveFeedThread, ThoseThatComeLateHearThatItHasEnded) {

@@ -4,6 +4,10 @@
 
 #include <bit>
 #include <limits>
+#include <utility>
+
+#include "kinemark/core/check.h"
+#include "kinemark/core/units.h"
 
 namespace kinemark::server {
 namespace {
@@ -51,13 +55,24 @@ std::string markers_message(std::int64_t frame, double time_s, double due_s, std
   return out;
 }
 
-std::string angles_message(const pipeline::LiveAnglesFrame& angles, double due_s) {
-  const auto count = angles.value.size();
-  auto out =
-      head(LiveKind::angles, count, static_cast<double>(angles.frame), angles.time_s, due_s, 9 * count);
-  for (const float value : angles.value) put(out, value);
-  for (const float value : angles.sd) put(out, value);
-  for (const auto one : angles.determined) out += static_cast<char>(one);
+std::vector<double> message_units(const model::Model& model) {
+  constexpr double kMmPerM = 1e3;
+  std::vector<double> out;
+  for (const auto& coordinate : model.description().coordinates)
+    out.push_back(coordinate.is_rotation ? kDegPerRad : kMmPerM);
+  return out;
+}
+
+std::string angles_message(const motion::LivePose& pose, std::span<const double> units, double due_s) {
+  const auto count = units.size();
+  check(std::cmp_equal(pose.q.size(), count) && pose.q_sd.size() == pose.q.size() &&
+            pose.determined.size() == count,
+        "angles and their deviations, one of each coordinate");
+  auto out = head(LiveKind::angles, count, static_cast<double>(pose.frame), pose.time_s, due_s, 9 * count);
+  for (const auto* numbers : {&pose.q, &pose.q_sd})
+    for (std::size_t c = 0; c < count; ++c)
+      put(out, static_cast<float>(units[c] * (*numbers)[static_cast<Eigen::Index>(c)]));
+  for (const auto one : pose.determined) out += static_cast<char>(one);
   return out;
 }
 

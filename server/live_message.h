@@ -10,9 +10,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/data/trajectories.h"
-#include "kinemark/pipeline/live/live_angles.h"
+#include "kinemark/model/model.h"
+#include "kinemark/workflow/live/live.h"
 
 namespace kinemark::server {
 
@@ -34,8 +36,11 @@ inline constexpr std::size_t kLiveHeadBytes = 40;
 [[nodiscard]] std::string markers_message(std::int64_t frame, double time_s, double due_s,
                                           std::span<const double> x,
                                           std::span<const data::SampleState> state);
-/// Angles of a frame.
-[[nodiscard]] std::string angles_message(const pipeline::LiveAnglesFrame& angles, double due_s);
+/// By what each coordinate of a model is multiplied in messages: degrees of a radian, millimetres of a metre.
+[[nodiscard]] std::vector<double> message_units(const model::Model& model);
+/// Angles of a frame. @param pose  of workflow::live()  @param units  of its coordinates
+[[nodiscard]] std::string angles_message(const motion::LivePose& pose, std::span<const double> units,
+                                         double due_s);
 /// Something that people should know; more than 65,535 bytes are cut off.
 [[nodiscard]] std::string sentence_message(std::string_view sentence, double due_s);
 

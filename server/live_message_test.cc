@@ -9,6 +9,11 @@
 #include <limits>
 #include <vector>
 
+#include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
+#include "kinemark/core/units.h"
+#include "kinemark/pipeline/simulate/human_model.h"
+
 namespace kinemark::server {
 namespace {
 
@@ -41,15 +46,40 @@ TEST(LiveMessage, AFrameOfMarkersByteByByte) {
   EXPECT_EQ(message[65], 5);
 }
 
+motion::LivePose two_coordinates() {
+  motion::LivePose pose{.frame = 3, .time_s = 0.1, .determined = {1, 0}};
+  pose.q = Eigen::Vector2d(0.25, 0.02);
+  pose.q_sd = Eigen::Vector2d(0.5, kNaN);
+  return pose;
+}
+
 TEST(LiveMessage, AFrameOfAnglesByteByByte) {
-  const auto message = angles_message(
-      {.frame = 3, .time_s = 0.1, .value = {10.0F, 20.0F}, .sd = {0.5F, 1.0F}, .determined = {1, 0}}, 4.0);
+  const auto message = angles_message(two_coordinates(), std::vector{8.0, 1000.0}, 4.0);
   ASSERT_EQ(message.size(), kLiveHeadBytes + 2 * 9);
   EXPECT_EQ(message[0], 2);
+  EXPECT_EQ(at<double>(message, 8), 3.0);
+  EXPECT_EQ(at<double>(message, 16), 0.1);
+  EXPECT_EQ(at<double>(message, 24), 4.0);
+  EXPECT_EQ(at<float>(message, 40), 2.0F);
   EXPECT_EQ(at<float>(message, 44), 20.0F);
-  EXPECT_EQ(at<float>(message, 48), 0.5F);
+  EXPECT_EQ(at<float>(message, 48), 4.0F);
+  EXPECT_TRUE(std::isnan(at<float>(message, 52)));
   EXPECT_EQ(message[56], 1);
   EXPECT_EQ(message[57], 0);
+  EXPECT_THROW((void)angles_message(two_coordinates(), std::vector{8.0}, 4.0), ContractError);
+}
+
+TEST(LiveMessage, AnglesAreInDegreesAndTranslationsInMillimetres) {
+  const auto model = model::Model::compile(pipeline::human_model().value()).value();
+  const auto units = message_units(model);
+  const auto& coordinates = model.description().coordinates;
+  ASSERT_EQ(units.size(), coordinates.size());
+  std::size_t rotations = 0;
+  for (std::size_t c = 0; c < units.size(); ++c) {
+    EXPECT_EQ(units[c], coordinates[c].is_rotation ? kDegPerRad : 1000.0) << coordinates[c].name;
+    rotations += coordinates[c].is_rotation;
+  }
+  EXPECT_EQ(rotations, units.size() - 3) << "the root moves in three directions";
 }
 
 TEST(LiveMessage, ASentenceIsCutWhereItsCountEnds) {

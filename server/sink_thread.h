@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "kinemark/core/result.h"
-#include "kinemark/stream/sink.h"
+#include "kinemark/stream/stream.h"
 
 namespace kinemark::server {
 

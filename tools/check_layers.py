@@ -35,7 +35,7 @@ ALLOWED = {
     **{folder: ("core", "math", "data") for folder in LAYER_3},
     "stages": ("core", "math", "data", *LAYER_3),
     # From memory to memory: no file is known there.
-    "workflow": ("core", "math", "data", "camera", "model", "stages"),
+    "workflow": ("core", "math", "data", "camera", "model", "stream", "stages"),
     "pipeline": ("core", "math", "data", *LAYER_3, "stages", "workflow"),
     "front header": ("core", "math", "data", *LAYER_3, "stages", "workflow", "pipeline"),
     # The founding papers beside ours: they stand beside the library and join stages as they need.

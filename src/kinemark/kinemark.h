@@ -35,6 +35,7 @@
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "kinemark/workflow/clean/clean.h"
 #include "kinemark/workflow/joints/joints.h"
+#include "kinemark/workflow/live/live.h"
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/motion/track.h"
@@ -79,6 +80,7 @@ using workflow::emg;
 using workflow::gait;
 using workflow::ik;
 using workflow::joints;
+using workflow::live;  // frame by frame, as they come
 using workflow::measure;
 using workflow::prepare;
 using workflow::reconstruct;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Filters and derivatives: the five movements of the reference, Butterworth, cross-validation, the online
-// counterpart.
+// Filters and derivatives: the five movements of the reference, Butterworth, cross-validation.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 
 #include "acceptance/movements.h"
 #include "kinemark/math/digital_filter.h"
-#include "kinemark/stages/trajectory/smoothing/online.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "support/acceptance.h"
 #include "support/dense_spline.h"
@@ -24,7 +22,6 @@ namespace {
 using namespace kinemark;
 using testing_support::Axes;
 using testing_support::kMovementFrames;
-using testing_support::kMovementRateHz;
 using testing_support::Movement;
 using testing_support::print_row;
 using trajectory::FilterMethod;
@@ -381,37 +378,6 @@ void cross_validation() {
             "1e-6 relative", fmt::format("{:.1e}", worst));
 }
 
-void online(const std::vector<Movement>& movements) {
-  double worst = 0.0;
-  std::int64_t compared = 0;
-  for (const Movement& movement : movements) {
-    const auto in = testing_support::seen_movement(movement, 5e-4, true, 2, 3, 100);
-    SmoothOptions offline = bridging();
-    offline.order = 5;
-    offline.cutoff_hz = 8.0;
-    offline.noise_sd_m = 5e-4;
-    const auto expected = trajectory::smooth(in, offline).value();
-    auto lagged = trajectory::OnlineTrajectorySmoother::create(2, kMovementRateHz,
-                                                               {5, 8.0, 5e-4, kMovementFrames, true})
-                      .value();
-    for (int f = 0; f < kMovementFrames; ++f)
-      (void)lagged.push({in.x_in_world.data() + static_cast<std::ptrdiff_t>(6 * f), 6});
-    while (const auto out = lagged.drain()) {
-      for (std::size_t i = 0; i < 6; ++i) {
-        const std::size_t at = static_cast<std::size_t>(6 * out->frame) + i;
-        const double unit = 50.0;  // corner, 1/s: derivatives in units of it
-        worst = std::max(
-            {worst, std::abs(out->x[i] - expected.trajectories.x_in_world[at]),
-             std::abs(out->velocity[i] - expected.derivatives.velocity[at]) / unit,
-             std::abs(out->acceleration[i] - expected.derivatives.acceleration[at]) / (unit * unit)});
-        ++compared;
-      }
-    }
-  }
-  print_row(worst <= 1e-9 && compared == 5 * 6 * kMovementFrames,
-            "online smoother that waits for all, beside offline", "1e-9 m", fmt::format("{:.1e} m", worst));
-}
-
 int run_check(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "quick";
   const auto movements = testing_support::movements();
@@ -424,7 +390,6 @@ int run_check(int argc, char** argv) {
   } else {
     butterworth();
     cross_validation();
-    online(movements);
     against_the_table(movements);
     against_the_oracle(movements, 2, 1, Axes::independent, "the reference's noise");
   }

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// An hour of 16 markers at 240 Hz, smoothed with derivatives and covariance on one thread; 40 markers live.
+// An hour of 16 markers at 240 Hz, smoothed with derivatives and covariance on one thread.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -12,7 +11,6 @@
 #include <vector>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/trajectory/smoothing/online.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "support/acceptance.h"
 
@@ -92,37 +90,7 @@ void hour() {
   fmt::print("seconds {:.4f}\n", seconds);
 }
 
-void live() {
-  constexpr std::int64_t kFrames = 20000, kMarkers = 40;
-  const auto in = recording(kFrames, kMarkers);
-  auto lagged =
-      trajectory::OnlineTrajectorySmoother::create(kMarkers, kRateHz, {5, 8.0, kSigma, 24, true}).value();
-  std::vector<double> ms;
-  double sum = 0.0, count = 0.0;
-  for (std::int64_t f = 0; f < kFrames; ++f) {
-    const std::span<const double> frame(in.x_in_world.data() + 3 * in.index(f, 0), 3 * kMarkers);
-    const auto start = std::chrono::steady_clock::now();
-    const auto out = lagged.push(frame);
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    if (!out || out->frame < 240) continue;
-    for (std::int64_t i = 0; i < 3 * kMarkers; ++i) {
-      const double error =
-          out->velocity[static_cast<std::size_t>(i)] - truth(out->frame, i / 3, static_cast<int>(i % 3), 1);
-      if (std::isnan(error)) continue;
-      sum += error * error;
-      count += 1.0;
-    }
-  }
-  std::ranges::sort(ms);
-  const double p99 = ms[ms.size() * 99 / 100];
-  testing_support::print_row(
-      p99 < 0.2, "live, 40 markers at 240 Hz, 0.1 s late, gaps: p99 per frame", "< 0.2 ms",
-      fmt::format("{:.3f} ms, median {:.3f} ms; velocity {:.1f} mm/s rms from the truth", p99,
-                  ms[ms.size() / 2], 1e3 * std::sqrt(sum / std::max(count, 1.0))));
-}
-
 int run_check(int /*argc*/, char** /*argv*/) {
-  live();
   hour();
   return testing_support::exit_status();
 }

@@ -20,7 +20,7 @@ ANY_OF_THEM = tuple(f"kinemark/workflow/prepare/{path.name}" for path in (ROOT /
 FRONT = Path("src/kinemark/kinemark.h")  # hands verbs on and prepares nothing
 VERBS = {
     "clean": "clean", "joints": "joints", "scale": "scale", "ik": "ik", "track": "track", "measure": "measure", "gait": "gait",
-    "segments": "segments", "dynamics": "dynamics", "emg": "emg", "calibrate": "rig", "reconstruct": "rig", "live": "live_tracking",
+    "segments": "segments", "dynamics": "dynamics", "emg": "emg", "calibrate": "rig", "reconstruct": "rig", "live": "live",
 }
 
 

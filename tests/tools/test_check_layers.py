@@ -71,6 +71,9 @@ class CheckLayers(unittest.TestCase):
             ("stream", "io"),
             ("io", "stages/motion"),
             ("stages/motion", "pipeline"),
+            ("stream", "workflow"),
+            ("workflow", "io"),
+            ("workflow", "pipeline"),
             ("core", "pipeline"),
         ]:
             with self.subTest(source=source, target=target):
@@ -89,6 +92,9 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("model may not include io", self.only_problem("src/kinemark/model/a.cc", io_line))
         self.assertIn("io may not include model", self.only_problem("src/kinemark/io/a_test.cc", model_line))
         self.assertIn("data may not include io", self.only_problem("src/kinemark/data/a_test.cc", io_line))
+
+    def test_a_verb_takes_frames_as_they_come(self):
+        self.assertEqual(self.problems(**{"src/kinemark/workflow/live/a.cc": '#include "kinemark/stream/stream.h"\n', "src/kinemark/stream/stream.h": ""}), [])
 
     def test_catches_a_stage_that_includes_another(self):
         found = self.only_problem(

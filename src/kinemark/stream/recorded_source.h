@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "kinemark/data/trajectories.h"
-#include "kinemark/stream/source.h"
+#include "kinemark/stream/stream.h"
 
 namespace kinemark::stream {
 

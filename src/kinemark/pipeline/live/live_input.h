@@ -9,7 +9,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/model/model.h"
-#include "kinemark/stream/source.h"
+#include "kinemark/stream/stream.h"
 
 namespace kinemark::pipeline {
 

@@ -9,8 +9,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/io/recording/markers_recording.h"
-#include "kinemark/stream/sink.h"
-#include "kinemark/stream/source.h"
+#include "kinemark/stream/stream.h"
 
 namespace kinemark::pipeline {
 

@@ -8,7 +8,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/simulation/subject_options.h"
-#include "kinemark/stream/source.h"
+#include "kinemark/stream/stream.h"
 
 namespace kinemark::simulation {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "kinemark/data/image_tracks.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
 
 namespace kinemark::motion {

@@ -7,6 +7,21 @@
 #include "kinemark/core/check.h"
 
 namespace kinemark::motion {
+namespace {
+
+/// Adds an observed point with Huber's loss, isotropic.
+void add_point(const MarkerTrust& trust, const Eigen::Vector3d& residual, Eigen::Index m,
+               MarkerInformation& out) {
+  const double r = residual.norm();
+  const bool beyond = r > trust.huber_m;
+  const double weight = beyond ? trust.information * trust.huber_m / r : trust.information;
+  out.weight[m] += weight;
+  out.descent.col(m) += weight * residual;
+  out.cost += beyond ? trust.information * trust.huber_m * (r - 0.5 * trust.huber_m)
+                     : 0.5 * trust.information * r * r;
+}
+
+}  // namespace
 
 void MarkerInformation::clear(Eigen::Index markers, bool with_full) {
   descent.setZero(3, markers);
@@ -14,19 +29,6 @@ void MarkerInformation::clear(Eigen::Index markers, bool with_full) {
   cost = 0.0;
   full.resize(with_full ? static_cast<std::size_t>(markers) : 0);
   for (auto& information : full) information.setZero();
-}
-
-double add_point(const MarkerTrust& trust, const Eigen::Vector3d& residual, Eigen::Index m,
-                 MarkerInformation& out) {
-  const double r = residual.norm();
-  const bool beyond = r > trust.huber_m;
-  const double weight = beyond ? trust.information * trust.huber_m / r : trust.information;
-  out.weight[m] += weight;
-  out.descent.col(m) += weight * residual;
-  const double cost = beyond ? trust.information * trust.huber_m * (r - 0.5 * trust.huber_m)
-                             : 0.5 * trust.information * r * r;
-  out.cost += cost;
-  return cost;
 }
 
 MarkerObservations::MarkerObservations(const data::Trajectories& markers, std::vector<int> column,
@@ -40,7 +42,7 @@ void MarkerObservations::linearize(std::int64_t f, const Eigen::Matrix3Xd& p, Ma
   for (std::size_t m = 0; m < column_.size(); ++m) {
     if (!markers_.present(first_frame_ + f, column_[m])) continue;
     const auto i = static_cast<Eigen::Index>(m);
-    (void)add_point(trust_[m], markers_.x(first_frame_ + f, column_[m]) - p.col(i), i, out);
+    add_point(trust_[m], markers_.x(first_frame_ + f, column_[m]) - p.col(i), i, out);
   }
 }
 

@@ -44,10 +44,6 @@ struct MarkerTrust {
   double huber_m = 1e300;    ///< Huber threshold: residuals beyond it count linearly
 };
 
-/// Adds an observed point with Huber's loss, isotropic; returns its cost.
-[[nodiscard]] double add_point(const MarkerTrust& trust, const Eigen::Vector3d& residual, Eigen::Index m,
-                               MarkerInformation& out);
-
 /// Markers measured in space. `column` gives each model marker its index in the recording, frame 0 is
 /// `first_frame` of it. Both must outlive this.
 class MarkerObservations final : public Observations {

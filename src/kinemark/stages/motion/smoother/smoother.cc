@@ -64,13 +64,13 @@ void fill_marker_errors(const Problem& problem, const data::Trajectories& marker
 
 /// q_sd, determined, the covariances and the frames' status.
 void fill_bars(const Problem& problem, const Observations& observations, const internal::NoiseSplit& noise,
-               const MatrixXd& states, int threads, internal::WholeTrajectory& trajectory,
-               SmootherResult& result) {
+               const MatrixXd& states, const VectorXd& step_variance, int threads,
+               internal::WholeTrajectory& trajectory, SmootherResult& result) {
   const auto& model = problem.model;
   auto& motion = result.motion;
   const std::int64_t F = motion.frames(), n = motion.size();
   const internal::SlowErrors slow(model, observations, noise, problem.fixed_speed, motion, states,
-                                  result.tuning.step_variance, threads);
+                                  step_variance, threads);
   motion.q_sd.assign(at(F * n), kNaN);
   motion.determined.assign(at(F * n), 0);
   result.errors.covariance.assign(at(6 * F * n), kNaN);
@@ -166,7 +166,6 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   const VectorXd variance = step_variances(problem.model, prepared.start.motion, states, noise.raised);
   SmootherResult result = begin_result(prepared.start, problem.model);
   result.start_seconds = prepared.seconds;
-  result.tuning = {.step_variance = variance, .markers = noise.trust, .rate_hz = markers.time.rate_hz};
   WholeTrajectory trajectory(problem.model, observations, problem.frames, variance,
                              {.fixed = problem.fixed_speed, .lower = problem.lower, .upper = problem.upper});
   const auto outcome = trajectory.solve(states, options.max_iterations, progress);
@@ -182,7 +181,7 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
     result.motion.status.push_back(unsettled ? data::FrameStatus::not_converged
                                              : data::FrameStatus::converged);
   if (options.error_bars)
-    fill_bars(problem, observations, noise, states, options.ik.threads, trajectory, result);
+    fill_bars(problem, observations, noise, states, variance, options.ik.threads, trajectory, result);
   fill_marker_errors(problem, markers, states, result);
   result.solve_seconds = seconds_since(solving);
   return result;

@@ -6,27 +6,16 @@
 // docs/theory/trajectory-smoother.md
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik.h"
-#include "kinemark/stages/motion/smoother/observations.h"
 #include "kinemark/stages/motion/smoother/rates.h"
 #include "kinemark/stages/motion/smoother/smoother_options.h"
 
 namespace kinemark::motion {
-
-/// What the smoother learnt from a recording; the live counterpart (online_smoother.h) starts from it.
-struct SmootherTuning {
-  Eigen::VectorXd step_variance;     ///< nv, of the third difference of each speed's own coordinate
-  std::vector<MarkerTrust> markers;  ///< one per used marker, in the order of motion.markers
-  double rate_hz = 0.0;              ///< of the recording that it was found on
-};
 
 /// What the smoother found: the motion, and how well it fits the markers.
 struct SmootherResult {
@@ -35,7 +24,6 @@ struct SmootherResult {
   data::JointMotion motion;
   RateErrors errors;       ///< covariance of q, qd, qdd by coordinate; empty without error bars
   data::MarkerFit fit;     ///< markers used and left out, and how well they fit
-  SmootherTuning tuning;   ///< as used
   int iterations = 0;      ///< steps over the whole recording
   bool converged = false;  ///< false: the iteration limit was reached
   double start_seconds = 0.0, solve_seconds = 0.0;  ///< wall time: least squares; smoother with error bars

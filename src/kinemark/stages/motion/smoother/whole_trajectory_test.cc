@@ -14,7 +14,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/random.h"
-#include "kinemark/stages/motion/smoother/online_smoother.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -209,33 +209,6 @@ TEST(WholeTrajectory, ThreeFramesAreNoTrajectory) {
   const auto markers = record(1);
   const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   EXPECT_THROW(WholeTrajectory(model, observations, 3, step_variance(), {}), ContractError);
-}
-
-TEST(OnlineMotionSmoother, InALinearWorldItsAnswersAreTheBatchSolution) {
-  const auto model = rail();
-  const auto markers = record(5);
-  const MatrixXd C = Dense(markers).covariance();
-  const VectorXd b = Dense(markers).b;
-  auto live = OnlineMotionSmoother::create(
-      model, {"A", "B", "C"}, {.step_variance = step_variance(), .markers = trust(), .rate_hz = 50.0},
-      {.lag_frames = kFrames});
-  ASSERT_TRUE(live) << live.error().message;
-  for (int f = 0; f < kFrames; ++f) {
-    Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Constant(3, 3, std::numeric_limits<double>::quiet_NaN());
-    for (int m = 0; m < 3; ++m)
-      if (markers.present(f, m)) x.col(m) = markers.x(f, m);
-    const auto ready = live->push(x);
-    ASSERT_TRUE(ready) << ready.error().message;
-    EXPECT_FALSE(ready->has_value());
-  }
-  const auto frames = live->finish();
-  ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
-  for (int f = 0; f < kFrames; ++f) {
-    double expected = 0.0;
-    for (int k = 0; k < kFrames; ++k) expected += C(f, k) * b[k];
-    EXPECT_NEAR(frames[static_cast<std::size_t>(f)].q[0], expected, 1e-6) << f;
-    EXPECT_NEAR(frames[static_cast<std::size_t>(f)].q_sd[0], std::sqrt(C(f, f)), 1e-5) << f;
-  }
 }
 
 }  // namespace

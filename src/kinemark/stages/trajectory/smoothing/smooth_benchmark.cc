@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/trajectory/smoothing/online.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 
 namespace kinemark::trajectory {
@@ -53,21 +52,6 @@ void BM_SmoothMinute(benchmark::State& state) {
   state.counters["velocity_rms_mm_s"] = 1e3 * error;
 }
 BENCHMARK(BM_SmoothMinute)->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
-
-/// A live frame of 40 markers; argument: frames of lag.
-void BM_OnlineFrame(benchmark::State& state) {
-  const auto in = circling(4000, 40);
-  auto online =
-      OnlineTrajectorySmoother::create(40, kRateHz, {5, 8.0, 0.0005, static_cast<int>(state.range(0)), false})
-          .value();
-  std::int64_t f = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(online.push({in.x_in_world.data() + 3 * in.index(f, 0), 120}));
-    f = (f + 1) % in.frames();
-  }
-  state.SetItemsProcessed(state.iterations() * 40);
-}
-BENCHMARK(BM_OnlineFrame)->Arg(0)->Arg(12)->Arg(24)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace kinemark::trajectory

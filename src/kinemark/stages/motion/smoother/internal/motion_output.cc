@@ -18,8 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-}  // namespace
-
+/// Speeds and accelerations of the tree in frame f by five-point differences of the states.
 void speeds_of_states(const model::Model& model, const MatrixXd& states, std::int64_t f, double rate_hz,
                       VectorXd& v, VectorXd& vdot) {
   // Differences to the neighbouring frames; beyond the ends a parabola through the last three frames.
@@ -44,6 +43,8 @@ void speeds_of_states(const model::Model& model, const MatrixXd& states, std::in
   v = rate_hz * (8.0 * (way[3] - way[1]) - (way[4] - way[0])) / 12.0;
   vdot = rate_hz * rate_hz * (16.0 * (way[3] + way[1]) - (way[4] + way[0])) / 12.0;
 }
+
+}  // namespace
 
 void fill_coordinates(const model::Model& model, const MatrixXd& states, data::JointMotion& motion) {
   const int n = model.coordinate_count();

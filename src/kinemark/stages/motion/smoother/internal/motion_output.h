@@ -12,10 +12,6 @@
 
 namespace kinemark::motion::internal {
 
-/// Speeds and accelerations of the tree in frame f by five-point differences of the states.
-void speeds_of_states(const model::Model& model, const Eigen::MatrixXd& states, std::int64_t f,
-                      double rate_hz, Eigen::VectorXd& v, Eigen::VectorXd& vdot);
-
 /// Fill q (angles of free joints continuous), qd and qdd from the states.
 void fill_coordinates(const model::Model& model, const Eigen::MatrixXd& states, data::JointMotion& motion);
 

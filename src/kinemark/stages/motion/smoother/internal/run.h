@@ -7,6 +7,7 @@
 
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/smoother/internal/noise.h"
+#include "kinemark/stages/motion/smoother/observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
 
 namespace kinemark::motion::internal {

@@ -76,7 +76,7 @@ class Stretch {
       if (k + 3 < count) {
         (void)prior_.visit(state(first + k), state(first + k + 1), state(first + k + 2),
                            state(first + k + 3));
-        prior_.add_to(window_, false);
+        prior_.add_to(window_);
       }
       window_.eliminate(fixed_.data(), factors_[at(k)]);
     }

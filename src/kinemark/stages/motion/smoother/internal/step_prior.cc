@@ -70,7 +70,7 @@ void StepPrior::add_gradient(int a, Eigen::Ref<VectorXd> g) const {
   }
 }
 
-void StepPrior::add_to(Window& window, bool with_gradient) const {
+void StepPrior::add_to(Window& window) const {
   const Index n = e_.size();
   auto& M = window.matrix();
   for (Index a = 0; a < 4; ++a)
@@ -85,12 +85,6 @@ void StepPrior::add_to(Window& window, bool with_gradient) const {
             rotation_[j][at(a)].transpose() * weight.asDiagonal() * rotation_[j][at(b)];
       }
     }
-  if (!with_gradient) return;
-  for (int a = 0; a < 4; ++a) {
-    VectorXd g = VectorXd::Zero(n);
-    add_gradient(a, g);
-    window.right().segment(a * n, n) -= g;
-  }
 }
 
 }  // namespace kinemark::motion::internal

@@ -29,8 +29,8 @@ class StepPrior {
                const Eigen::VectorXd& x3);
   /// At the last visit: gradient of that sum by the motion of posture a (0 to 3), added to g.
   void add_gradient(int a, Eigen::Ref<Eigen::VectorXd> g) const;
-  /// At the last visit: second derivatives (and minus the gradient, when asked) into the four slots.
-  void add_to(Window& window, bool with_gradient) const;
+  /// At the last visit: second derivatives into the four slots.
+  void add_to(Window& window) const;
 
  private:
   const model::Model& model_;

@@ -139,7 +139,7 @@ void WholeTrajectory::load(const MatrixXd& states, std::int64_t k, bool with_rig
   }
   if (k + 3 >= frames_) return;
   (void)prior_.visit(states.col(k), states.col(k + 1), states.col(k + 2), states.col(k + 3));
-  prior_.add_to(window_, false);
+  prior_.add_to(window_);
 }
 
 void WholeTrajectory::forward(const MatrixXd& states, std::int64_t first, std::int64_t last, bool keep,

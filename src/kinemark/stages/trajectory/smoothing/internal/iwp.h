@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one core of the offline smoother and its online counterpart: an m-times integrated Wiener process seen
-// in noise.
+// The core of the smoother: an m-times integrated Wiener process seen in noise.
 //
 // State z_i = x^(i) / w^i, time in units of 1/w, variances in units of the noise: with w the corner of the
 // filter (w^(2m) = q / (sigma^2 dt)) everything is of order one, for any rate, bandwidth and unit of length.

@@ -1,19 +1,37 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+// Frames of markers that come one after the other: who gives them, who takes them.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
-#include "kinemark/stream/frame.h"
+#include "kinemark/data/trajectories.h"
 
 namespace kinemark::stream {
+
+/// One frame of M markers, as it comes.
+struct Frame {
+  std::int64_t number = 0;               ///< from 0; a step of more than 1 says that some were lost
+  double time_s = 0.0;                   ///< by the clock of its source
+  std::uint64_t came_ns = 0;             ///< when it came, ns since 1970; 0: nobody has looked
+  std::vector<double> x_in_world;        ///< M x 3, m; NaN where there is none
+  std::vector<data::SampleState> state;  ///< M
+
+  /// All markers missing.
+  void clear(std::size_t markers) {
+    x_in_world.assign(3 * markers, kNaN);
+    state.assign(markers, data::SampleState::missing);
+  }
+};
 
 /// What a source knows before its first frame.
 struct SourceFacts {
@@ -28,7 +46,8 @@ struct SourceFacts {
   std::optional<std::array<Eigen::Vector3d, 2>> extent_m;
 };
 
-/// Gives frames in the order in which they come. To be used by one thread at a time.
+/// Gives frames in the order in which they come: a device, a simulation, a recording that is played again. To
+/// be used by one thread at a time.
 class Source {
  public:
   virtual ~Source() = default;
@@ -41,10 +60,24 @@ class Source {
   [[nodiscard]] virtual Result<bool> next(Frame& frame) = 0;
 
  protected:
+  /// For those that give frames. @param facts  rate above 0, as many names as frames have markers
   explicit Source(SourceFacts facts) : facts_(std::move(facts)) {}
 
  private:
   SourceFacts facts_;
+};
+
+/// Takes frames in the order in which they come. To be used by one thread at a time.
+class Sink {
+ public:
+  Sink() = default;
+  virtual ~Sink() = default;
+  Sink(const Sink&) = delete;
+  Sink& operator=(const Sink&) = delete;
+  /// One frame, of which nothing is kept that is not copied. After a failure it takes no more.
+  [[nodiscard]] virtual Status push(const Frame& frame) = 0;
+  /// No more frames come. To be called once, and not after a failure.
+  [[nodiscard]] virtual Status finish() = 0;
 };
 
 }  // namespace kinemark::stream
