@@ -46,8 +46,8 @@ RowRange rows_in(const AnalysisPlan& plan, const TimeBase& time) {
 /// The files of an analysis, and everything that they are made of.
 class Results {
  public:
-  Results(const AnalysisPlan& plan, const data::ModelDescription& model,
-          const workflow::DynamicsFound& found, const RowRange& rows)
+  Results(const AnalysisPlan& plan, const data::ModelDescription& model, const workflow::DynamicsFound& found,
+          const RowRange& rows)
       : plan_(plan), found_(found), rows_(rows) {
     if (!plan.kinematics_name.empty()) add_kinematics();
     if (found.bodies) add_bodies(model, *found.bodies);

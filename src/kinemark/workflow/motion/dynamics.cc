@@ -73,9 +73,10 @@ void describe_method(const DynamicsOptions& options, const RatedMotion& rated, b
         options.cutoff_hz));
   }
   found.facts.emplace_back("rates", "each coordinate smoothed by itself, its bandwidth from its likelihood");
-  found.facts.emplace_back("deviations", !bars                       ? "none"
-                                         : rated.motion.q_sd.empty() ? "from the noise found in each coordinate"
-                                                                     : "from those of the motion");
+  found.facts.emplace_back("deviations", !bars ? "none"
+                                         : rated.motion.q_sd.empty()
+                                             ? "from the noise found in each coordinate"
+                                             : "from those of the motion");
 }
 
 }  // namespace
@@ -94,8 +95,8 @@ Result<DynamicsFound> dynamics(const model::Model& model, const GivenMotion& giv
     found.bodies = std::move(*bodies);
   }
   if (options.torques || given.forces) {
-    auto torques = internal::find_torques(
-        model, given, *rated, {.error_bars = follow.error_bars, .threads = options.threads});
+    auto torques = internal::find_torques(model, given, *rated,
+                                          {.error_bars = follow.error_bars, .threads = options.threads});
     if (!torques) return std::unexpected(torques.error());
     std::ranges::move(torques->account.facts, std::back_inserter(found.facts));
     std::ranges::move(torques->account.warnings, std::back_inserter(found.remarks.warnings));

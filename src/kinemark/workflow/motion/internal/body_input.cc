@@ -137,9 +137,9 @@ struct Mechanism {
 Status put_torques(const GivenMotion& given, RatedMotion& rated, int threads, Mechanism& mechanism,
                    BodyInput& out) {
   auto& motion = rated.motion;
-  auto torques = find_torques(
-      mechanism.model, given, rated,
-      {.error_bars = !motion.q_sd.empty(), .contact_force_n = kContact_n, .threads = threads});
+  auto torques =
+      find_torques(mechanism.model, given, rated,
+                   {.error_bars = !motion.q_sd.empty(), .contact_force_n = kContact_n, .threads = threads});
   if (!torques) return std::unexpected(torques.error());
   std::ranges::move(torques->account.warnings, std::back_inserter(out.notes));
   auto& record = out.record;

@@ -131,8 +131,7 @@ Result<TorquesFound> find_torques(const model::Model& model, const GivenMotion& 
     found.forces = resample(*given.forces, motion.time);
     if (auto s = check_forces(*found.forces, {}, model); !s) return fail_at(given.names.forces, s.error());
   }
-  auto account =
-      add_torques(model, motion, found.forces ? &*found.forces : nullptr, options, &rated.errors);
+  auto account = add_torques(model, motion, found.forces ? &*found.forces : nullptr, options, &rated.errors);
   if (!account)
     return given.forces ? fail_at(given.names.forces, account.error()) : std::unexpected(account.error());
   found.account = std::move(*account);
