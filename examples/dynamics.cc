@@ -6,7 +6,7 @@
 // the weight.
 #include <cmath>
 #include <cstdio>
-#include <string>
+#include <utility>
 
 #include "kinemark/kinemark.h"
 #include "kinemark/pipeline/simulate/human_model.h"
@@ -20,7 +20,7 @@ int main() {
   const auto subject =
       kinemark::simulation::simulate_subject(model, {.duration_s = 1.0, .rate_hz = 60.0}).value();
 
-  // A motion with standard deviations; io::read_table() and a file would do as well.
+  // A motion with standard deviations.
   const auto solved = kinemark::ik(model, {.trial = {.markers = subject.markers}});
   if (!solved) return std::fprintf(stderr, "%s\n", solved.error().message.c_str()), 1;
 
