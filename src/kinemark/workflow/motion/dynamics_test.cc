@@ -82,8 +82,8 @@ TEST(Dynamics, APendulumsRatesAndTorqueWithTheirDeviations) {
                           standardized(motion.qd, sd[1], &Pendulum::qd),
                           standardized(motion.qdd, sd[2], &Pendulum::qdd),
                           standardized(motion.tau, motion.tau_sd, &Pendulum::torque)};
-  for (const double error : errors) {
-    EXPECT_GT(error, 0.5);
+  for (const double error : errors) {  // of one motion, whose rates' errors hold for many frames each
+    EXPECT_GT(error, 0.3);
     EXPECT_LT(error, 1.6);
   }
   EXPECT_THAT(found.facts, Contains(Pair("deviations", "from those of the motion")));

@@ -27,7 +27,7 @@ const data::Measure* find(const MotionMeasured& found, const std::string& id) {
   return at == found.measures.end() ? nullptr : &*at;
 }
 
-Error refused(const model::Model& model, const GivenMotion& given, const MotionMeasureOptions& options) {
+Error failure(const model::Model& model, const GivenMotion& given, const MotionMeasureOptions& options) {
   const auto found = measure_motion(model, given, options);
   return found ? Error{} : found.error();
 }
@@ -153,7 +153,7 @@ TEST(MeasureMotion, CoordinatesByNamePatternAndPair) {
                                                         "hip_flexion_r and knee_angle_r"));
   const auto message = [&](MotionMeasureOptions options) {
     options.refits = 0;
-    return refused(model, {.motion = subject.truth}, options).message;
+    return failure(model, {.motion = subject.truth}, options).message;
   };
   EXPECT_THAT(message({.select = {"knee_angel_r"}}),
               HasSubstr("no coordinate 'knee_angel_r' that moves by itself (nearest: knee_angle_r"));
@@ -164,15 +164,15 @@ TEST(MeasureMotion, CoordinatesByNamePatternAndPair) {
 TEST(MeasureMotion, RefusesInOneSentence) {
   const Pendulum p;
   const GivenMotion given{.motion = p.motion(), .names = {.motion = "swing.mot"}};
-  const auto none = refused(p.model, given, {.measures = {"joint_work_net"}, .refits = 0});
+  const auto none = failure(p.model, given, {.measures = {"joint_work_net"}, .refits = 0});
   EXPECT_EQ(none.code, Code::bad_input);
   EXPECT_THAT(none.message, HasSubstr("swing.mot: nothing of what is asked for can be measured"));
-  EXPECT_EQ(refused(p.model, given, {.measures = {"joint_rang"}}).code, Code::usage);
-  EXPECT_EQ(refused(p.model, given, {.refits = 5}).code, Code::usage);
+  EXPECT_EQ(failure(p.model, given, {.measures = {"joint_rang"}}).code, Code::usage);
+  EXPECT_EQ(failure(p.model, given, {.refits = 5}).code, Code::usage);
   EXPECT_THAT(
-      refused(p.model, given, {.stretches = {{.name = "a", .first = 0, .count = 3}}, .refits = 0}).message,
+      failure(p.model, given, {.stretches = {{.name = "a", .first = 0, .count = 3}}, .refits = 0}).message,
       HasSubstr("swing.mot: span 'a' has fewer than"));
-  EXPECT_THAT(refused(p.model, given, {.cutoff_hz = 60.0}).message, HasSubstr("a cut-off of 60 Hz"));
+  EXPECT_THAT(failure(p.model, given, {.cutoff_hz = 60.0}).message, HasSubstr("a cut-off of 60 Hz"));
 }
 
 }  // namespace
