@@ -37,6 +37,7 @@
 #include "kinemark/workflow/joints/joints.h"
 #include "kinemark/workflow/live/live.h"
 #include "kinemark/workflow/measures/measure.h"
+#include "kinemark/workflow/motion/dynamics.h"
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/motion/track.h"
 #include "kinemark/workflow/prepare/prepare.h"
@@ -76,12 +77,14 @@ using pipeline::find_definition;  // "pig", "isb-shoulder", or a .toml
 // As the commands do it: from a recording to what is found, with what there is to say of it.
 using workflow::calibrate;
 using workflow::clean;
+using workflow::dynamics;
 using workflow::emg;
 using workflow::gait;
 using workflow::ik;
 using workflow::joints;
 using workflow::live;  // frame by frame, as they come
 using workflow::measure;
+using workflow::measure_motion;
 using workflow::prepare;
 using workflow::reconstruct;
 using workflow::scale;

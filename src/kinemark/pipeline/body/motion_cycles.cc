@@ -3,16 +3,11 @@
 #include "kinemark/pipeline/body/motion_cycles.h"
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Eigen::MatrixXd as_matrix(const Array<double>& values, const data::JointMotion& motion) {
-  return Eigen::Map<const RowMajorMatrix>(values.data(), motion.frames(), motion.size());
-}
 
 analysis::CycleSeries empty_series(const TimeBase& time, std::string id, data::Quantity quantity) {
   analysis::CycleSeries out{.id = std::move(id), .quantity = quantity};
@@ -22,9 +17,10 @@ analysis::CycleSeries empty_series(const TimeBase& time, std::string id, data::Q
 
 }  // namespace
 
-Status add_motion_cycles(const data::JointMotion& motion, const BodyInput& input,
-                         std::span<const analysis::GaitCycle> cycles, std::vector<SheetInput>& out) {
-  const auto& record = input.record;
+void add_motion_cycles(const workflow::MotionMeasured& measured, std::span<const analysis::GaitCycle> cycles,
+                       std::vector<SheetInput>& out) {
+  const auto& motion = measured.motion;
+  const auto& record = measured.record;
   for (std::int64_t c = 0; c < record.size(); ++c) {
     if (!record.measured[at(c)]) continue;
     auto one = empty_series(record.time, record.names[at(c)],
@@ -35,24 +31,20 @@ Status add_motion_cycles(const data::JointMotion& motion, const BodyInput& input
     }
     add_series(one, cycles, "", out);
   }
-  if (record.torque_known.size() == 0) return {};
-  analysis::BodySeries series{.q = as_matrix(motion.q, motion),
-                              .v = as_matrix(motion.qd, motion),
-                              .a = as_matrix(motion.qdd, motion)};
-  if (auto s = input.mechanics(series); !s) return s;
+  if (record.torque_known.size() == 0) return;
   for (std::int64_t c = 0; c < record.size(); ++c) {
     if (!record.driven[at(c)] || !record.is_rotation[at(c)]) continue;
     auto moment = empty_series(record.time, record.names[at(c)] + "_moment", data::Quantity::moment),
          power = empty_series(record.time, record.names[at(c)] + "_power", data::Quantity::power);
     for (std::int64_t f = 0; f < record.frames(); ++f) {
       const bool known = record.torque_known(f, c) && record.determined(f, c);
-      moment.values.push_back(known ? series.tau(f, c) : kNaN);
-      power.values.push_back(known ? series.tau(f, c) * series.v(f, c) : kNaN);
+      const auto i = motion.index(f, c);
+      moment.values.push_back(known ? motion.tau[i] : kNaN);
+      power.values.push_back(known ? motion.tau[i] * motion.qd[i] : kNaN);
     }
     add_series(moment, cycles, "", out);
     add_series(power, cycles, "", out);
   }
-  return {};
 }
 
 }  // namespace kinemark::pipeline

@@ -16,17 +16,17 @@ using ::testing::ElementsAre;
 
 // Three coordinates through 3 s: a knee (angle t), a root's shift (2 t) and one that follows another.
 struct Moved {
-  data::JointMotion motion;
-  BodyInput input;
+  workflow::MotionMeasured measured;
   std::vector<analysis::GaitCycle> cycles{{.side = Side::left, .start_s = 0.5, .end_s = 1.5},
                                           {.side = Side::right, .start_s = 1.0, .end_s = 2.0}};
 
   explicit Moved(bool torques) {
     const TimeBase time{.rate_hz = 100.0, .frames = 301};
+    auto& motion = measured.motion;
     motion.time = time;
     motion.coordinates = {"knee_angle_l", "pelvis_tx", "knee_angle_l_beta"};
     motion.is_rotation = {true, false, true};
-    auto& record = input.record;
+    auto& record = measured.record;
     record.time = time;
     record.names = motion.coordinates;
     record.is_rotation = {true, false, true};
@@ -38,21 +38,14 @@ struct Moved {
     for (int f = 0; f < 301; ++f) {
       const double t = 0.01 * f;
       record.q.row(f) << t, 2.0 * t, t;
-      for (const double v : {t, 2.0 * t, t}) motion.q.push_back(v);
-      for (const double v : {1.0, 2.0, 1.0}) motion.qd.push_back(v);
-      for (int c = 0; c < 3; ++c) motion.qdd.push_back(0.0);
+      motion.qd.insert(motion.qd.end(), {1.0, 2.0, 1.0});
+      if (torques) motion.tau.insert(motion.tau.end(), {10.0 * t, 20.0 * t, 10.0 * t});
     }
-    if (!torques) return;
-    record.torque_known = Eigen::MatrixX<bool>::Constant(301, 3, true);
-    input.mechanics = [](analysis::BodySeries& series) -> Status {
-      series.tau = 10.0 * series.q;
-      return {};
-    };
+    if (torques) record.torque_known = Eigen::MatrixX<bool>::Constant(301, 3, true);
   }
   std::vector<SheetInput> curves() {
     std::vector<SheetInput> out;
-    const auto status = add_motion_cycles(motion, input, cycles, out);
-    EXPECT_TRUE(status) << status.error().message;
+    add_motion_cycles(measured, cycles, out);
     return out;
   }
 };
@@ -77,27 +70,20 @@ TEST(MotionCycles, MomentsAndPowersWhereTorquesAreKnown) {
   EXPECT_THAT(names(out), ElementsAre("knee_angle_l Left", "pelvis_tx Left", "pelvis_tx Right",
                                       "knee_angle_l_moment Left", "knee_angle_l_power Left"));
   EXPECT_EQ(out[3].curves.quantity, Quantity::moment);
-  EXPECT_NEAR(out[3].curves(0, 50), 10.0, 1e-9);  // 10 q at 1 s
+  EXPECT_NEAR(out[3].curves(0, 50), 10.0, 1e-9);  // at 1 s
   EXPECT_EQ(out[4].curves.quantity, Quantity::power);
   EXPECT_NEAR(out[4].curves(0, 50), 10.0, 1e-9);  // times a rate of 1
 }
 
 TEST(MotionCycles, WhatIsNotDeterminedIsMissing) {
   Moved moved(true);
-  moved.input.record.determined(100, 0) = false;
-  moved.input.record.torque_known(120, 0) = false;
+  moved.measured.record.determined(100, 0) = false;
+  moved.measured.record.torque_known(120, 0) = false;
   const auto out = moved.curves();
   EXPECT_TRUE(std::isnan(out[0].curves(0, 50)));
   EXPECT_TRUE(std::isnan(out[3].curves(0, 50)));
   EXPECT_FALSE(std::isnan(out[0].curves(0, 70)));
   EXPECT_TRUE(std::isnan(out[3].curves(0, 70)));
-}
-
-TEST(MotionCycles, FailsAsItsMechanics) {
-  Moved moved(true);
-  moved.input.mechanics = [](analysis::BodySeries&) -> Status { return fail(Code::bad_input, "no mass"); };
-  std::vector<SheetInput> out;
-  EXPECT_EQ(add_motion_cycles(moved.motion, moved.input, moved.cycles, out).error().message, "no mass");
 }
 
 }  // namespace

@@ -12,11 +12,9 @@
 #include <optional>
 #include <utility>
 
-#include "kinemark/core/name_pattern.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/pipeline/body/body_record.h"
 #include "kinemark/pipeline/body/motion_cycles.h"
 #include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/recording.h"
@@ -28,10 +26,11 @@
 #include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/pipeline/motion/given_motion.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
-#include "kinemark/stages/analysis/body/body_measures.h"
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/measures/regions.h"
+#include "kinemark/workflow/motion/dynamics.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
@@ -83,48 +82,6 @@ Status check(const MotionMeasuresJob& job) {
   return {};
 }
 
-Status unknown_coordinate(const std::string& name, const std::vector<std::string>& names) {
-  const auto nearest = nearest_names(name, names);
-  return fail(Code::usage, fmt::format("the model has no coordinate '{}' that moves by itself{}", name,
-                                       nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
-}
-
-/// Coordinates that a name or a pattern stands for, among those that are measured.
-Result<std::vector<Eigen::Index>> coordinates_of(const std::string& text,
-                                                 const analysis::BodyRecord& record) {
-  std::vector<Eigen::Index> out;
-  std::vector<std::string> names;
-  for (Eigen::Index c = 0; c < record.size(); ++c) {
-    if (!record.measured[static_cast<std::size_t>(c)]) continue;
-    names.push_back(record.names[static_cast<std::size_t>(c)]);
-    if (matches_name_pattern(text, names.back())) out.push_back(c);
-  }
-  if (!out.empty()) return out;
-  return std::unexpected(unknown_coordinate(text, names).error());
-}
-
-Status choose(const MotionMeasuresJob& job, const analysis::BodyRecord& record,
-              analysis::BodyMeasureOptions& options) {
-  for (const auto& text : job.select) {
-    const auto some = coordinates_of(text, record);
-    if (!some) return std::unexpected(some.error());
-    options.coordinates.insert(options.coordinates.end(), some->begin(), some->end());
-  }
-  for (const auto& text : job.couple) {
-    const auto comma = text.find(',');
-    if (comma == std::string::npos || comma == 0 || comma + 1 == text.size())
-      return fail(Code::usage, fmt::format("'{}' is not two coordinates: hip_flexion_r,knee_angle_r", text));
-    const auto a = coordinates_of(text.substr(0, comma), record);
-    if (!a) return std::unexpected(a.error());
-    const auto b = coordinates_of(text.substr(comma + 1), record);
-    if (!b) return std::unexpected(b.error());
-    if (a->size() != 1 || b->size() != 1 || a->front() == b->front())
-      return fail(Code::usage, fmt::format("'{}' is not two coordinates, one and another", text));
-    options.pairs.emplace_back(a->front(), b->front());
-  }
-  return {};
-}
-
 analysis::BodyStretch stretch_of(const data::Region& region, const TimeBase& time) {
   return {.name = region.name,
           .first = region.first_frame - time.first_number,
@@ -142,7 +99,7 @@ RecordingSource recording_of(const MotionMeasuresJob& job) {
 }
 
 /// Events of the recording on the motion's clock: its own, or those of its feet where a label has none.
-Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionMeasuresOutcome& out) {
+Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, std::vector<std::string>& warnings) {
   auto recording = open_recording(recording_of(job), {});
   if (!recording) return std::unexpected(recording.error());
   auto& trial = recording->trial;
@@ -153,7 +110,7 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionM
     if (auto gait = workflow::measure_gait(*recording, {.refits = 0})) {
       const auto of_feet = pipeline::events_of(*gait, trial.markers.time);
       trial = with_events(std::move(trial), of_feet);
-      out.warnings.push_back(
+      warnings.push_back(
           fmt::format("the events of feet are those that were found in {}", job.forces.filename().string()));
     }
   }
@@ -161,9 +118,9 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, MotionM
 }
 
 /// Stretches between events: "Foot Strike Left 2" is cycle 1 of the left.
-Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeasuresOutcome& out,
+Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, std::vector<std::string>& warnings,
                   std::vector<analysis::BodyStretch>& stretches) {
-  auto events = events_of(job, out);
+  auto events = events_of(job, warnings);
   if (!events) return std::unexpected(events.error());
   data::Trial clock;
   clock.markers.time = time;
@@ -189,7 +146,7 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeas
       return fail(Code::bad_input, fmt::format("{}: no span between events '{}' lies within the motion",
                                                job.forces.string(), label));
     if (outside > 0)
-      out.warnings.push_back(
+      warnings.push_back(
           fmt::format("{} of {} spans between events '{}' reach beyond the motion and "
                       "are left out",
                       outside, cycles->size(), label));
@@ -198,7 +155,7 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, MotionMeas
 }
 
 Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob& job, const TimeBase& time,
-                                                        MotionMeasuresOutcome& out) {
+                                                        std::vector<std::string>& warnings) {
   std::vector<analysis::BodyStretch> stretches;
   for (const auto& text : job.regions) {
     const auto region = workflow::parse_region(text, time);
@@ -210,7 +167,7 @@ Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob&
                                                region->name, time.frames));
   }
   if (!job.between.empty())
-    if (auto s = add_cycles(job, time, out, stretches); !s) return std::unexpected(s.error());
+    if (auto s = add_cycles(job, time, warnings, stretches); !s) return std::unexpected(s.error());
   if (!stretches.empty()) return stretches;
   const auto last = static_cast<double>(time.frames - 1);
   const double begin = std::clamp((job.first_time_s - time.t0_s) * time.rate_hz, 0.0, last),
@@ -228,20 +185,25 @@ std::vector<std::filesystem::path> files_of(const MotionMeasuresJob& job) {
   return files;
 }
 
-Status add_inputs(const char* role, const std::vector<std::filesystem::path>& paths,
-                  MotionMeasuresOutcome& out) {
-  for (const auto& path : paths) {
-    auto record = record_input(role, path);
-    if (!record) return std::unexpected(record.error());
-    out.inputs.push_back(std::move(*record));
-  }
-  return {};
+workflow::MotionMeasureOptions options_of(const MotionMeasuresJob& job,
+                                          std::vector<analysis::BodyStretch> stretches) {
+  return {.measures = job.measures,
+          .select = job.select,
+          .couple = job.couple,
+          .stretches = std::move(stretches),
+          .torques = job.torques,
+          .normalized = job.normalize,
+          .cutoff_hz = job.cutoff_hz,
+          .refits = job.refits,
+          .level = job.level,
+          .seed = job.seed,
+          .threads = job.threads};
 }
 
 // The motion over the cycles of the recording's feet.
-Result<std::vector<ResultFile>> draw_walking(const MotionMeasuresJob& job, const RatedMotion& read,
-                                             const BodyInput& input, GaitDrawing& drawing, Staging& staging,
-                                             MotionMeasuresOutcome& out) {
+Result<std::vector<ResultFile>> draw_walking(const MotionMeasuresJob& job,
+                                             const workflow::MotionMeasured& measured, GaitDrawing& drawing,
+                                             Staging& staging, MotionMeasuresOutcome& out) {
   const auto recording = open_recording(recording_of(job), {});
   if (!recording) return std::unexpected(recording.error());
   if (auto s = drawing.find_walking(*recording); !s) {
@@ -253,8 +215,7 @@ Result<std::vector<ResultFile>> draw_walking(const MotionMeasuresJob& job, const
   std::ranges::copy(gait.notes, std::back_inserter(out.warnings));
   std::vector<SheetInput> inputs;
   std::vector<data::CycleCurves> curves;
-  if (auto s = add_motion_cycles(read.motion, input, gait.cycles, inputs); !s)
-    return std::unexpected(s.error());
+  add_motion_cycles(measured, gait.cycles, inputs);
   for (const auto& one : inputs)
     if (one.curves.quantity == data::Quantity::angle || one.curves.quantity == data::Quantity::length)
       curves.push_back(one.curves);
@@ -305,54 +266,27 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   MotionMeasuresOutcome out;
   auto description = io::read_osim(job.model);
   if (!description) return std::unexpected(description.error());
-  if (auto s = add_inputs("model", {job.model}, out); !s) return std::unexpected(s.error());
+  auto input = record_input("model", job.model);
+  if (!input) return std::unexpected(input.error());
+  out.inputs.push_back(std::move(*input));
   const auto model = model::Model::compile(std::move(*description));
   if (!model) return fail_at(job.model.string(), model.error());
-  auto read = read_rated_motion(job.motion, *model, job.cutoff_hz);
+  auto read = read_motion(job.motion, job.forces, *model, job.cutoff_hz);
   if (!read) return std::unexpected(read.error());
-  read->motion.time.first_number = 1;
+  auto& time = read->given.motion.time;
+  time.first_number = 1;
   std::ranges::move(read->inputs, std::back_inserter(out.inputs));
-  std::ranges::move(read->notes, std::back_inserter(out.warnings));
-  auto input = body_input(*model, *read, job.forces, job.torques, job.threads);
-  if (!input) return std::unexpected(input.error());
-  std::ranges::move(input->notes, std::back_inserter(out.warnings));
-  if (auto s = add_inputs("forces", input->files, out); !s) return std::unexpected(s.error());
-  analysis::BodyMeasureOptions options{.measures = job.measures,
-                                       .normalized = job.normalize,
-                                       .refits = job.refits,
-                                       .level = job.level,
-                                       .seed = job.seed,
-                                       .threads = job.threads};
-  if (job.cutoff_hz > 0.0 && job.refits > 0) {
-    options.refits = 0;
-    out.warnings.push_back(
-        fmt::format("coordinates were low-passed at {:g} Hz: what that leaves of their noise "
-                    "is not known, and there are no intervals",
-                    job.cutoff_hz));
-  }
-  if (options.refits > 0 &&
-      std::ranges::none_of(read->motion.q_sd, [](double sd) { return std::isfinite(sd); }))
-    out.warnings.push_back(fmt::format(
-        "no standard deviations lie beside {} ({}_sd.sto): intervals hold the errors that its samples "
-        "show, not those of skin and markers",
-        job.motion.filename().string(), job.motion.stem().string()));
-  if (auto s = choose(job, input->record, options); !s) return std::unexpected(s.error());
-  auto stretches = stretches_of(job, read->motion.time, out);
+  std::vector<std::string> of_spans;
+  auto stretches = stretches_of(job, time, of_spans);
   if (!stretches) return std::unexpected(stretches.error());
-  options.stretches = std::move(*stretches);
-  auto measured = analysis::measure_body(input->record, input->mechanics, options);
-  if (!measured)
-    return measured.error().code == Code::usage ? std::unexpected(measured.error())
-                                                : fail_at(job.motion.string(), measured.error());
+  auto measured = workflow::measure_motion(*model, read->given, options_of(job, std::move(*stretches)));
+  if (!measured) return std::unexpected(measured.error());
   out.measures = std::move(measured->measures);
-  std::ranges::move(measured->notes, std::back_inserter(out.warnings));
-  if (out.measures.empty())
-    return fail(Code::bad_input, fmt::format("{}: nothing of what is asked for can be measured; torques need "
-                                             "--forces or --torques, coupling needs --couple",
-                                             job.motion.string()));
+  for (auto* sentences : {&read->notes, &measured->remarks.warnings, &of_spans, &measured->left_out})
+    std::ranges::move(*sentences, std::back_inserter(out.warnings));
   std::vector<ResultFile> files;
   if (drawing) {
-    auto drawn = draw_walking(job, *read, *input, *drawing, *staging, out);
+    auto drawn = draw_walking(job, *measured, *drawing, *staging, out);
     if (!drawn) return std::unexpected(drawn.error());
     files = std::move(*drawn);
   }

@@ -13,7 +13,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/motion/motion_files.h"
-#include "kinemark/workflow/measures/choice.h"
+#include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
 

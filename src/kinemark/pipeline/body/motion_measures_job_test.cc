@@ -11,9 +11,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/body/body_record.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
@@ -183,29 +181,6 @@ TEST_F(RunMotionMeasures, WhereStretchesAreFromAndWhichLieBeyondTheMotionIsSaid)
   EXPECT_EQ(own->measures.size(), 2u);
   EXPECT_THAT(own->warnings, Not(Contains(HasSubstr("the events of feet are those that were found in"))));
   EXPECT_THAT(own->warnings, Not(Contains(HasSubstr("' reach beyond the motion and are left out"))));
-}
-
-TEST_F(RunMotionMeasures, WhatAModelLacksForMassCentreAndMarginsIsSaid) {
-  const auto notes = [&](const auto& change) {
-    auto description = io::read_osim(at("in/model.osim")).value();
-    change(description);
-    const auto model = model::Model::compile(description).value();
-    const auto read = read_rated_motion(at("in/truth.mot"), model, 0.0).value();
-    return body_input(model, read, {}, false, 1).value().notes;
-  };
-  const auto whole = notes([](auto&) {});
-  EXPECT_THAT(whole, Not(Contains(HasSubstr("has no masses: neither the mass centre nor"))));
-  EXPECT_THAT(whole, Not(Contains(HasSubstr("no marker of the model is on a foot of a side"))));
-  const auto light = notes([](auto& m) {
-    for (auto& body : m.bodies) body.mass = 0.0, body.inertia_about_com.setZero();
-  });
-  EXPECT_THAT(light,
-              Contains(HasSubstr("has no masses: neither the mass centre nor angular momentum is measured")));
-  EXPECT_THAT(light, Not(Contains(HasSubstr("no marker of the model is on a foot of a side"))));
-  const auto bare = notes([](auto& m) { m.markers.clear(); });
-  EXPECT_THAT(bare, Contains(HasSubstr(
-                        "no marker of the model is on a foot of a side (calcn_r, foot_l, toes_r): there "
-                        "are no margins of stability")));
 }
 
 TEST_F(RunMotionMeasures, RefusesInOneSentence) {

@@ -10,7 +10,7 @@
 
 #include "kinemark/data/measure.h"
 #include "kinemark/pipeline/measures/recording_name.h"
-#include "kinemark/workflow/measures/choice.h"
+#include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What is asked of the measures of a recording, and which of it is of paths, of walking, of plates, of
-// muscles.
+// What is asked of measures, of which those of a motion share a part, and which of it is of paths, of
+// walking, of plates, of muscles.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,26 @@
 #include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
-#include "kinemark/workflow/measures/choice.h"
 #include "kinemark/workflow/measures/emg_channels.h"
 
 namespace kinemark::workflow {
+
+/// What of a recording is measured: all that it holds, or what one command is about.
+enum class MeasuresOf : std::uint8_t {
+  everything,  ///< `analyze`
+  paths,       ///< `measure`: paths of markers
+  walking,     ///< `gait`: feet, steps, force plates
+  muscles,     ///< `emg`: electromyograms
+};
+
+/// What is asked of measures, be it of markers or of a motion.
+struct MeasureChoice {
+  std::vector<std::string> measures;  ///< ids; empty: those that apply
+  std::vector<std::string> regions;   ///< parse_region()
+  std::vector<std::string> between;   ///< labels of events: regions_between()
+  std::int64_t refits = 99;           ///< behind each interval; 0: no intervals
+  double level = 0.95;                ///< of the intervals
+};
 
 /// What has to be found besides measures. Each makes the verb look for it, even where no measure needs it.
 struct MeasureNeeds {

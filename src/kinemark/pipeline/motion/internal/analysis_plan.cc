@@ -89,12 +89,10 @@ Status plan_coordinates(const data::ModelDescription& model, const io::Kinematic
   return {};
 }
 
-Status check_times(const AnalysisJob& job, const AnalysisPlan& plan) {
+Status check_times(const AnalysisPlan& plan) {
   if (std::isnan(plan.first_time_s) || std::isnan(plan.last_time_s) || plan.first_time_s > plan.last_time_s)
     return fail(Code::usage, fmt::format("{} to {} s is no range of time; need the earlier one first",
                                          plan.first_time_s, plan.last_time_s));
-  if (!(job.cutoff_hz >= 0.0) || !std::isfinite(job.cutoff_hz))
-    return fail(Code::usage, fmt::format("cut-off is {} Hz; need 0 (none) or more", job.cutoff_hz));
   return {};
 }
 
@@ -133,7 +131,7 @@ Result<AnalysisInputs> read_analysis_inputs(const AnalysisJob& job) {
                        : plan.output.empty() ? "folder for the results: give --output"
                                              : nullptr;
   if (missing) return fail(Code::usage, fmt::format("no {}, or a --setup that names one", missing));
-  if (auto s = check_times(job, plan); !s) return std::unexpected(s.error());
+  if (auto s = check_times(plan); !s) return std::unexpected(s.error());
   plan.name = inputs.setup && !inputs.setup->name.empty() ? inputs.setup->name : plan.motion.stem().string();
   return inputs;
 }
@@ -162,7 +160,7 @@ Result<AnalysisPlan> plan_analysis(const AnalysisJob& job, AnalysisInputs inputs
     plan.torque_file = asked.force_file.empty() ? plan.name + "_inverse_dynamics.sto" : asked.force_file;
   else
     plan.forces.clear();
-  plan.follow.error_bars = job.error_bars && plan.cutoff_hz == 0.0;
+  plan.follow.error_bars = job.error_bars;
   plan.follow.threads = job.threads;
   if (plan.kinematics_name.empty() && plan.bodies_name.empty() && plan.point_names.empty() &&
       plan.torque_file.empty())

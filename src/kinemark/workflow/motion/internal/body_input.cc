@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/body/body_record.h"
+#include "kinemark/workflow/motion/internal/body_input.h"
 
 #include <fmt/core.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -13,12 +13,11 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/gait_event.h"
-#include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/whole_body.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow::internal {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -63,8 +62,7 @@ std::vector<bool> root_coordinates(const data::ModelDescription& model) {
   return out;
 }
 
-analysis::BodyRecord record_of(const model::Model& model, const RatedMotion& read) {
-  const auto& motion = read.motion;
+analysis::BodyRecord record_of(const model::Model& model, const data::JointMotion& motion) {
   analysis::BodyRecord out{
       .time = motion.time, .names = motion.coordinates, .is_rotation = motion.is_rotation};
   const auto frames = motion.frames(), n = motion.size();
@@ -80,7 +78,7 @@ analysis::BodyRecord record_of(const model::Model& model, const RatedMotion& rea
   out.determined.resize(frames, n);
   for (std::int64_t f = 0; f < frames; ++f)
     for (std::int64_t c = 0; c < n; ++c) out.determined(f, c) = motion.determined[motion.index(f, c)] != 0;
-  if (const auto up = workflow::up_of(model)) out.up = *up;
+  if (const auto up = up_of(model)) out.up = *up;
   if (model.gravity().norm() > 0.0) out.gravity = model.gravity().norm();
   for (const auto& body : model.bodies()) out.mass_kg += body.mass;
   return out;
@@ -136,16 +134,14 @@ struct Mechanism {
 };
 
 /// Torques with their deviations, once: which are known, and what is to be said of them.
-Status put_torques(const RatedMotion& read, const std::filesystem::path& forces, int threads,
-                   Mechanism& mechanism, BodyInput& out, std::vector<std::filesystem::path>& files) {
-  data::JointMotion motion = read.motion;
-  const bool bars = !read.motion.q_sd.empty();
-  const auto account =
-      add_torques(mechanism.model, motion, forces,
-                  {.error_bars = bars, .contact_force_n = kContact_n, .threads = threads}, &read.errors);
-  if (!account) return std::unexpected(account.error());
-  std::ranges::copy(account->warnings, std::back_inserter(out.notes));
-  files = account->files;
+Status put_torques(const GivenMotion& given, RatedMotion& rated, int threads, Mechanism& mechanism,
+                   BodyInput& out) {
+  auto& motion = rated.motion;
+  auto torques =
+      find_torques(mechanism.model, given, rated,
+                   {.error_bars = !motion.q_sd.empty(), .contact_force_n = kContact_n, .threads = threads});
+  if (!torques) return std::unexpected(torques.error());
+  std::ranges::move(torques->account.warnings, std::back_inserter(out.notes));
   auto& record = out.record;
   record.torque_known.resize(motion.frames(), motion.size());
   for (std::int64_t f = 0; f < motion.frames(); ++f)
@@ -154,31 +150,29 @@ Status put_torques(const RatedMotion& read, const std::filesystem::path& forces,
       record.torque_known(f, c) = std::isfinite(motion.tau[i]) && record.determined(f, c) &&
                                   (motion.tau_sd.empty() || std::isfinite(motion.tau_sd[i]));
     }
-  if (forces.empty()) return {};
-  auto external = read_external_forces(forces, motion.time, kContact_n);
-  if (!external) return std::unexpected(external.error());
+  if (!torques->forces) return {};
   const auto feet = motion::find_feet(mechanism.model, {});
   if (!feet) return std::unexpected(feet.error());
-  const auto plan = motion::plan_contacts(mechanism.model, motion, external->wrenches, *feet, kContact_n);
+  const auto plan = motion::plan_contacts(mechanism.model, motion, *torques->forces, *feet, kContact_n);
   if (!plan) return std::unexpected(plan.error());
   record.contact = Eigen::MatrixX<bool>::Constant(motion.frames(), 2, false);
   for (const auto& wrench : plan->body)
     for (std::int64_t f = 0; f < motion.frames(); ++f)
       if (const auto side = foot_side(mechanism.model, wrench[at(f)]))
         record.contact(f, static_cast<Eigen::Index>(data::index_of(*side))) = true;
-  mechanism.forces = std::move(external->wrenches);
+  mechanism.forces = std::move(torques->forces);
   return {};
 }
 
 }  // namespace
 
-Result<BodyInput> body_input(const model::Model& model, const RatedMotion& read,
-                             const std::filesystem::path& forces, bool torques, int threads) {
-  BodyInput out{.record = record_of(model, read)};
-  const auto mechanism = std::make_shared<Mechanism>(Mechanism{.model = model, .shape = read.motion});
+Result<BodyInput> body_input(const model::Model& model, const GivenMotion& given, RatedMotion& rated,
+                             bool torques, int threads) {
+  BodyInput out{.record = record_of(model, rated.motion)};
+  const auto mechanism = std::make_shared<Mechanism>(Mechanism{.model = model, .shape = rated.motion});
   auto& shape = mechanism->shape;
-  for (auto* values : {&shape.q_sd, &shape.tau, &shape.tau_sd, &shape.marker_error}) values->clear();
-  mechanism->torques = torques || !forces.empty();
+  for (auto* values : {&shape.q_sd, &shape.marker_error}) values->clear();
+  mechanism->torques = torques || given.forces;
   mechanism->has_mass = out.record.mass_kg > 0.0;
   if (!mechanism->has_mass)
     out.notes.push_back(
@@ -195,10 +189,9 @@ Result<BodyInput> body_input(const model::Model& model, const RatedMotion& read,
         "no marker of the model is on a foot of a side (calcn_r, foot_l, toes_r): there are "
         "no margins of stability");
   if (mechanism->torques)
-    if (auto s = put_torques(read, forces, threads, *mechanism, out, out.files); !s)
-      return std::unexpected(s.error());
+    if (auto s = put_torques(given, rated, threads, *mechanism, out); !s) return std::unexpected(s.error());
   out.mechanics = [mechanism](analysis::BodySeries& series) { return (*mechanism)(series); };
   return out;
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow::internal

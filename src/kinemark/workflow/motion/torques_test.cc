@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A rigid person stands on force plates: the forces of the files must carry the weight to the newton.
-#include "kinemark/pipeline/motion/torques.h"
+#include "kinemark/workflow/motion/torques.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,19 +14,20 @@
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/external_forces.h"
 #include "support/scratch.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::workflow {
 namespace {
 
 using Eigen::Vector3d;
-using testing::_;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::Pair;
+using ::testing::_;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::Pair;
 
 constexpr double kMass = 70.0, kGravity = 9.81, kRate = 100.0;
 const Vector3d kPosition(0.4, -0.3, 0.9);  // of the mass centre
@@ -93,15 +94,22 @@ void write_plate(const std::filesystem::path& path, double weight) {
   ASSERT_TRUE(io::write_c3d(path, trial));
 }
 
+/// Torques of the motion with the forces of a file.
+Result<TorqueAccount> torques_with(const model::Model& model, data::JointMotion& motion,
+                                   const std::filesystem::path& forces) {
+  const auto read = pipeline::read_external_forces(forces, motion.time, 20.0);
+  if (!read) return std::unexpected(read.error());
+  return add_torques(model, motion, &read->wrenches, {.error_bars = false});
+}
+
 TEST(Torques, APlateOfARecordingCarriesTheWeight) {
   const testing_support::ScratchFolder scratch;
   write_plate(scratch / "stand.c3d", kMass * kGravity);
   const auto model = statue();
   auto motion = stand(model, 20);  // 0.5 to 0.69 s
-  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  const auto account = torques_with(model, motion, scratch / "stand.c3d").value();
   for (std::size_t i = 0; i < motion.tau.size(); ++i) EXPECT_NEAR(motion.tau[i], 0.0, 1e-3) << i;
   EXPECT_THAT(account.warnings, IsEmpty());
-  EXPECT_THAT(account.files, ElementsAre(scratch / "stand.c3d"));
   EXPECT_THAT(account.facts,
               ElementsAre(Pair("force of plate 1", "on foot 0.500 to 0.690 s"),
                           Pair("forces not known for", "0.000 s (0 of 20 frames)"),
@@ -120,7 +128,7 @@ TEST(Torques, AForceFarFromEveryFootIsSaidToBeSo) {
   const auto warnings = [&](const char* file, double beside_m) {
     auto motion = stand(model, 20);
     for (std::size_t f = 0; f < 20; ++f) motion.q[6 * f + 3] += beside_m;
-    return add_torques(model, motion, scratch / file, {.error_bars = false}).value().warnings;
+    return torques_with(model, motion, scratch / file).value().warnings;
   };
   EXPECT_THAT(
       warnings("stand.c3d", 2.0),
@@ -157,7 +165,7 @@ TEST(Torques, AFootThatStandsBesideThePlatesHasNoTorques) {
   write_plate(scratch / "stand.c3d", 0.5 * kMass * kGravity);
   const auto model = two_feet();
   auto motion = stand(model, 20);
-  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  const auto account = torques_with(model, motion, scratch / "stand.c3d").value();
   EXPECT_THAT(account.facts, Contains(Pair("load on 'foot_l' that no plate measures", "0.500 to 0.690 s")));
   EXPECT_THAT(account.warnings,
               Contains("'foot_l' bears up to 343 N that no plate measures for 0.200 s (20 of 20 frames): the "
@@ -171,7 +179,7 @@ TEST(Torques, WhatNoPlateMeasuresIsSaid) {
   write_plate(scratch / "stand.c3d", kMass * kGravity);
   const auto model = statue();
   auto motion = stand(model, 100);  // 0.5 to 1.49 s; the plate until 0.8 s, the file until 1.19 s
-  const auto account = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}).value();
+  const auto account = torques_with(model, motion, scratch / "stand.c3d").value();
   EXPECT_NEAR(motion.tau[6 * 10 + 5], 0.0, 1e-3);
   EXPECT_NEAR(motion.tau[6 * 50 + 5], kMass * kGravity, 1e-3);
   EXPECT_TRUE(std::isnan(motion.tau[6 * 80 + 5]));
@@ -183,9 +191,8 @@ TEST(Torques, WhatNoPlateMeasuresIsSaid) {
 TEST(Torques, WithoutAFileTheRootCarriesTheWeight) {
   const auto model = statue();
   auto motion = stand(model, 10);
-  const auto account = add_torques(model, motion, {}, {.error_bars = false}).value();
+  const auto account = add_torques(model, motion, nullptr, {.error_bars = false}).value();
   EXPECT_NEAR(motion.tau[5], kMass * kGravity, 1e-9);
-  EXPECT_THAT(account.files, IsEmpty());
   EXPECT_THAT(account.warnings,
               ElementsAre(HasSubstr("torques are without force plates: 'foot' is carried by 687 N")));
   EXPECT_THAT(account.warnings, ElementsAre(HasSubstr("so that the torques of limbs on the ground lack the "
@@ -210,7 +217,7 @@ TEST(Torques, AModelThatIsFixedToTheGroundLeavesNothingToARoot) {
   motion.coordinates = {"swing"};
   motion.is_rotation = {true};
   for (auto* values : {&motion.q, &motion.qd, &motion.qdd}) values->assign(10, 0.0);
-  const auto account = add_torques(model, motion, {}, {.error_bars = false}).value();
+  const auto account = add_torques(model, motion, nullptr, {.error_bars = false}).value();
   EXPECT_NEAR(std::abs(motion.tau[0]), 0.3 * kMass * kGravity, 1e-9);
   EXPECT_THAT(account.facts, Not(Contains(Pair(HasSubstr("left to the root '"), _))));
   EXPECT_THAT(account.facts, Not(Contains(Pair(_, HasSubstr("N m RMS (body weight")))));
@@ -240,29 +247,9 @@ TEST(Torques, ExternalLoadsOfOpenSimCarryTheWeightToo) {
       false));
   const auto model = statue();
   auto motion = stand(model, 20);
-  const auto account = add_torques(model, motion, scratch / "loads.xml", {.error_bars = false}).value();
+  const auto account = torques_with(model, motion, scratch / "loads.xml").value();
   for (std::size_t i = 0; i < motion.tau.size(); ++i) EXPECT_NEAR(motion.tau[i], 0.0, 1e-9) << i;
-  EXPECT_THAT(account.files, ElementsAre(scratch / "loads.xml", scratch / "grf.sto"));
   EXPECT_THAT(account.facts, Contains(Pair("force of right", "on foot 0.500 to 0.690 s")));
-}
-
-TEST(Torques, ForcesInOtherAxesAreNoticed) {
-  const testing_support::ScratchFolder scratch;
-  write_plate(scratch / "stand.c3d", kMass * kGravity);
-  data::ModelDescription description = statue().description();
-  description.gravity = {0.0, -kGravity, 0.0};  // y up, the recording z up
-  const auto model = model::Model::compile(description).value();
-  auto motion = stand(model, 10);
-  const auto refused = add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, Code::bad_input);
-  EXPECT_THAT(refused.error().message,
-              HasSubstr("stand.c3d: the forces push along z on average, 90 deg off y"));
-  const workflow::Axes chosen{
-      .model_from_recording = Eigen::Matrix3d::Identity(), .chosen = true, .note = ""};
-  const auto account =
-      add_torques(model, motion, scratch / "stand.c3d", {.error_bars = false}, nullptr, chosen).value();
-  EXPECT_THAT(account.warnings, Contains(HasSubstr("90 deg off y")));
 }
 
 /// A foot and a trunk 0.9 m along z from it.
@@ -282,38 +269,28 @@ model::Model two_bodies(const Vector3d& gravity) {
 TEST(Torques, ABodyThatStandsAcrossGravityIsNoticedWithoutForces) {
   const auto standing = two_bodies({0.0, 0.0, -kGravity}), across = two_bodies({0.0, -kGravity, 0.0});
   auto motion = stand(standing, 10);
-  const auto upright = add_torques(standing, motion, {}, {.error_bars = false}).value();
+  const auto upright = add_torques(standing, motion, nullptr, {.error_bars = false}).value();
   EXPECT_THAT(upright.warnings, Not(Contains(HasSubstr("the body stands along"))));
-  const auto sideways = add_torques(across, motion, {}, {.error_bars = false}).value();
+  const auto sideways = add_torques(across, motion, nullptr, {.error_bars = false}).value();
   EXPECT_THAT(sideways.warnings,
               Contains(HasSubstr(
                   "the body stands along z on average, from its feet to its mass centre, and up in the "
                   "model is y")));
   const auto afloat = two_bodies(Vector3d::Zero());
-  EXPECT_THAT(add_torques(afloat, motion, {}, {.error_bars = false}).value().warnings,
+  EXPECT_THAT(add_torques(afloat, motion, nullptr, {.error_bars = false}).value().warnings,
               Not(Contains(HasSubstr("the body stands along"))))
       << "without gravity nothing is up";
 }
 
-TEST(Torques, ABodyThatTheModelLacksIsNamedWithItsFile) {
-  const testing_support::ScratchFolder scratch;
+TEST(Torques, ABodyThatTheModelLacksIsNamed) {
   const auto model = statue();
   auto motion = stand(model, 10);
-  EXPECT_EQ(add_torques(model, motion, scratch / "none.c3d", {.error_bars = false}).error().code, Code::io);
-  data::Table table;
-  table.columns = {"tx", "ty", "tz"};
-  table.time_s = {0.0, 2.0};
-  table.values.assign(6, 1.0);
-  ASSERT_TRUE(io::write_table(scratch / "t.sto", table));
-  ASSERT_TRUE(io::write_text(
-      scratch / "loads.xml",
-      "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"a\"><applied_to_body>tail"
-      "</applied_to_body><torque_identifier>t</torque_identifier></ExternalForce></objects>"
-      "<datafile>t.sto</datafile></ExternalLoads></OpenSimDocument>",
-      false));
-  EXPECT_THAT(add_torques(model, motion, scratch / "loads.xml", {.error_bars = false}).error().message,
-              HasSubstr("loads.xml: wrench 'a' names body 'tail', which the model does not have"));
+  data::Wrench push{.name = "a", .body = "tail"};
+  for (auto* values : {&push.force, &push.moment, &push.point}) values->assign(30, 1.0);
+  const data::Wrenches forces{.time = motion.time, .items = {push}};
+  EXPECT_EQ(add_torques(model, motion, &forces, {.error_bars = false}).error().message,
+            "wrench 'a' names body 'tail', which the model does not have");
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::workflow
