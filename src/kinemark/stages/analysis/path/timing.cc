@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "kinemark/math/fourier.h"
@@ -13,6 +14,9 @@
 
 namespace kinemark::analysis {
 namespace {
+
+constexpr double kLeastCycle = 0.4;  // of the median; what is shorter is noise about a crossing
+constexpr int kTrendPasses = 3;      // each takes the trend of the cycles that the one before found
 
 // n values from -(n-1)/2 to (n-1)/2.
 Eigen::VectorXd centred_index(std::int64_t n) {
@@ -105,14 +109,61 @@ Eigen::Vector3d detrended_axis(const PathMatrix& x) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
 }
 
+namespace {
+
+/// Upward crossings of zero, in samples.
+std::vector<double> upward_crossings(const Eigen::VectorXd& z) {
+  std::vector<double> out;
+  for (std::int64_t i = 0; i + 1 < z.size(); ++i)
+    if (z[i] < 0.0 && z[i + 1] >= 0.0) out.push_back(static_cast<double>(i) - z[i] / (z[i + 1] - z[i]));
+  return out;
+}
+
+/// Take the straight line through the means of whole cycles off. That of least squares, as of
+/// without_trend(), is no line of zero for a cosine that begins and ends anywhere, and moves its crossings
+/// apart.
+/// @param starts  of the cycles, in samples
+/// @return        false, with z as it was, where fewer than two cycles are whole
+bool take_cycle_trend(std::span<const double> starts, Eigen::VectorXd& z) {
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < starts.size(); ++i) lengths.push_back(starts[i] - starts[i - 1]);
+  if (lengths.size() < 2) return false;
+  const double least = kLeastCycle * math::median(lengths);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(z.size());  // by trapezoids, up to each sample
+  for (Eigen::Index i = 1; i < z.size(); ++i) sum[i] = sum[i - 1] + 0.5 * (z[i - 1] + z[i]);
+  const auto up_to = [&](double at) {
+    const auto i = std::min(static_cast<Eigen::Index>(at), z.size() - 2);
+    const double share = at - static_cast<double>(i);
+    return sum[i] + share * (z[i] + 0.5 * share * (z[i + 1] - z[i]));
+  };
+  std::vector<Eigen::Vector2d> means;  // middle of a cycle in samples, mean of z in it
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (lengths[i] > least)
+      means.emplace_back(0.5 * (starts[i] + starts[i + 1]),
+                         (up_to(starts[i + 1]) - up_to(starts[i])) / lengths[i]);
+  if (means.size() < 2) return false;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  for (const auto& one : means) centre += one / static_cast<double>(means.size());
+  double with_time = 0.0, spread = 0.0;
+  for (const auto& one : means) {
+    with_time += (one[0] - centre[0]) * (one[1] - centre[1]);
+    spread += (one[0] - centre[0]) * (one[0] - centre[0]);
+  }
+  const double slope = with_time / spread;
+  for (Eigen::Index i = 0; i < z.size(); ++i)
+    z[i] -= centre[1] + slope * (static_cast<double>(i) - centre[0]);
+  return true;
+}
+
+}  // namespace
+
 std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
   const PathMatrix along = x * axis;
-  const Eigen::VectorXd z = without_trend(along);
-  std::vector<double> crossings;
-  for (std::int64_t i = 0; i + 1 < z.size(); ++i)
-    if (z[i] < 0.0 && z[i + 1] >= 0.0)
-      crossings.push_back((static_cast<double>(i) - z[i] / (z[i + 1] - z[i])) / rate_hz);
-  return crossings;
+  Eigen::VectorXd z = without_trend(along);
+  auto starts = upward_crossings(z);
+  for (int pass = 0; pass < kTrendPasses && take_cycle_trend(starts, z); ++pass) starts = upward_crossings(z);
+  for (double& start : starts) start /= rate_hz;
+  return starts;
 }
 
 Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
@@ -120,7 +171,7 @@ Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rat
   std::vector<double> lengths;
   for (std::size_t i = 1; i < crossings.size(); ++i) lengths.push_back(crossings[i] - crossings[i - 1]);
   if (lengths.size() > 1) {
-    const double least = 0.4 * math::median(lengths);
+    const double least = kLeastCycle * math::median(lengths);
     std::erase_if(lengths, [least](double s) { return s <= least; });
   }
   Cycles out{.count = static_cast<std::int64_t>(lengths.size())};

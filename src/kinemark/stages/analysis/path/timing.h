@@ -45,12 +45,12 @@ struct Cycles {
   double sd_s = kNaN;      ///< between cycles; NaN: fewer than three crossings
   std::int64_t count = 0;  ///< whole cycles
 };
-/// Upward crossings of zero of the positions along an axis, freed of their straight trend, s from the first
-/// sample.
+/// Upward crossings of zero of the positions along an axis, s from the first sample, freed of the straight
+/// line through the means of whole cycles; of that of least squares where fewer than two are whole.
 [[nodiscard]] std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis,
                                                double rate_hz);
-/// Upward crossings of zero of the positions along an axis, freed of their straight trend; crossings nearer
-/// to the one before than 0.4 of the median cycle are noise and do not count.
+/// The times between cycle_starts(); crossings nearer to the one before than 0.4 of the median cycle are
+/// noise and do not count.
 [[nodiscard]] Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
 
 /// The direction in which positions freed of their straight trend spread most.

@@ -3,12 +3,14 @@
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/hand_on.h"
 #include "kinemark/stages/trajectory/smoothing/internal/account.h"
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
@@ -64,6 +66,33 @@ std::vector<double> impulse_response(const data::FilterUsed& used, const SmoothO
   return response;
 }
 
+bool is_fill(data::SampleState state) {
+  return state == data::SampleState::interpolated || state == data::SampleState::model_filled;
+}
+
+/// A fill errs for the whole gap in one way, which no filter averages out: where one says that it knows a
+/// filled sample better than who filled it, its standard deviations there grow until it does not.
+void keep_fill_errors(const data::Trajectories& in, std::int64_t marker, MarkerResult& result) {
+  if (in.covariance.empty() || result.covariance.empty()) return;
+  for (std::int64_t f = 0; f < in.frames(); ++f) {
+    if (!is_fill(in.state[in.index(f, marker)])) continue;
+    const double* fill = in.covariance.data() + 6 * in.index(f, marker);
+    double* six = result.covariance.data() + 6 * f;
+    std::array<double, 3> factor{1.0, 1.0, 1.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto d = math::kSymmetric3Diagonal[at(axis)];
+      if (six[d] > 0.0 && fill[d] > six[d]) factor[at(axis)] = std::sqrt(fill[d] / six[d]);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      six[math::kSymmetric3Diagonal[at(axis)]] *= factor[at(axis)] * factor[at(axis)];
+    six[1] *= factor[0] * factor[1];
+    six[2] *= factor[0] * factor[2];
+    six[4] *= factor[1] * factor[2];
+    for (Array<double>* sd : {&result.velocity_sd, &result.acceleration_sd, &result.jerk_sd})
+      for (int axis = 0; axis < 3 && !sd->empty(); ++axis) (*sd)[at(3 * f + axis)] *= factor[at(axis)];
+  }
+}
+
 Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOptions& options,
                                    std::int64_t marker) {
   const auto samples = smoothing::marker_samples(in, marker);
@@ -81,6 +110,7 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   account.bad_variances = samples->bad_variances;
   if (const auto status = run_filter(*samples, in, options, result); !status)
     return std::unexpected(status.error());
+  keep_fill_errors(in, marker, result);
   smoothing::judge_residuals(*samples, impulse_response(account.used, options, in.time.rate_hz),
                              in.time.rate_hz, result);
   return result;

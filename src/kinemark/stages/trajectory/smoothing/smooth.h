@@ -30,7 +30,8 @@ struct SmoothResult {
 /// What is missing stays missing, unless `max_bridge_s` asks for more; bridged samples become `interpolated`,
 /// made by "kalman" or "gcv". Butterworth, savgol and classic treat the stretches between gaps as separate
 /// recordings. Samples are smoothed at their own times (`sample_offset_s`), which the result keeps. Samples
-/// that an earlier stage made count as one observation for each stretch. The result tells its filters and
+/// that an earlier stage made count as one observation for each stretch, and keep at least the standard
+/// deviation that it gave them: a fill errs for the whole gap in one way. The result tells its filters and
 /// keeps the samples that went in (hand_on()). Numbers that cannot be had (velocity
 /// of a single sample) are NaN; no gap spreads to its neighbours.
 ///

@@ -433,5 +433,36 @@ TEST(Smooth, TheSpectrumHasThePowerOfTheNoise) {
   EXPECT_NEAR(sum / expected, 1.0, 0.35);
 }
 
+// A gap that was filled with an error of 1.5 mm all along, and says so: no filter may know better.
+TEST(Smooth, AFillKeepsItsStandardDeviation) {
+  auto t = hand();
+  t.covariance.assign(2 * t.x_in_world.size(), 0.0);
+  for (int f = 0; f < 400; ++f) {
+    const bool filled = f >= 200 && f < 220;
+    math::pack_isotropic3(std::pow(filled ? 0.0015 : kSigma, 2), t.covariance.data() + 6 * t.index(f, 0));
+    if (!filled) continue;
+    for (int axis = 0; axis < 3; ++axis) t.x(f, 0)[axis] += 0.0015;
+    t.state[t.index(f, 0)] = SampleState::model_filled;
+  }
+  for (const auto method : {FilterMethod::none, FilterMethod::kalman, FilterMethod::gcv, FilterMethod::savgol,
+                            FilterMethod::butterworth, FilterMethod::classic}) {
+    SmoothOptions options;
+    options.method = method;
+    const auto found = smooth(t, options);
+    ASSERT_TRUE(found) << found.error().message;
+    const auto& smoothed = found->trajectories;
+    ASSERT_FALSE(smoothed.covariance.empty()) << to_string(method);
+    for (int f = 200; f < 220; ++f)
+      for (const auto d : math::kSymmetric3Diagonal)
+        EXPECT_GE(std::sqrt(smoothed.covariance[6 * smoothed.index(f, 0) + d]), 0.0015 * (1.0 - 1e-12))
+            << to_string(method) << ", frame " << f;
+    EXPECT_LT(std::sqrt(smoothed.covariance[6 * smoothed.index(100, 0)]), 1.01 * kSigma)
+        << "what was measured is as before";
+    if (method != FilterMethod::kalman) continue;
+    const auto& sd = found->derivatives.velocity_sd;
+    EXPECT_GT(sd[at(3 * 210)], 2.0 * sd[at(3 * 100)]);
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::trajectory
