@@ -31,7 +31,7 @@ InstantsFound instants_of(const PathSamples& path, const Eigen::Vector3d& axis) 
     if (std::isfinite(movement.onset_s)) out.of_kind[0].push_back(movement.onset_s);
     if (std::isfinite(movement.end_s)) out.of_kind[1].push_back(movement.end_s);
   }
-  out.of_kind[2] = cycle_starts(path.x, axis, path.rate_hz);
+  out.of_kind[2] = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_whole_cycles);
   return out;
 }
 
@@ -118,7 +118,7 @@ double variation_of(const std::vector<double>& values) {
 
 Repeats find_repeats(const PathSamples& path, const Eigen::Vector3d& axis, PathRhythm& out) {
   Repeats found{.movements = movements_of(speed_of(path), path.rate_hz),
-                .crossings = cycle_starts(path.x, axis, path.rate_hz),
+                .crossings = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_samples),
                 .cycles = {}};
   const auto period = period_of(path.v, path.rate_hz);
   const bool alike = period.likeness >= kPeriodicLikeness;
@@ -129,6 +129,15 @@ Repeats find_repeats(const PathSamples& path, const Eigen::Vector3d& axis, PathR
   out.periodic = alike && lengths.size() > 1 && variation < kIrregular;
   if (out.periodic) {
     out.period_s = period.s;
+    // That these are cycles is known now, and so is their trend.
+    auto starts = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_whole_cycles);
+    if (auto whole = cycles_among(starts, period.s); whole.size() == found.cycles.size()) {
+      found.crossings = std::move(starts);
+      found.cycles = std::move(whole);
+      lengths.clear();
+      for (const auto& [from, to] : found.cycles)
+        lengths.push_back(found.crossings[to] - found.crossings[from]);
+    }
     out.verdict = fmt::format("{} cycles of {:.3f} s (likeness {:.2f})", lengths.size(), mean_of(lengths),
                               period.likeness);
   } else if (std::isnan(period.s)) {

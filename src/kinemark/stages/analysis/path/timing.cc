@@ -157,17 +157,19 @@ bool take_cycle_trend(std::span<const double> starts, Eigen::VectorXd& z) {
 
 }  // namespace
 
-std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
+std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz,
+                                 CycleTrend trend) {
   const PathMatrix along = x * axis;
   Eigen::VectorXd z = without_trend(along);
   auto starts = upward_crossings(z);
-  for (int pass = 0; pass < kTrendPasses && take_cycle_trend(starts, z); ++pass) starts = upward_crossings(z);
+  const int passes = trend == CycleTrend::of_whole_cycles ? kTrendPasses : 0;
+  for (int pass = 0; pass < passes && take_cycle_trend(starts, z); ++pass) starts = upward_crossings(z);
   for (double& start : starts) start /= rate_hz;
   return starts;
 }
 
 Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz) {
-  const auto crossings = cycle_starts(x, axis, rate_hz);
+  const auto crossings = cycle_starts(x, axis, rate_hz, CycleTrend::of_whole_cycles);
   std::vector<double> lengths;
   for (std::size_t i = 1; i < crossings.size(); ++i) lengths.push_back(crossings[i] - crossings[i - 1]);
   if (lengths.size() > 1) {

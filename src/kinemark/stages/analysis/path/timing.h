@@ -45,10 +45,15 @@ struct Cycles {
   double sd_s = kNaN;      ///< between cycles; NaN: fewer than three crossings
   std::int64_t count = 0;  ///< whole cycles
 };
-/// Upward crossings of zero of the positions along an axis, s from the first sample, freed of the straight
-/// line through the means of whole cycles; of that of least squares where fewer than two are whole.
+/// Which straight line is taken off a movement before its cycles are found.
+enum class CycleTrend {
+  of_samples,      ///< that of least squares: needs no cycles, and has a part of them
+  of_whole_cycles  ///< that through the means of whole cycles; of_samples where fewer than two are whole
+};
+/// Upward crossings of zero of the positions along an axis, freed of a straight trend, s from the first
+/// sample.
 [[nodiscard]] std::vector<double> cycle_starts(const PathMatrix& x, const Eigen::Vector3d& axis,
-                                               double rate_hz);
+                                               double rate_hz, CycleTrend trend);
 /// The times between cycle_starts(); crossings nearer to the one before than 0.4 of the median cycle are
 /// noise and do not count.
 [[nodiscard]] Cycles cycles_along(const PathMatrix& x, const Eigen::Vector3d& axis, double rate_hz);
