@@ -137,7 +137,9 @@ class Tables(CommandTest):
     def test_mot_and_sto_are_the_same_table(self):
         self.good("convert", self.truth, "a.sto")
         self.good("convert", "a.sto", "b.mot")
-        self.assertEqual((self.folder / "b.mot").read_bytes(), self.truth.read_bytes())
+        lines = self.truth.read_bytes().splitlines(keepends=True)
+        alone = b"".join(line for line in lines if not line.startswith((b"kinemark_set=", b"kinemark_sum=")))
+        self.assertEqual((self.folder / "b.mot").read_bytes(), alone, "a copy is no member of the set")
 
     def test_a_table_of_one_row_and_of_none(self):
         head = "t\nversion=1\nnRows={}\nnColumns=2\ninDegrees=no\nendheader\ntime\tq\n"

@@ -137,7 +137,7 @@ class MarkerFiles(CommandTest):
             self.refused(3, ["x.trc", words], "info", "x.trc")
 
     def test_what_is_unusual_and_right_is_good(self):
-        text = self.trc.read_text()
+        text = re.sub(" kinemark_sum=[0-9a-f]{16}", "", self.trc.read_text())
         self.good("validate", self.write("crlf.trc", text.replace("\n", "\r\n")), self.write("cm.trc", text.replace("\tmm\t", "\tcm\t", 1)))
         self.good("validate", self.write("names.trc", text.replace("LFHD", "A name with spaces", 1)))
         prefixed = text.split("\n")

@@ -32,8 +32,8 @@ class LiveAngles final : public stream::Sink {
   [[nodiscard]] std::int64_t delay_frames() const { return tracker_.delay_frames(); }
 
  private:
-  friend Result<std::unique_ptr<LiveAngles>> live(const model::Model&, const stream::SourceFacts&, LiveTaker,
-                                                  const motion::TrackOptions&);
+  friend Result<std::unique_ptr<LiveAngles>> live(const model::Model& model, const stream::SourceFacts& facts,
+                                                  LiveTaker take, const motion::TrackOptions& options);
   LiveAngles(motion::OnlineTracker tracker, std::size_t markers, LiveTaker take);
   [[nodiscard]] Status hand_on();
 
