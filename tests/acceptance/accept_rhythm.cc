@@ -143,7 +143,8 @@ Counts judge(const analysis::PathSamples& path, const analysis::PathRhythm& foun
   Eigen::Index largest = 0;
   axis.cwiseAbs().maxCoeff(&largest);
   if (axis[largest] < 0.0) axis = -axis;
-  for (const double t : analysis::cycle_starts(x, axis, path.rate_hz)) truth[2].push_back(found.start_s + t);
+  for (const double t : analysis::cycle_starts(x, axis, path.rate_hz, analysis::CycleTrend::of_whole_cycles))
+    truth[2].push_back(found.start_s + t);
   std::array<int, 2> seen{};
   for (const auto& event : found.events) {
     const auto kind = static_cast<std::size_t>(event.kind);

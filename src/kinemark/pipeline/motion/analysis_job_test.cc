@@ -10,6 +10,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
@@ -86,7 +87,7 @@ TEST_F(RunAnalysis, DeviationsBesideTheMotionAreUsedAndWhatIsNotDeterminedHasNon
   const auto knee = sd.find("knee_angle_r");
   for (std::int64_t r = 5; r < 9; ++r)
     sd.values[static_cast<std::size_t>(r) * sd.columns.size() + static_cast<std::size_t>(knee)] = NAN;
-  ASSERT_TRUE(io::write_table(at("Q_sd.sto"), sd, {.force = true}));
+  ASSERT_TRUE(io::write_table(at("Q_sd.sto"), sd, {.force = true, .set = set_in(at("Q.mot"))}));
   auto job = analysis("out1");
   job.motion = at("Q.mot");
   const auto outcome = run_analysis(job);

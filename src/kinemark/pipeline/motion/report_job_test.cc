@@ -9,6 +9,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
@@ -132,7 +133,8 @@ TEST_F(RunReport, FilesThatDoNotBelongTogetherAreBadInput) {
   auto shorter = io::read_table(at("mixed_marker_errors.sto")).value();
   shorter.time_s.pop_back();
   shorter.values.resize(shorter.values.size() - shorter.columns.size());
-  ASSERT_TRUE(io::write_table(at("mixed_marker_errors.sto"), shorter, {.force = true}));
+  ASSERT_TRUE(io::write_table(at("mixed_marker_errors.sto"), shorter,
+                              {.force = true, .set = set_in(at("mixed.mot"))}));
   const auto refused = page(at("mixed.mot"), at("mixed.html"));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::bad_input);

@@ -195,8 +195,9 @@ Periodogram periodogram_of(const PathMatrix& x, double rate_hz, double highest_h
   PathMatrix level = without_trend(x);
   level.array().colwise() *= window.values.array();
   const double step_hz = rate_hz / static_cast<double>(length);
-  const auto highest = static_cast<std::int64_t>(
-      std::min(std::ceil(highest_hz / step_hz) + 1.0, static_cast<double>(length / 2)));
+  const std::int64_t half = length / 2;
+  const auto highest =
+      static_cast<std::int64_t>(std::min(std::ceil(highest_hz / step_hz) + 1.0, static_cast<double>(half)));
   Periodogram out{.step_hz = step_hz,
                   .per_mean_square = 2.0 / (window.squared * static_cast<double>(length)),
                   .power = low_powers(level, length, highest)};

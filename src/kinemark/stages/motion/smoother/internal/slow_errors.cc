@@ -116,8 +116,8 @@ class Stretch {
     const std::int64_t begin = node * per_node_,
                        end = std::min<std::int64_t>(states_.cols(), begin + per_node_);
     const std::int64_t stride = (end - begin + kFramesOfNode - 1) / kFramesOfNode;
-    const auto used = static_cast<double>((end - begin + stride - 1) / stride);
-    const double share = static_cast<double>(end - begin) / used;
+    const std::int64_t used = (end - begin + stride - 1) / stride;
+    const double share = static_cast<double>(end - begin) / static_cast<double>(used);
     MatrixXd own;
     H_.setZero(model_.speed_count(), model_.speed_count());
     for (std::int64_t f = begin; f < end; f += stride) {
