@@ -117,7 +117,7 @@ Status OutputFile::write(std::span<const std::byte> bytes) {
 Status OutputFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
 
 Status OutputFile::write_sealed(std::string_view text) {
-  sum_at_ = find_sum(text);
+  sum_at_ = find_mark(text, kSumKey);
   check(sum_at_ != std::string_view::npos && !sum_,
         "OutputFile::write_sealed: the text holds no place of a sum");
   sum_.reset(XXH3_createState());

@@ -24,9 +24,9 @@ std::string sealed_mark(std::string_view set) {
   return set.empty() ? std::string() : fmt::format("{} {}={}", set_mark(set), kSumKey, kNoSum);
 }
 
-std::size_t find_sum(std::string_view text) {
-  for (auto at = text.find(kSumKey); at != std::string_view::npos; at = text.find(kSumKey, at + 1)) {
-    const auto digits = text.find_first_not_of("=\": ", at + kSumKey.size());
+std::size_t find_mark(std::string_view text, std::string_view key) {
+  for (auto at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
+    const auto digits = text.find_first_not_of("=\": ", at + key.size());
     if (digits == std::string_view::npos) return digits;
     const auto found = text.substr(digits, kNoSum.size());
     if (found.size() == kNoSum.size() && std::ranges::all_of(found, is_digit)) return digits;
@@ -35,7 +35,7 @@ std::size_t find_sum(std::string_view text) {
 }
 
 Seal check_seal(std::string_view text) {
-  const auto at = find_sum(text.substr(0, kSearched));
+  const auto at = find_mark(text.substr(0, kSearched), kSumKey);
   if (at == std::string_view::npos) return Seal::none;
   const auto after = text.substr(at + kNoSum.size());
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);

@@ -16,8 +16,9 @@ inline constexpr std::string_view kNoSum = "0000000000000000";  ///< in the digi
 /// "kinemark_set=SET kinemark_sum=0000000000000000", for OutputFile::write_sealed(); empty when `set` is.
 [[nodiscard]] std::string sealed_mark(std::string_view set);
 
-/// Where the 16 digits of a sum stand in a text; npos where there are none.
-[[nodiscard]] std::size_t find_sum(std::string_view text);
+/// Where the 16 lower-case hexadecimal digits behind a key (kSetKey, kSumKey) stand in a text, with "=", ":",
+/// spaces and quotation marks between; npos where there are none.
+[[nodiscard]] std::size_t find_mark(std::string_view text, std::string_view key);
 
 /// What the sum in a text says of it.
 enum class Seal {

@@ -68,7 +68,7 @@ TEST(Seal, TextsWithoutASumHaveNone) {
 TEST(Seal, IsFoundBehindSignsOfAnyFormat) {
   for (const char* text : {"kinemark_sum=0123456789abcdef", "\"kinemark_sum\": \"0123456789abcdef\"",
                            "kinemark_sum kinemark_sum = 0123456789abcdef"})
-    EXPECT_EQ(std::string_view(text).substr(find_sum(text), 16), "0123456789abcdef") << text;
+    EXPECT_EQ(std::string_view(text).substr(find_mark(text, kSumKey), 16), "0123456789abcdef") << text;
 }
 
 TEST(Seal, ATextOfOneCallIsSealedToo) {

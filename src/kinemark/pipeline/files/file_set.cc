@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <system_error>
 
 #include "kinemark/io/file.h"
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kDigits = 16;
 constexpr std::size_t kBlock = 1UL << 20;
 /// All formats but NWB name their set near the beginning.
 constexpr std::size_t kSearched = 4UL << 20;
@@ -46,19 +44,6 @@ constexpr std::array<Names, 3> kFolders = {
     Names{"centres.c3d", "segments.toml", "skeleton.json"},
     Names{"markers.c3d", "markers.trc", "truth.mot", "truth.trc"},
     Names{"recording.mcap", "truth.trc", "truth_derivatives.sto", "rig_true.toml", "rig_nominal.toml"}};
-
-/// The set that stands in a text, or empty.
-std::string find_mark(std::string_view text) {
-  for (auto at = text.find(io::kSetKey); at != std::string_view::npos; at = text.find(io::kSetKey, at + 1)) {
-    auto digits = text.substr(at + io::kSetKey.size(), kDigits + 4);
-    digits.remove_prefix(std::min(digits.size(), digits.find_first_not_of("=\": ")));
-    digits = digits.substr(0, kDigits);
-    if (digits.size() == kDigits &&
-        std::ranges::all_of(digits, [](unsigned char c) { return std::isxdigit(c) != 0; }))
-      return std::string(digits);
-  }
-  return {};
-}
 
 /// Whether a file was changed since it was written; of those that hold a sum (io/seal.h).
 bool is_changed(const fs::path& file) {
@@ -86,6 +71,23 @@ std::string stem_of_result(const fs::path& file) {
     if (name.size() > ending.size() && name.ends_with(ending))
       return name.substr(0, name.size() - ending.size());
   return file.stem().string();
+}
+
+/// Files that are there and by their names belong to one result with this one.
+std::vector<fs::path> files_beside(const fs::path& file) {
+  std::vector<fs::path> out;
+  const std::string stem = stem_of_result(file), name = file.filename().string();
+  std::error_code ignored;
+  const auto look_at = [&](const fs::path& other) {
+    if (other.filename() != file.filename() && std::ranges::find(out, other) == out.end() &&
+        fs::is_regular_file(other, ignored))
+      out.push_back(other);
+  };
+  for (const auto ending : kEndings) look_at(file.parent_path() / (stem + std::string(ending)));
+  for (const auto& names : kFolders)
+    if (std::ranges::find(names, name) != names.end())
+      for (const auto other : names) look_at(file.parent_path() / other);
+  return out;
 }
 
 }  // namespace
@@ -140,7 +142,9 @@ std::string set_in(const fs::path& path) {
   for (std::size_t at = 0; at < size; at += kBlock - 64) {
     const auto n = file->read_at(at, std::as_writable_bytes(std::span(block)));
     if (!n) return {};
-    if (auto set = find_mark(std::string_view(block).substr(0, *n)); !set.empty()) return set;
+    const auto text = std::string_view(block).substr(0, *n);
+    if (const auto digits = io::find_mark(text, io::kSetKey); digits != std::string_view::npos)
+      return std::string(text.substr(digits, io::kNoSum.size()));
   }
   return {};
 }
@@ -158,26 +162,19 @@ std::vector<std::string> find_strangers(const fs::path& file) {
   std::vector<std::string> out;
   const std::string set = set_in(file);
   if (set.empty()) return out;
-  // Of tables and markers their reader says so.
-  if (ending_of(file) == ".json" && is_changed(file)) out.push_back(name_changed(file));
-  std::vector<fs::path> beside_it;
-  const std::string stem = stem_of_result(file), name = file.filename().string();
-  const auto look_at = [&](const fs::path& other) {
-    if (std::ranges::find(beside_it, other) == beside_it.end()) beside_it.push_back(other);
-  };
-  for (const auto ending : kEndings) look_at(file.parent_path() / (stem + std::string(ending)));
-  for (const auto& names : kFolders)
-    if (std::ranges::find(names, name) != names.end())
-      for (const auto other : names) look_at(file.parent_path() / other);
-  std::error_code ignored;
-  for (const auto& other : beside_it) {
-    if (other.filename() == file.filename() || !fs::is_regular_file(other, ignored)) continue;
-    const std::string theirs = set_in(other);
-    if (!theirs.empty() && theirs != set)
+  for (const auto& other : files_beside(file))
+    if (const auto theirs = set_in(other); !theirs.empty() && theirs != set)
       out.push_back(name_strangers(file, other));
-    else if (is_changed(other))
-      out.push_back(name_changed(other));
-  }
+  return out;
+}
+
+std::vector<std::string> find_changed(const fs::path& file) {
+  std::vector<std::string> out;
+  const std::string set = set_in(file);
+  if (set.empty()) return out;
+  if (ending_of(file) == ".json" && is_changed(file)) out.push_back(name_changed(file));
+  for (const auto& other : files_beside(file))
+    if (set_in(other) == set && is_changed(other)) out.push_back(name_changed(other));
   return out;
 }
 

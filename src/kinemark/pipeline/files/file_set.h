@@ -53,8 +53,12 @@ struct SetMember {
 /// content of one is not what was written (io/seal.h).
 [[nodiscard]] Status check_same_set(const std::vector<SetMember>& members);
 
-/// Files beside `file` that by their names belong to one result with it but name another set, or were changed
-/// since they were written, one sentence each.
+/// Files beside `file` that by their names belong to one result with it but name another set, one sentence
+/// each. Reads their beginnings.
 [[nodiscard]] std::vector<std::string> find_strangers(const std::filesystem::path& file);
+
+/// Files of one result with `file` that were changed since they were written (io/seal.h), one sentence each;
+/// `file` itself where its reader does not say so (JSON). Reads them all.
+[[nodiscard]] std::vector<std::string> find_changed(const std::filesystem::path& file);
 
 }  // namespace kinemark::pipeline

@@ -44,6 +44,7 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
           markers != nullptr && !markers->filtered.empty())
         checked.notes.push_back(markers->filtered);
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
+      std::ranges::move(find_changed(file), std::back_inserter(checked.warnings));
     } else {
       checked.error = std::move(facts.error());
     }

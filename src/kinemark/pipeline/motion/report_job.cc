@@ -193,6 +193,9 @@ Result<Page> solved_page(const fs::path& solved, std::span<const fs::path> geome
   std::vector<SetMember> members{{beside(base, "_report.json"), set_of(*json)}, {base, set_of(*coordinates)}};
   if (deviations) members.push_back({beside(base, "_sd.sto"), set_of(*deviations)});
   members.push_back({beside(base, "_marker_errors.sto"), set_of(*errors)});
+  for (const char* torques : {"_tau.sto", "_tau_sd.sto"})  // of another set they are left out
+    if (set_in(beside(base, torques)) == members.front().set)
+      members.push_back({beside(base, torques), members.front().set});
   if (auto s = check_same_set(members); !s) return std::unexpected(s.error());
   Page page;
   page.read = {base, beside(base, "_sd.sto"), beside(base, "_marker_errors.sto"),

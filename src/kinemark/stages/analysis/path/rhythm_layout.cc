@@ -116,6 +116,16 @@ double variation_of(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1)) / mean;
 }
 
+namespace {
+
+std::vector<double> lengths_of(const Repeats& found) {
+  std::vector<double> out;
+  for (const auto& [from, to] : found.cycles) out.push_back(found.crossings[to] - found.crossings[from]);
+  return out;
+}
+
+}  // namespace
+
 Repeats find_repeats(const PathSamples& path, const Eigen::Vector3d& axis, PathRhythm& out) {
   Repeats found{.movements = movements_of(speed_of(path), path.rate_hz),
                 .crossings = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_samples),
@@ -123,21 +133,17 @@ Repeats find_repeats(const PathSamples& path, const Eigen::Vector3d& axis, PathR
   const auto period = period_of(path.v, path.rate_hz);
   const bool alike = period.likeness >= kPeriodicLikeness;
   if (alike) found.cycles = cycles_among(found.crossings, period.s);
-  std::vector<double> lengths;
-  for (const auto& [from, to] : found.cycles) lengths.push_back(found.crossings[to] - found.crossings[from]);
+  auto lengths = lengths_of(found);
   const double variation = variation_of(lengths);
-  out.periodic = alike && lengths.size() > 1 && variation < kIrregular;
+  if (alike && lengths.size() > 1 && variation < kIrregular) {
+    // That these are cycles is known now, and so is their trend.
+    found.crossings = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_whole_cycles);
+    found.cycles = cycles_among(found.crossings, period.s);
+    lengths = lengths_of(found);
+    out.periodic = lengths.size() > 1;
+  }
   if (out.periodic) {
     out.period_s = period.s;
-    // That these are cycles is known now, and so is their trend.
-    auto starts = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_whole_cycles);
-    if (auto whole = cycles_among(starts, period.s); whole.size() == found.cycles.size()) {
-      found.crossings = std::move(starts);
-      found.cycles = std::move(whole);
-      lengths.clear();
-      for (const auto& [from, to] : found.cycles)
-        lengths.push_back(found.crossings[to] - found.crossings[from]);
-    }
     out.verdict = fmt::format("{} cycles of {:.3f} s (likeness {:.2f})", lengths.size(), mean_of(lengths),
                               period.likeness);
   } else if (std::isnan(period.s)) {
