@@ -48,9 +48,10 @@ class LiveAngles final : public stream::Sink {
 /// it, by direct marker control: the angles of track() on the same frames, a fixed number of frames later
 /// (OnlineTracker says what is the same to the bit). Frames are numbered as the source numbers its own. Where
 /// no marker holds the body, before the first are seen and in gaps of all of them, every number is NaN;
-/// track() holds the last pose there. Unless a marker noise is given, deviations are of the noise that the
-/// filter removes: how skin slides is not in them, as it is in those of track(). Frames are followed as they
-/// come, in whichever axes: what the torques are worth depends on the vertical being the model's.
+/// track() holds the last pose there. Unless a marker noise is given, deviations are of what the residuals of
+/// the frames so far show, skin that slides among it: in the first seconds of less than those of track().
+/// Frames are followed as they come, in whichever axes: what the torques are worth depends on the vertical
+/// being the model's.
 ///
 /// @param facts  of the source: its name, which errors begin with, markers and rate
 /// @param options  as of track(); its lookahead is the delay, a time range does nothing here

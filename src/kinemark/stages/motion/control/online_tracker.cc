@@ -30,6 +30,7 @@ constexpr double kMostAhead_s = 0.5;  // of the stamps, by frames that come fast
 constexpr double kPatience_s = 1.0;   // after which a start with fewer markers is accepted
 constexpr double kEnough = 0.95;      // of the markers
 constexpr std::int64_t kFewest = 3;
+constexpr double kResiduals_s = 0.2;  // between frames whose residuals are looked at: slides take longer
 
 /// A recording of two frames with all markers in the model's default pose, from which make_plan() matches the
 /// names.
@@ -66,6 +67,7 @@ struct OnlineTracker::Impl {
         weight(plan.problem.model.marker_count()),
         rest_squares(Eigen::VectorXd::Zero(weight.size())),
         rest_count(rest_squares),
+        residuals(plan.problem),
         columns(names) {
     y.setZero();
   }
@@ -156,24 +158,34 @@ struct OnlineTracker::Impl {
       pose.status = fixed ? FrameStatus::converged : FrameStatus::underdetermined;
   }
 
-  /// Noise of the goals: as given, or from the part removed by the filter so far.
+  /// Noise of the goals: as given, or what the residuals of the body and the part removed by the filter show
+  /// so far, as goal_noise() does for a recording.
   const MarkerVariances& noise() {
     const double gain = filter.noise_in_goal();
-    variances.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
     if (options.marker_noise_sd_m > 0.0) {
+      variances.common.setZero(static_cast<Eigen::Index>(plan.problem.model.bodies().size()));
       variances.own.setConstant(weight.size(), gain * options.marker_noise_sd_m * options.marker_noise_sd_m);
       return variances;
     }
+    const auto f = walker->frame();
     const auto& goal = known_goal;
-    variances.own.setZero(weight.size());
+    if (next_residuals <= f) {
+      Eigen::VectorXd full = plan.problem.weight;
+      for (Eigen::Index m = 0; m < full.size(); ++m)
+        if (goal.weight[m] < full[m]) full[m] = 0.0;
+      residuals.add(goal.x, full, walker->controller().x());
+      of_residuals = residuals.variances();
+      next_residuals = f + std::max<std::int64_t>(1, std::llround(kResiduals_s * plan.rate_hz));
+    }
+    variances = of_residuals;
     for (int m = 0; m < static_cast<int>(weight.size()); ++m) {
-      const auto f = walker->frame();
       if (window().present(f, m) && goal.weight[m] >= plan.problem.weight[m]) {
         rest_squares[m] += (window().x(f, m) - goal.x.col(m)).squaredNorm();
         rest_count[m] += 3.0;
       }
       if (rest_count[m] > 0.0 && filter.noise_in_rest() > 1e-3)
-        variances.own[m] = gain * rest_squares[m] / (rest_count[m] * filter.noise_in_rest());
+        variances.own[m] =
+            std::max(variances.own[m], gain * rest_squares[m] / (rest_count[m] * filter.noise_in_rest()));
     }
     return variances;
   }
@@ -191,7 +203,9 @@ struct OnlineTracker::Impl {
   internal::GoalValues known_goal;   // without what was not believed
   Eigen::Matrix3Xd y;
   Eigen::VectorXd weight, rest_squares, rest_count;
-  MarkerVariances variances;
+  VarianceSums residuals;
+  MarkerVariances of_residuals, variances;
+  std::int64_t next_residuals = 0;  // frame whose residuals are looked at next
   std::int64_t columns;
   LivePose pose;
   std::int64_t next_frame = 0, ahead = 0;

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "kinemark/stages/motion/control/track.h"
 #include "kinemark/stages/motion/testing/body.h"
@@ -77,6 +79,38 @@ TEST(OnlineTracker, GivesTheSameNumbersAsAFile) {
       }
     }
   }
+}
+
+TEST(OnlineTracker, DeviationsHoldWhatTheFilterDoesNotSee) {
+  // Skin slides more slowly than any filter removes: each marker by 8 mm, in its own rhythm.
+  const auto model = body();
+  auto markers = record(model, 600, 0.2e-3, 6);
+  for (std::int64_t m = 0; m < markers.markers(); ++m) {
+    const double phase = 2.1 * static_cast<double>(m), hz = 0.4 + 0.05 * static_cast<double>(m % 7);
+    const Eigen::Vector3d along(std::cos(phase), std::sin(phase), std::cos(1.7 * phase));
+    for (std::int64_t f = 0; f < markers.frames(); ++f)
+      markers.x(f, m) += 8e-3 * std::sin(2.0 * EIGEN_PI * hz * markers.time.time_s(f) + phase) * along;
+  }
+  const auto file = track_markers(model, markers).value();
+  auto tracker = OnlineTracker::create(model, markers.names, 100.0).value();
+  const auto live = stream(tracker, markers);
+  std::vector<double> ratios, still;
+  auto quiet = OnlineTracker::create(model, markers.names, 100.0).value();
+  const auto rigid = stream(quiet, record(model, 600, 0.2e-3, 6));
+  for (std::int64_t f = 300; f < 600; ++f)
+    for (std::int64_t c = 0; c < file.motion.size(); ++c) {
+      const auto& pose = live[static_cast<std::size_t>(f)];
+      const double sd = file.motion.q_sd[file.motion.index(f, c)];
+      if (!(sd > 0.0) || std::isnan(pose.q_sd[c])) continue;
+      ratios.push_back(pose.q_sd[c] / sd);
+      still.push_back(pose.q_sd[c] / rigid[static_cast<std::size_t>(f)].q_sd[c]);
+    }
+  ASSERT_GT(ratios.size(), 1000U);
+  std::ranges::sort(ratios), std::ranges::sort(still);
+  EXPECT_GT(ratios[ratios.size() / 2], 0.8) << "as those of the whole recording";
+  EXPECT_LT(ratios[ratios.size() / 2], 1.25);
+  EXPECT_GT(ratios.front(), 0.5);
+  EXPECT_GT(still[still.size() / 2], 5.0) << "and those of markers that do not slide stay small";
 }
 
 TEST(OnlineTracker, ABadSampleIsLeftOutAndSaid) {

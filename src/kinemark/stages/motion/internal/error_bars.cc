@@ -46,9 +46,13 @@ struct Frame {
         q(p.model.coordinate_count()) {}
 
   void visit(const data::Trajectories& markers, const MatrixXd& states, std::int64_t f) {
-    frame = f;
     problem.observe(markers, f, y, weight);
     x = states.col(f);
+    pose();
+  }
+
+  /// Everything that follows from x.
+  void pose() {
     model::kinematics(problem.model, w, x);
     if (!problem.model.point_constraints().empty()) model::point_constraint_jacobian(problem.model, w, C);
   }
@@ -102,7 +106,6 @@ struct Frame {
 
   const internal::Problem& problem;
   model::Workspace w;
-  std::int64_t frame = 0;
   Eigen::Matrix3Xd y;
   VectorXd weight, x, q;
   MatrixXd H, K, C, E, J;
@@ -184,55 +187,74 @@ VectorXd information_of(const model::Model& model, const MarkerVariances& varian
   return information;
 }
 
-MarkerVariances estimate_variances(const internal::Problem& problem, const data::Trajectories& markers,
-                                   const MatrixXd& states, int threads) {
-  const auto& model = problem.model;
-  const Eigen::Index M = model.marker_count();
-  std::vector<int> on_body(model.bodies().size(), 0), segment_of_body(model.bodies().size(), -1), bodies;
-  for (const auto& marker : model.markers())
-    if (marker.body >= 0) ++on_body[at(marker.body)];
-  for (std::size_t b = 0; b < on_body.size(); ++b)
-    if (on_body[b] > 1) {
-      segment_of_body[b] = static_cast<int>(bodies.size());
-      bodies.push_back(static_cast<int>(b));
-    }
-  const Eigen::Index unknowns = M + static_cast<Eigen::Index>(bodies.size());
-
-  const std::int64_t stride = (problem.frames + kSampledFrames - 1) / kSampledFrames;
-  const std::int64_t sampled = (problem.frames + stride - 1) / stride, grain = 16;
-  std::vector<Sums> partial(at((sampled + grain - 1) / grain));
-  parallel_for(sampled, grain, threads, [&](std::int64_t begin, std::int64_t end) {
-    Sums& sums = partial[at(begin / grain)];
-    sums.N.setZero(unknowns, unknowns);
-    for (auto* v : {&sums.b}) v->setZero(unknowns);
-    for (auto* v : {&sums.information, &sums.seen}) v->setZero(M);
-    Frame frame(problem);
-    for (std::int64_t i = begin; i < end; ++i) {
-      frame.visit(markers, states, i * stride);
-      if (frame.weight.sum() == 0.0) continue;
-      if (!problem.coordinate_tasks.empty()) {
-        frame.q.setZero();
-        model::coordinates_from_state(model, frame.x, frame.q, frame.q);
+struct VarianceSums::Impl {
+  explicit Impl(const internal::Problem& problem)
+      : frame(problem), segment_of_body(problem.model.bodies().size(), -1) {
+    std::vector<int> on_body(segment_of_body.size(), 0);
+    for (const auto& marker : problem.model.markers())
+      if (marker.body >= 0) ++on_body[at(marker.body)];
+    for (std::size_t b = 0; b < on_body.size(); ++b)
+      if (on_body[b] > 1) {
+        segment_of_body[b] = static_cast<int>(bodies.size());
+        bodies.push_back(static_cast<int>(b));
       }
-      frame.inverse_normal_matrix();
-      add_equations(frame, segment_of_body, bodies, sums);
-    }
-  });
-  Sums total = std::move(partial.front());
-  for (std::size_t i = 1; i < partial.size(); ++i) {
-    total.N += partial[i].N;
-    total.b += partial[i].b;
-    total.information += partial[i].information;
-    total.seen += partial[i].seen;
-    total.squares += partial[i].squares;
-    total.freedom += partial[i].freedom;
+    const Eigen::Index M = problem.model.marker_count();
+    const Eigen::Index unknowns = M + static_cast<Eigen::Index>(bodies.size());
+    sums.N.setZero(unknowns, unknowns);
+    sums.b.setZero(unknowns);
+    sums.information.setZero(M);
+    sums.seen.setZero(M);
   }
 
+  /// The frame as `frame` holds it.
+  void add() {
+    if (frame.weight.sum() == 0.0) return;
+    if (!frame.problem.coordinate_tasks.empty()) {
+      frame.q.setZero();
+      model::coordinates_from_state(frame.problem.model, frame.x, frame.q, frame.q);
+    }
+    frame.inverse_normal_matrix();
+    add_equations(frame, segment_of_body, bodies, sums);
+  }
+
+  Frame frame;
+  std::vector<int> segment_of_body, bodies;
+  Sums sums;
+};
+
+VarianceSums::VarianceSums(const internal::Problem& problem) : impl_(std::make_unique<Impl>(problem)) {}
+VarianceSums::VarianceSums(VarianceSums&&) noexcept = default;
+VarianceSums& VarianceSums::operator=(VarianceSums&&) noexcept = default;
+VarianceSums::~VarianceSums() = default;
+
+void VarianceSums::add(const Eigen::Matrix3Xd& y, const VectorXd& weight, const VectorXd& state) {
+  impl_->frame.y = y;
+  impl_->frame.weight = weight;
+  impl_->frame.x = state;
+  impl_->frame.pose();
+  impl_->add();
+}
+
+void VarianceSums::add(const VarianceSums& other) {
+  Sums& total = impl_->sums;
+  const Sums& more = other.impl_->sums;
+  total.N += more.N;
+  total.b += more.b;
+  total.information += more.information;
+  total.seen += more.seen;
+  total.squares += more.squares;
+  total.freedom += more.freedom;
+}
+
+MarkerVariances VarianceSums::variances() const {
+  const Sums& total = impl_->sums;
+  const auto& bodies = impl_->bodies;
+  const Eigen::Index M = total.seen.size();
   MarkerVariances variances;
   const double pooled = total.freedom > 1e-6 ? total.squares / total.freedom : 0.0;
   variances.own.setConstant(M, pooled);
-  variances.common.setZero(static_cast<Eigen::Index>(model.bodies().size()));
-  if (total.freedom < 5.0 * static_cast<double>(unknowns))
+  variances.common.setZero(static_cast<Eigen::Index>(impl_->segment_of_body.size()));
+  if (total.freedom < 5.0 * static_cast<double>(total.b.size()))
     return variances;  // too few data for variances of single markers
   const MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
   const VectorXd v = math::nonnegative_least_squares(N, total.b);
@@ -241,6 +263,24 @@ MarkerVariances estimate_variances(const internal::Problem& problem, const data:
   for (std::size_t s = 0; s < bodies.size(); ++s)
     variances.common[bodies[s]] = v[M + static_cast<Eigen::Index>(s)];
   return variances;
+}
+
+MarkerVariances estimate_variances(const internal::Problem& problem, const data::Trajectories& markers,
+                                   const MatrixXd& states, int threads) {
+  const std::int64_t stride = (problem.frames + kSampledFrames - 1) / kSampledFrames;
+  const std::int64_t sampled = (problem.frames + stride - 1) / stride, grain = 16;
+  std::vector<VarianceSums> partial;
+  for (std::int64_t begin = 0; begin < sampled; begin += grain) partial.emplace_back(problem);
+  parallel_for(sampled, grain, threads, [&](std::int64_t begin, std::int64_t end) {
+    Eigen::Matrix3Xd y(3, problem.model.marker_count());
+    VectorXd weight(y.cols());
+    for (std::int64_t i = begin; i < end; ++i) {
+      problem.observe(markers, i * stride, y, weight);
+      partial[at(begin / grain)].add(y, weight, states.col(i * stride));
+    }
+  });
+  for (std::size_t i = 1; i < partial.size(); ++i) partial.front().add(partial[i]);
+  return partial.front().variances();
 }
 
 void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
