@@ -203,9 +203,30 @@ class Gait(CommandTest):
         result = self.run_in("analyze", self.folder / "foot_hidden.trc", "--measures", "gait", "--refits", "0")
         self.assertEqual(result.status, 0, result.err)
         self.assertIn("left foot: hidden from 1.5", result.err)
-        write_trc(self.folder / "exchanged.trc", walk(), names=("RHEE", "RTOE", "LHEE", "LTOE", "SACR"))
-        result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
-        self.assertIn("the names of the sides are exchanged, or the recording is mirrored", result.err)
+        with_front = [[*row, *((row[4][0] + 150.0, side * 120.0, 950.0) for side in (1, -1))] for row in walk()]
+        for names, says in (
+            (("LHEE", "LTOE", "RHEE", "RTOE", "SACR", "LASI", "RASI"), False),
+            (("RHEE", "RTOE", "LHEE", "LTOE", "SACR", "RASI", "LASI"), True),
+        ):
+            write_trc(self.folder / "exchanged.trc", with_front, names=names)
+            result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
+            said = "the names of the sides are exchanged, or the recording is mirrored" in result.err
+            self.assertEqual(said, says, result.err)
+
+    def test_heel_and_toe_exchanged_are_measured_exchanged_back(self):
+        for file in ("btk-others/PiG_Motion3_FF.c3d", "c3d-parser-clinics/RBWH_bfnd_w1.c3d", "c3d-parser-clinics/S4-AMGait03.c3d"):
+            recording = real_file(file)
+            swap = [f"--rename={side}{a}={side}{b}" for side in "LR" for a, b in (("HEE", "TOE"), ("TOE", "HEE"))]
+            right = json.loads(self.run_in("gait", recording, "--refits", 0, "--json").out)
+            lengths = [m["value"] for m in right["measures"] if m["measure"] == "step_length"]
+            for renames in (swap[:2], swap):
+                result = self.run_in("gait", recording, "--refits", 0, "--json", *renames)
+                self.assertIn("LHEE and LTOE are exchanged: ", result.err)
+                self.assertEqual("RHEE and RTOE are exchanged: " in result.err, len(renames) == 4, result.err)
+                found = json.loads(result.out)
+                self.assertEqual(found["gait"]["direction"], "forward")
+                for m, length in zip([m for m in found["measures"] if m["measure"] == "step_length"], lengths, strict=True):
+                    self.assertAlmostEqual(m["value"], length, delta=1e-6)
 
     def test_limbs_that_are_moved_in_the_air_are_no_gait(self):
         for seed in (1, 3, 7):
