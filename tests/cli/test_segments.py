@@ -127,7 +127,7 @@ class Segments(CommandTest):
         self.assertIn(said, result.err)
         self.assertNotIn("The static trial cannot be built on", result.err)
         self.assertNotIn("LStaticPlantFlex", result.err)
-        self.assertIn("It agrees with the file's own 10 angles", result.out)
+        self.assertIn("It agrees with the file's own 10 angles", result.out + result.err)
         result = self.run_in("segments", walk, "--definition", "pig", "--doubtful", "keep", *swap)
         self.assertEqual(result.status, 1, result.err)
         self.assertIn("what is computed from them is not so", result.err)

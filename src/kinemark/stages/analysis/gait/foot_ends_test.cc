@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "kinemark/core/index.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -98,6 +98,8 @@ TEST_P(FootEndsOf, RightNamesAreNotAccused) {
     const auto gait = measured(markers);
     EXPECT_EQ(gait.kind.direction, goes());
     EXPECT_THAT(gait.notes, Not(Contains(HasSubstr("exchanged"))));
+    for (const auto& m : gait.measures)
+      EXPECT_THAT(m.remark, Not(HasSubstr("forward or backward cannot be known, and so its sign")));
     for (const auto* sentence :
          {"; walking is measured with them exchanged back",
           "whether the body goes forward or backward cannot be known: heel and toe may be exchanged (",
@@ -139,6 +141,16 @@ TEST_P(FootEndsOf, BothFeetAloneLeaveItOpen) {
               Contains(HasSubstr("whether the body goes forward or backward cannot be known: heel and toe "
                                  "may be exchanged (LHEE with LTOE and RHEE with RTOE)")));
   EXPECT_THAT(gait.notes, Contains(HasSubstr("; forward or backward cannot be known")));
+  EXPECT_TRUE(std::ranges::none_of(gait.measures, [](const auto& m) { return m.id == "step_width"; }));
+  const auto feet = without(body_, {"LASI", "RASI", "LPSI", "RPSI", "LANK", "RANK"});
+  for (const bool open : {true, false}) {
+    const auto asked =
+        analyze_gait(open ? renamed(feet, kBothEnds) : feet, {}, {.measures = {"step_width"}, .refits = 0})
+            .value();
+    ASSERT_EQ(asked.measures.size(), 1U);
+    EXPECT_EQ(asked.measures[0].remark == "forward or backward cannot be known, and so its sign", open);
+    EXPECT_EQ(std::isfinite(asked.measures[0].value), !open);
+  }
 }
 
 TEST_P(FootEndsOf, ThePelvisIsAccusedWhereFeetAndAnklesContradictIt) {
