@@ -23,13 +23,13 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::KnownWalk;
 using ::testing::Not;
-using Names = std::map<std::string, std::string>;
+using Renaming = std::map<std::string, std::string>;
 
-const Names kLeftEnds{{"LHEE", "LTOE"}, {"LTOE", "LHEE"}};
-const Names kBothEnds{{"LHEE", "LTOE"}, {"LTOE", "LHEE"}, {"RHEE", "RTOE"}, {"RTOE", "RHEE"}};
-constexpr auto kSides = "the names of the sides are exchanged";
+const Renaming kLeftEnds{{"LHEE", "LTOE"}, {"LTOE", "LHEE"}};
+const Renaming kBothEnds{{"LHEE", "LTOE"}, {"LTOE", "LHEE"}, {"RHEE", "RTOE"}, {"RTOE", "RHEE"}};
+constexpr auto kSidesExchanged = "the names of the sides are exchanged";
 
-data::Trajectories renamed(data::Trajectories markers, const Names& names) {
+data::Trajectories renamed(data::Trajectories markers, const Renaming& names) {
   for (auto& name : markers.names)
     if (const auto other = names.find(name); other != names.end()) name = other->second;
   return markers;
@@ -52,21 +52,21 @@ data::Trajectories without(const data::Trajectories& walk, const std::vector<std
   return out;
 }
 
-Names other_side(const data::Trajectories& markers, std::string_view of) {
-  Names out;
+Renaming other_side(const data::Trajectories& markers, std::string_view of) {
+  Renaming out;
   for (const auto& name : markers.names)
     if (name != "SACR" && (of.empty() || name.substr(1) == of))
       out[name] = (name.front() == 'L' ? "R" : "L") + name.substr(1);
   return out;
 }
 
-Gait measured(const data::Trajectories& markers) {
+Gait gait_with(const data::Trajectories& markers) {
   auto gait = analyze_gait(markers, {}, {.refits = 0});
   EXPECT_TRUE(gait) << gait.error().message;
   return gait ? *gait : Gait{};
 }
 
-double value_of(const Gait& gait, const std::string& id, const std::string& side) {
+double value_named(const Gait& gait, const std::string& id, const std::string& side) {
   for (const auto& m : gait.measures)
     if (m.id == id && m.context == side) return m.value;
   return kNaN;
@@ -81,12 +81,12 @@ class FootEndsOf : public ::testing::TestWithParam<bool> {
     return GetParam() ? GaitDirection::backward : GaitDirection::forward;
   }
   void expect_as_named(const Gait& gait) const {
-    const auto right = measured(body_);
+    const auto right = gait_with(body_);
     EXPECT_EQ(gait.kind.direction, goes());
     for (const auto* side : {"Left", "Right"})
       for (const auto* id : {"step_length", "stride_length"})
-        EXPECT_NEAR(value_of(gait, id, side), value_of(right, id, side), 1e-9) << id << " " << side;
-    EXPECT_NEAR(value_of(gait, "step_width", ""), value_of(right, "step_width", ""), 1e-9);
+        EXPECT_NEAR(value_named(gait, id, side), value_named(right, id, side), 1e-9) << id << " " << side;
+    EXPECT_NEAR(value_named(gait, "step_width", ""), value_named(right, "step_width", ""), 1e-9);
   }
   data::Trajectories body_ = KnownWalk{}.body_markers(0.0003, 5);
 };
@@ -95,7 +95,7 @@ TEST_P(FootEndsOf, RightNamesAreNotAccused) {
   for (const auto& markers :
        {body_, without(body_, {"LASI", "RASI", "LPSI", "RPSI"}), without(body_, {"LANK", "RANK"}),
         without(body_, {"LASI", "RASI", "LPSI", "RPSI", "LANK", "RANK"})}) {
-    const auto gait = measured(markers);
+    const auto gait = gait_with(markers);
     EXPECT_EQ(gait.kind.direction, goes());
     EXPECT_THAT(gait.notes, Not(Contains(HasSubstr("exchanged"))));
     for (const auto& m : gait.measures)
@@ -115,19 +115,19 @@ TEST_P(FootEndsOf, OneFootIsNamedAndMeasuredWithBothExchangedBack) {
   for (const auto& markers :
        {names, without(names, {"LASI", "RASI", "LPSI", "RPSI"}), without(names, {"LANK", "RANK"}),
         without(names, {"LASI", "RASI", "LPSI", "RPSI", "LANK", "RANK"})}) {
-    const auto gait = measured(markers);
+    const auto gait = gait_with(markers);
     EXPECT_THAT(gait.notes, Contains(HasSubstr("LHEE and LTOE are exchanged: ")));
     EXPECT_THAT(gait.notes, Contains(HasSubstr("walking is measured with them exchanged back")));
     EXPECT_THAT(gait.notes, Not(Contains(HasSubstr("RHEE and RTOE are exchanged: "))));
     expect_as_named(gait);
   }
-  EXPECT_THAT(measured(names).notes,
+  EXPECT_THAT(gait_with(names).notes,
               Contains(HasSubstr("the left foot points against the front of the pelvis, "
                                  "the left foot points against the other one")));
 }
 
 TEST_P(FootEndsOf, BothFeetAreNamedWhereThePelvisTells) {
-  const auto gait = measured(renamed(without(body_, {"LANK", "RANK"}), kBothEnds));
+  const auto gait = gait_with(renamed(without(body_, {"LANK", "RANK"}), kBothEnds));
   for (const auto* pair : {"LHEE and LTOE are exchanged: ", "RHEE and RTOE are exchanged: "})
     EXPECT_THAT(gait.notes, Contains(HasSubstr(pair)));
   expect_as_named(gait);
@@ -135,7 +135,7 @@ TEST_P(FootEndsOf, BothFeetAreNamedWhereThePelvisTells) {
 
 TEST_P(FootEndsOf, BothFeetAloneLeaveItOpen) {
   const auto gait =
-      measured(renamed(without(body_, {"LASI", "RASI", "LPSI", "RPSI", "LANK", "RANK"}), kBothEnds));
+      gait_with(renamed(without(body_, {"LASI", "RASI", "LPSI", "RPSI", "LANK", "RANK"}), kBothEnds));
   EXPECT_EQ(gait.kind.direction, GaitDirection::unknown);
   EXPECT_THAT(gait.notes,
               Contains(HasSubstr("whether the body goes forward or backward cannot be known: heel and toe "
@@ -154,8 +154,8 @@ TEST_P(FootEndsOf, BothFeetAloneLeaveItOpen) {
 }
 
 TEST_P(FootEndsOf, ThePelvisIsAccusedWhereFeetAndAnklesContradictIt) {
-  const Names pelvis{{"LASI", "LPSI"}, {"LPSI", "LASI"}, {"RASI", "RPSI"}, {"RPSI", "RASI"}};
-  const auto gait = measured(renamed(body_, pelvis));
+  const Renaming pelvis{{"LASI", "LPSI"}, {"LPSI", "LASI"}, {"RASI", "RPSI"}, {"RPSI", "RASI"}};
+  const auto gait = gait_with(renamed(body_, pelvis));
   EXPECT_THAT(gait.notes, Contains(HasSubstr("the names of its front and its back are exchanged")));
   EXPECT_THAT(gait.notes, Not(Contains(HasSubstr("HEE and "))));
   EXPECT_EQ(gait.kind.direction, goes());
@@ -200,7 +200,7 @@ TEST(SidesOfFeet, ThatCrossOverAreNotAccused) {
       for (const auto& markers :
            {body, without(body, {"LASI", "RASI"}), without(body, {"LANK", "RANK", "LKNE", "RKNE"}),
             without(body, {"LASI", "RASI", "LANK", "RANK", "LKNE", "RKNE"})})
-        EXPECT_THAT(measured(markers).notes, Not(Contains(HasSubstr("sides are exchanged"))))
+        EXPECT_THAT(gait_with(markers).notes, Not(Contains(HasSubstr("sides are exchanged"))))
             << width << " " << sway;
     }
 }
@@ -213,24 +213,24 @@ TEST(SidesOfFeet, ThatAreExchangedAreFoundInEveryGait) {
     const auto exchanged = renamed(body, other_side(body, ""));
     for (const auto& markers : {exchanged, without(exchanged, {"LKNE", "RKNE", "LANK", "RANK"}),
                                 without(exchanged, {"LASI", "RASI"})})
-      EXPECT_THAT(measured(markers).notes, Contains(HasSubstr(kSides))) << width;
+      EXPECT_THAT(gait_with(markers).notes, Contains(HasSubstr(kSidesExchanged))) << width;
   }
 }
 
 TEST(SidesOfFeet, ThatAreExchangedAtOnePartAreSaidSo) {
   const auto body = KnownWalk{}.body_markers(0.0003, 7);
-  EXPECT_THAT(measured(renamed(body, other_side(body, "ASI"))).notes,
+  EXPECT_THAT(gait_with(renamed(body, other_side(body, "ASI"))).notes,
               Contains(HasSubstr("mm to the right of the right one, and the left foot has its ankle on the "
                                  "left: the names of the sides are exchanged at one of them")));
   auto feet = other_side(body, "HEE");
   feet.merge(other_side(body, "TOE"));
   feet.merge(other_side(body, "ANK"));
-  EXPECT_THAT(measured(renamed(body, feet)).notes,
+  EXPECT_THAT(gait_with(renamed(body, feet)).notes,
               Contains(HasSubstr("and the left front of the pelvis lies on the left: the names of the sides "
                                  "are exchanged at one of them")));
   for (const auto* sentence : {": the names of the sides are exchanged at one of them",
                                "has its ankle on the left", "lies on the left"})
-    EXPECT_THAT(measured(body).notes, Not(Contains(HasSubstr(sentence))));
+    EXPECT_THAT(gait_with(body).notes, Not(Contains(HasSubstr(sentence))));
 }
 
 }  // namespace
