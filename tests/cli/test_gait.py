@@ -31,6 +31,11 @@ def walk(seconds=5.0, rate=100.0):
     return rows
 
 
+def with_front():
+    """The same with the front of the pelvis, left and right."""
+    return [[*row, *((row[4][0] + 150.0, side * 120.0, 950.0) for side in (1, -1))] for row in walk()]
+
+
 NAMES = ("LHEE", "LTOE", "RHEE", "RTOE", "SACR")
 
 
@@ -168,7 +173,7 @@ class Gait(CommandTest):
         self.assertIn("Path length", result.out)
 
     def test_backward_walking_is_called_so(self):
-        write_trc(self.folder / "back.trc", walk()[::-1], names=NAMES)
+        write_trc(self.folder / "back.trc", with_front()[::-1], names=(*NAMES, "LASI", "RASI"))
         reported = self.measures(self.folder / "back.trc", "--measures", "gait")
         self.assertEqual(reported["gait"]["direction"], "backward")
         self.assertFalse(reported["gait"]["treadmill"])
@@ -203,9 +208,36 @@ class Gait(CommandTest):
         result = self.run_in("analyze", self.folder / "foot_hidden.trc", "--measures", "gait", "--refits", "0")
         self.assertEqual(result.status, 0, result.err)
         self.assertIn("left foot: hidden from 1.5", result.err)
-        write_trc(self.folder / "exchanged.trc", walk(), names=("RHEE", "RTOE", "LHEE", "LTOE", "SACR"))
-        result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
-        self.assertIn("the names of the sides are exchanged, or the recording is mirrored", result.err)
+        for names, says in (
+            (("LHEE", "LTOE", "RHEE", "RTOE", "SACR", "LASI", "RASI"), False),
+            (("RHEE", "RTOE", "LHEE", "LTOE", "SACR", "RASI", "LASI"), True),
+        ):
+            write_trc(self.folder / "exchanged.trc", with_front(), names=names)
+            result = self.run_in("analyze", self.folder / "exchanged.trc", "--measures", "gait", "--refits", "0")
+            said = "the names of the sides are exchanged, or the recording is mirrored" in result.err
+            self.assertEqual(said, says, result.err)
+
+    def test_feet_alone_do_not_tell_backward_from_heels_and_toes_exchanged(self):
+        write_trc(self.folder / "back.trc", walk()[::-1], names=NAMES)
+        reported = self.measures(self.folder / "back.trc", "--measures", "gait")
+        self.assertEqual(reported["gait"]["direction"], "unknown")
+        self.assertNotIn("step_width", {m["measure"] for m in reported["measures"]})
+        self.assertIn("stride_length", {m["measure"] for m in reported["measures"]})
+
+    def test_heel_and_toe_exchanged_are_measured_exchanged_back(self):
+        for file in ("btk-others/PiG_Motion3_FF.c3d", "c3d-parser-clinics/RBWH_bfnd_w1.c3d", "c3d-parser-clinics/S4-AMGait03.c3d"):
+            recording = real_file(file)
+            swap = [f"--rename={side}{a}={side}{b}" for side in "LR" for a, b in (("HEE", "TOE"), ("TOE", "HEE"))]
+            right = json.loads(self.run_in("gait", recording, "--refits", 0, "--json").out)
+            lengths = [m["value"] for m in right["measures"] if m["measure"] == "step_length"]
+            for renames in (swap[:2], swap):
+                result = self.run_in("gait", recording, "--refits", 0, "--json", *renames)
+                self.assertIn("LHEE and LTOE are exchanged: ", result.err)
+                self.assertEqual("RHEE and RTOE are exchanged: " in result.err, len(renames) == 4, result.err)
+                found = json.loads(result.out)
+                self.assertEqual(found["gait"]["direction"], "forward")
+                for m, length in zip([m for m in found["measures"] if m["measure"] == "step_length"], lengths, strict=True):
+                    self.assertAlmostEqual(m["value"], length, delta=1e-6)
 
     def test_limbs_that_are_moved_in_the_air_are_no_gait(self):
         for seed in (1, 3, 7):

@@ -118,6 +118,25 @@ class Segments(CommandTest):
         self.assertIn("no marker 'C7'", result.err)
 
 
+    def test_an_exchange_in_the_walk_is_named_there_and_blames_nothing_else(self):
+        walk, still = (real_file(f"btk-others/PiG_{name}_FF.c3d") for name in ("Motion3", "Calibration3"))
+        swap = ("--rename=LHEE=LTOE", "--rename=LTOE=LHEE")
+        said = "are exchanged in PiG_Motion3_FF.c3d; all is computed with them exchanged back"
+        result = self.run_in("segments", walk, "--definition", "pig", "--static", still, *swap)
+        self.assertEqual(result.status, 1, result.err)
+        self.assertIn(said, result.err)
+        self.assertNotIn("The static trial cannot be built on", result.err)
+        self.assertNotIn("LStaticPlantFlex", result.err)
+        self.assertIn("It agrees with the file's own 10 angles", result.out + result.err)
+        result = self.run_in("segments", walk, "--definition", "pig", "--doubtful", "keep", *swap)
+        self.assertEqual(result.status, 1, result.err)
+        self.assertIn("what is computed from them is not so", result.err)
+        self.assertNotIn("is explained by", result.err)
+        result = self.run_in("segments", walk, "--definition", "pig", "--static", still)
+        self.assertEqual(result.status, 0, result.err)
+        self.assertNotIn("are exchanged", result.err)
+
+
 class Loads(CommandTest):
     """Forces, moments and powers of a real walk over three plates."""
 

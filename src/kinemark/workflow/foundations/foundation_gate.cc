@@ -4,10 +4,12 @@
 
 #include <fmt/core.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "kinemark/core/text.h"
+#include "kinemark/stages/motion/foundations/landmarks.h"
 #include "kinemark/stages/motion/foundations/stillness.h"
 
 namespace kinemark::workflow {
@@ -45,6 +47,33 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
   }
   remarks.gates.push_back(std::move(gate));
   return judgement;
+}
+
+Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string& name,
+                                                               const data::Trajectories& recording,
+                                                               const std::string& consequence,
+                                                               Remarks& remarks) {
+  std::vector<std::string> names;
+  for (const auto& marker : recording.names)
+    if (const auto landmark = motion::landmark_of(marker);
+        landmark &&
+        (landmark->part == motion::BodyPart::pelvis || landmark->part == motion::BodyPart::thigh ||
+         landmark->part == motion::BodyPart::shank || landmark->part == motion::BodyPart::foot))
+      names.push_back(marker);
+  auto found = motion::judge_movement(motion::body_of_names(names), recording);
+  if (!found) return fail_at(name, found.error());
+  if (found->empty()) return found;
+  std::vector<std::string> sentences;
+  for (const auto& finding : *found) sentences.push_back(motion::describe(finding, name));
+  data::Gate gate{.name = "recording",
+                  .passed = false,
+                  .value = static_cast<double>(found->size()),
+                  .bound = 0.0,
+                  .unit = "findings",
+                  .sentence = fmt::format("{}; {}: label them again.", join(sentences, "; "), consequence)};
+  remarks.warnings.push_back(gate.sentence);
+  remarks.gates.push_back(std::move(gate));
+  return found;
 }
 
 }  // namespace kinemark::workflow

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/trajectories.h"
@@ -21,5 +22,13 @@ namespace kinemark::workflow {
 [[nodiscard]] Result<motion::FoundationJudgement> judge_static_trial(
     const std::string& name, const motion::StandingBody& body, const data::Trajectories& still,
     std::span<const data::Trajectories* const> movements, Remarks& remarks);
+
+/// Judge pairs of pelvis and legs throughout a recording in which somebody moves, and add the gate
+/// `recording` to the remarks: missed where a pair is exchanged, with a warning that names it. No gate where
+/// too few markers are known, or nothing is found.
+/// @param consequence  what comes of it, the end of the sentence: "all is computed with them exchanged back"
+[[nodiscard]] Result<std::vector<motion::FoundationFinding>> judge_recording(
+    const std::string& name, const data::Trajectories& recording, const std::string& consequence,
+    Remarks& remarks);
 
 }  // namespace kinemark::workflow

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/index.h"
+#include "kinemark/stages/motion/foundations/testing/walking_body.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -108,6 +110,29 @@ TEST(FoundationGate, NamesEachOfTwoExchanges) {
   EXPECT_THAT(remarks.warnings[0], HasSubstr("LHEE and LTOE are exchanged"));
   EXPECT_THAT(remarks.warnings[0], HasSubstr("RASI and RPSI are exchanged"));
   EXPECT_FALSE(remarks.passed());
+}
+
+TEST(FoundationGate, OfARecordingIsMissedWhereItHoldsAnExchange) {
+  const auto body = motion::body_of_names(kNames);
+  auto walk = motion::testing::walking_body(kNames, 60);
+  Remarks remarks;
+  const auto sound = judge_recording("walk.c3d", walk, "nothing is computed", remarks);
+  ASSERT_TRUE(sound) << sound.error().message;
+  EXPECT_TRUE(sound->empty());
+  EXPECT_TRUE(remarks.gates.empty());
+  EXPECT_TRUE(remarks.warnings.empty());
+  exchange(walk, "LTOE", "LHEE");
+  ASSERT_TRUE(judge_recording("walk.c3d", walk, "nothing is computed", remarks));
+  EXPECT_FALSE(remarks.passed());
+  ASSERT_EQ(remarks.warnings.size(), 1U);
+  EXPECT_EQ(remarks.warnings[0],
+            "LHEE and LTOE are exchanged in walk.c3d; nothing is computed: label them again.");
+  // Beside it a sound static trial is not accused once the walk is named as it should be.
+  exchange(walk, "LTOE", "LHEE");
+  const data::Trajectories* const movement = &walk;
+  Remarks beside;
+  ASSERT_TRUE(judge_static_trial("cal.c3d", body, standing(), std::span(&movement, 1), beside));
+  EXPECT_TRUE(beside.passed());
 }
 
 TEST(FoundationGate, IsNotThereWhereNothingCanBeJudged) {

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/data/finding.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/vertical.h"
 #include "kinemark/workflow/segments/internal/segment_notes.h"
@@ -56,10 +59,38 @@ Status screen_all(const data::Recording& recording, const SegmentsOptions& optio
   return {};
 }
 
+/// Exchanged pairs of the recording itself, before anything is built on it or blamed beside it: exchanged
+/// back unless doubtful samples are kept.
+/// @return the markers as they should be named
+Result<data::Trajectories> judge_moving(const data::Recording& recording, const SegmentsOptions& options,
+                                        SegmentsFound& found) {
+  auto& used = found.used.trial;
+  if (is_own_static(recording, options)) return used.markers;
+  const auto pairs = judge_recording(options.name, used.markers,
+                                     options.drop_doubtful ? "all is computed with them exchanged back"
+                                                           : "what is computed from them is not so",
+                                     found.remarks);
+  if (!pairs) return std::unexpected(pairs.error());
+  std::vector<data::Finding> swaps;
+  for (const auto& pair : *pairs)
+    swaps.push_back({.kind = data::FindingKind::label_swap,
+                     .subject = pair.marker,
+                     .partner = pair.partner,
+                     .first_frame = 0,
+                     .last_frame = used.markers.frames() - 1,
+                     .frames = {},
+                     .detail = {},
+                     .description = {}});
+  auto named = used;
+  if (auto s = exchange_back(named, swaps); !s) return fail_at(where_of(options), s.error());
+  if (options.drop_doubtful) used = named;
+  return std::move(named.markers);
+}
+
 /// The static trial by the names of its markers, and against the recording, before anything is built on it.
-Status judge_static(const SegmentsOptions& options, const SegmentTrials& trials, SegmentsFound& found) {
+Status judge_static(const SegmentsOptions& options, const SegmentTrials& trials,
+                    const data::Trajectories& recorded, SegmentsFound& found) {
   if (options.static_trial == nullptr) return {};
-  const auto& recorded = found.used.trial.markers;
   const auto& still = trials.still ? trials.still->markers : recorded;
   std::vector<const data::Trajectories*> movements;
   if (trials.still) movements.push_back(&recorded);
@@ -130,14 +161,21 @@ Result<SegmentsFound> segments(const analysis::SegmentDefinition& definition,
   SegmentsFound found;
   SegmentTrials trials;
   if (auto s = screen_all(recording, options, trials, found); !s) return std::unexpected(s.error());
-  if (auto s = judge_static(options, trials, found); !s) return std::unexpected(s.error());
+  const auto named = judge_moving(recording, options, found);
+  if (!named) return std::unexpected(named.error());
+  if (auto s = judge_static(options, trials, *named, found); !s) return std::unexpected(s.error());
   auto input = points_of(definition, options, is_own_static(recording, options), found.used.trial, trials,
                          found.remarks.warnings);
   find_values(definition, options, trials, found, input);
   if (auto s = compute(definition, options, input, found); !s) return fail_at(where_of(options), s.error());
   auto& warnings = found.remarks.warnings;
   std::ranges::copy(found.motion.warnings, std::back_inserter(warnings));
-  std::ranges::move(found.comparison.findings(), std::back_inserter(warnings));
+  // What was computed from pairs that stay exchanged differs by that, whatever parameter makes it less.
+  const bool as_named = std::ranges::any_of(found.remarks.gates, [&](const data::Gate& gate) {
+    return gate.name == "recording" && !gate.passed && !options.drop_doubtful;
+  });
+  if (as_named) found.comparison.explanation = {};
+  if (!as_named) std::ranges::move(found.comparison.findings(), std::back_inserter(warnings));
   if (is_own_static(recording, options)) note_static_angles(found.motion, warnings);
   if (input.static_trial != nullptr) note_choices(definition, found.motion, warnings);
   find_cross_talk(definition, found);

@@ -50,8 +50,9 @@ struct SegmentsScreening {
   std::vector<std::vector<std::string>> trials;  ///< of each, in the order of the options
 };
 
-/// Gate: static_trial. Remarks: what the static trial is worth, measures in other units, what could not be
-/// computed and why, noise, cross-talk, what explains a difference from the recording's own outputs.
+/// Gates: static_trial; recording, where pairs are exchanged in it. Remarks: what the static trial is worth,
+/// measures in other units, what could not be computed and why, noise, cross-talk, what explains a difference
+/// from the recording's own outputs.
 struct SegmentsFound {
   std::optional<motion::FoundationJudgement> static_trial;  ///< as it was judged, where one is built on
   analysis::SegmentMotion motion;                           ///< angles, values, points, measures

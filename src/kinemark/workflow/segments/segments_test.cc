@@ -9,9 +9,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/pipeline/segments/definition_file.h"
+#include "kinemark/stages/motion/foundations/testing/walking_body.h"
 #include "kinemark/workflow/segments/testing/offset_leg.h"
 
 namespace kinemark::workflow {
@@ -121,6 +123,48 @@ TEST_F(SegmentsVerb, TheRecordingStaysAsItIsAndDoubtfulSamplesAreLeftOut) {
   EXPECT_THAT(dropped->screening.recording, Contains(HasSubstr("Left out: ")));
   EXPECT_FALSE(dropped->used.trial.markers.present(30, knee_marker));
   EXPECT_TRUE(std::ranges::equal(recording.trial.markers.state, before));
+}
+
+TEST_F(SegmentsVerb, AnExchangeInTheRecordingIsNamedThereAndExchangedBack) {
+  recording.trial = {};
+  recording.trial.markers =
+      motion::testing::walking_body({"LASI", "RASI", "LPSI", "RPSI", "LTHI", "LKNE", "LTIB", "LANK", "LHEE",
+                                     "LTOE", "RTHI", "RKNE", "RTIB", "RANK", "RHEE", "RTOE"},
+                                    60);
+  recording.up = Eigen::Vector3d::UnitY();
+  options.known.clear();
+  for (const auto* side : {"L", "R"})
+    for (const auto& [what, size_m] :
+         {std::pair{"LegLength", 0.9}, std::pair{"KneeWidth", 0.1}, std::pair{"AnkleWidth", 0.07}})
+      options.known.push_back({std::string(side) + what, size_m, "leg.c3d"});
+  options.drop_doubtful = true;
+  const data::Recording still = recording;
+  options.static_trial = &still;
+  const auto sound = segments(pig, recording, options);
+  ASSERT_TRUE(sound) << sound.error().message;
+  for (const auto* sentence :
+       {"all is computed with them exchanged back", "what is computed from them is not so"})
+    EXPECT_THAT(sound->remarks.warnings, Each(Not(HasSubstr(sentence))));
+  EXPECT_TRUE(sound->remarks.passed());
+  auto& names = recording.trial.markers.names;
+  std::swap(*std::ranges::find(names, "LHEE"), *std::ranges::find(names, "LTOE"));
+  const auto found = segments(pig, recording, options);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_FALSE(found->remarks.passed());
+  EXPECT_THAT(found->remarks.warnings.front(),
+              HasSubstr("are exchanged in the recording; all is computed with "
+                        "them exchanged back: label them again."));
+  const auto& ankle = series(found->motion.angles, "LAnkleAngles");
+  const auto& right = series(sound->motion.angles, "LAnkleAngles");
+  ASSERT_EQ(right.value.size(), 180U);
+  for (std::size_t i = 0; i < ankle.value.size(); ++i) EXPECT_NEAR(ankle.value[i], right.value[i], 1e-12);
+  EXPECT_THAT(found->remarks.warnings, Each(Not(HasSubstr("The static trial cannot be built on"))));
+  options.drop_doubtful = false;
+  const auto kept = segments(pig, recording, options);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_FALSE(kept->remarks.passed());
+  EXPECT_THAT(kept->remarks.warnings, Contains(HasSubstr("what is computed from them is not so")));
+  EXPECT_GT(std::abs(series(kept->motion.angles, "LAnkleAngles").value[0] - right.value[0]), 1.0);
 }
 
 TEST_F(SegmentsVerb, ARecordingMayBeItsOwnStaticTrial) {

@@ -201,6 +201,9 @@ class GaitMeasurement {
   void state(const Slot& slot, double value, std::span<const double> deviations, Gait& out) const {
     const auto& definition = *slot.definition;
     const bool asked = !options_.measures.empty();
+    // Which side is left along the way depends on whether it is gone forward.
+    const bool doubted = markers_.kind.direction_doubted && definition.what.id == "step_width";
+    if (doubted) value = kNaN;
     if (!std::isfinite(value) && !asked) return;
     const auto cycles = cycles_of(slot, out.cycles);
     data::Measure measure{
@@ -217,7 +220,9 @@ class GaitMeasurement {
     measure.method =
         fmt::format("{} stride{}, {} refits", cycles.size(), cycles.size() == 1 ? "" : "s", options_.refits);
     if (!std::isfinite(value)) {
-      if (cycles.empty())
+      if (doubted)
+        measure.remark = "forward or backward cannot be known, and so its sign";
+      else if (cycles.empty())
         measure.remark = definition.of_other ? "no stride of the other foot was seen whole"
                                              : "no stride was seen from strike to strike";
       else

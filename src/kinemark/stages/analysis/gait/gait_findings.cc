@@ -18,7 +18,8 @@ using data::Side;
 
 constexpr std::size_t kMostNamed = 4;
 constexpr double kSeenMostly = 0.95;
-constexpr double kExchanged_m = 0.05, kFeetCross_m = 0.1;  // runners' feet cross: theirs has to be more
+constexpr double kApart_m = 0.05,
+                 kOuter_m = 0.01;  // left of right, or right of left; an outer ankle beside its foot
 constexpr double kUneven = 0.35;
 constexpr double kMostMore = 1.0, kMostMoreOfAll = 0.1;
 
@@ -35,6 +36,7 @@ class Findings {
         tell_strikes(side);
       }
     tell_both();
+    tell_ends();
     tell_sides();
     if (sd_factor(found_.kind.direction) > 1.0)
       out_.push_back(
@@ -102,16 +104,64 @@ class Findings {
       out_.push_back(fmt::format("{} strikes of the left foot beside {} of the right one", left, right));
   }
 
+  void tell_ends() {
+    const auto& ends = found_.ends;
+    std::vector<std::string> pairs;
+    for (const Side side : data::kBothSides) {
+      const auto& foot = smoother_.paths().foot(side);
+      if (!foot.present() || !foot.points) continue;
+      auto [heel, toe] = smoother_.ends_of(side);
+      if (ends.exchanged[data::index_of(side)]) {
+        std::swap(heel, toe);  // as they are named
+        out_.push_back(
+            fmt::format("{} and {} are exchanged: {}; walking is measured with them exchanged back", heel,
+                        toe, ends.why(side, heel, toe)));
+      }
+      pairs.push_back(fmt::format("{} with {}", heel, toe));
+    }
+    if (ends.doubtful)
+      out_.push_back(fmt::format(
+          "whether the body goes forward or backward cannot be known: heel and toe may be exchanged "
+          "({}), and nothing else tells for sure",
+          join_names(pairs, pairs.size())));
+    if (ends.pelvis_exchanged)
+      out_.emplace_back(
+          "the front of the pelvis points against the feet: the names of its front and its back are "
+          "exchanged");
+  }
+
+  // Feet may cross over: they speak of sides by their outer ankles alone.
   void tell_sides() {
-    const bool runs = found_.kind.manner != GaitManner::walk;
-    const double pelvis = found_.kind.pelvis_left_of_right_m;
-    const bool by_pelvis = runs && std::isfinite(pelvis);
-    const double apart = by_pelvis ? pelvis : found_.kind.left_of_right_m;
-    if (!(apart < -(runs && !by_pelvis ? kFeetCross_m : kExchanged_m))) return;
-    out_.push_back(
-        fmt::format("the left {} lies {:.0f} mm to the right of the right one: the names of the sides are "
-                    "exchanged, or the recording is mirrored",
-                    by_pelvis ? "front of the pelvis" : "foot", -1e3 * apart));
+    const auto& kind = found_.kind;
+    if (kind.direction_doubted) return;
+    struct Part {
+      std::string_view what;
+      double apart_m;
+    };
+    std::vector<Part> wrong, right;
+    const auto judge = [&](std::string_view what, double apart_m, bool crosses, bool holds) {
+      if (crosses) wrong.push_back({what, apart_m});
+      if (holds) right.push_back({what, apart_m});
+    };
+    judge(
+        "foot", kind.left_of_right_m,
+        kind.ankles_outward_m < -kOuter_m && kind.left_of_right_m<-kApart_m, kind.ankles_outward_m> kOuter_m);
+    for (const auto& [what, apart_m] :
+         {Part{"front of the pelvis", kind.pelvis_left_of_right_m}, Part{"knee", kind.knees_left_of_right_m}})
+      judge(what, apart_m, apart_m<-kApart_m, apart_m> kApart_m);
+    if (wrong.empty()) return;
+    const auto& first = wrong.front();
+    if (right.empty())
+      out_.push_back(
+          fmt::format("the left {} lies {:.0f} mm to the right of the right one: the names of the sides are "
+                      "exchanged, or the recording is mirrored",
+                      first.what, -1e3 * first.apart_m));
+    else
+      out_.push_back(fmt::format(
+          "the left {} lies {:.0f} mm to the right of the right one, and the left {} {}: the names of the "
+          "sides are exchanged at one of them",
+          first.what, -1e3 * first.apart_m, right.front().what,
+          right.front().what == "foot" ? "has its ankle on the left" : "lies on the left"));
   }
 
   const GaitSmoother& smoother_;

@@ -104,7 +104,10 @@ TEST_F(GaitFindings, RunnersSidesAreThoseOfThePelvis) {
   };
   EXPECT_THAT(tell(), Contains(HasSubstr("the left front of the pelvis lies 220 mm to the right of the right "
                                          "one")));
-  change_ = [](MarkerEvents& found) { found.kind.left_of_right_m = -0.1; };
+  change_ = [](MarkerEvents& found) {
+    found.kind.left_of_right_m = -0.1;
+    found.kind.ankles_outward_m = -0.04;
+  };
   EXPECT_THAT(tell(), Contains(HasSubstr("the left foot lies 100 mm to the right of the right one")));
 }
 

@@ -5,7 +5,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "kinemark/core/enum_names.h"
@@ -60,20 +62,52 @@ class Kinds {
     return paths_.foot(side).known[at(f)] && steps_.foot(side).speed[f] < kFlat * steps_.usual[f];
   }
 
-  // Median place of a foot to the left of the pelvis while it stands, m.
-  [[nodiscard]] double leftward(Side side, const std::vector<Heading>& headings) const {
-    const auto& foot = paths_.foot(side);
-    if (!foot.present() || steps_.foot(side).speed.size() == 0 || headings.empty()) return kNaN;
+  // Median distance of the left one of two to the left of the right one, over frames that have both, m.
+  template <class Place>
+  [[nodiscard]] double leftward(const std::vector<Heading>& headings, const Place& place) const {
+    if (headings.empty()) return kNaN;
     std::vector<double> out;
+    auto nearest = headings.begin();
     for (std::int64_t f = 0; f < paths_.frames(); ++f) {
-      if (!flat(side, f) || !paths_.pelvis_known[at(f)]) continue;
-      const auto nearest = std::ranges::min_element(
-          headings, {}, [f](const Heading& one) { return std::abs(one.frame - static_cast<double>(f)); });
-      const RowVector2d from =
-          (0.5 * (foot.heel.row(f) + foot.toe.row(f)) - paths_.pelvis.row(f)).leftCols<2>();
-      out.push_back(nearest->points[0] * from[1] - nearest->points[1] * from[0]);
+      const auto far = [f](const Heading& one) { return std::abs(one.frame - static_cast<double>(f)); };
+      while (std::next(nearest) != headings.end() && far(*std::next(nearest)) <= far(*nearest)) ++nearest;
+      const RowVector2d apart = place(Side::left, f) - place(Side::right, f);
+      if (apart.allFinite()) out.push_back(nearest->points[0] * apart[1] - nearest->points[1] * apart[0]);
     }
     return out.empty() ? kNaN : math::median(out);
+  }
+  [[nodiscard]] double feet_leftward(const std::vector<Heading>& headings) const {
+    if (!paths_.foot(Side::left).present() || !paths_.foot(Side::right).present()) return kNaN;
+    return leftward(headings, [&](Side side, std::int64_t f) -> RowVector2d {
+      const auto& foot = paths_.foot(side);
+      if (!foot.known[at(f)]) return RowVector2d::Constant(kNaN);
+      return 0.5 * (foot.heel.row(f) + foot.toe.row(f)).leftCols<2>();
+    });
+  }
+  [[nodiscard]] double knees_leftward(const std::vector<Heading>& headings) const {
+    if (paths_.foot(Side::left).knee.rows() == 0 || paths_.foot(Side::right).knee.rows() == 0) return kNaN;
+    return leftward(headings, [&](Side side, std::int64_t f) -> RowVector2d {
+      return paths_.foot(side).knee.row(f).leftCols<2>();
+    });
+  }
+
+  // Where the outer ankles are seen from the lines of their feet: outward is above 0.
+  [[nodiscard]] double ankles_outward() const {
+    std::array<double, 2> medians{kNaN, kNaN};
+    for (const Side side : data::kBothSides) {
+      const auto& foot = paths_.foot(side);
+      std::vector<double> out;
+      for (std::int64_t f = 0; f < paths_.frames() && foot.points && foot.ankle.rows() > 0; ++f) {
+        if (!foot.known[at(f)] || !foot.ankle.row(f).allFinite()) continue;
+        const RowVector2d points = (foot.toe.row(f) - foot.heel.row(f)).leftCols<2>().normalized(),
+                          from = (foot.ankle.row(f) - foot.heel.row(f)).leftCols<2>();
+        const double left = points[0] * from[1] - points[1] * from[0];
+        out.push_back(side == Side::left ? left : -left);
+      }
+      if (!out.empty()) medians[data::index_of(side)] = math::median(out);
+    }
+    if (!(medians[0] * medians[1] > 0.0)) return kNaN;
+    return std::abs(medians[0]) < std::abs(medians[1]) ? medians[0] : medians[1];
   }
 
   // Median of the left front of the pelvis to the left of its right front, m.
@@ -269,7 +303,9 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   out.brief = seconds < steps.stride_s;
   const auto headings = kinds.headings();
   judge_direction(headings, speed, out);
-  out.left_of_right_m = kinds.leftward(Side::left, headings) - kinds.leftward(Side::right, headings);
+  out.left_of_right_m = kinds.feet_leftward(headings);
+  out.knees_left_of_right_m = kinds.knees_leftward(headings);
+  out.ankles_outward_m = kinds.ankles_outward();
   out.pelvis_left_of_right_m = kinds.pelvis_leftward(headings);
   if (steps.feet[0].swings.empty() && steps.feet[1].swings.empty())
     out.not_gait = "no foot swings: none moves by 80 mm over the ground";
@@ -303,8 +339,10 @@ std::string GaitKind::sentence() const {
   out += fmt::format(": {:.2f} m/s, strides of {:.2f} s", speed_m_per_s, stride_s);
   if (belt) out += fmt::format("; the feet slide back at {:.3f} m/s while they stand", belt_m_per_s);
   if (direction == GaitDirection::unknown)
-    out +=
-        "; forward or backward is not known, as no foot's heel and toe and no front of the pelvis are named";
+    out += direction_doubted
+               ? "; forward or backward cannot be known"
+               : "; forward or backward is not known, as no foot's heel and toe and no front of "
+                 "the pelvis are named";
   return out;
 }
 

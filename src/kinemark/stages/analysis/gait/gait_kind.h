@@ -26,7 +26,7 @@ enum class GaitManner : std::uint8_t { walk, run, sprint };
 
 /// Where the feet point against where the body goes.
 enum class GaitDirection : std::uint8_t {
-  unknown,  ///< no foot and no pelvis of which front and back are named
+  unknown,  ///< no foot and no pelvis of which front and back are named, or none whose names are believed
   forward,
   backward,
   sideways,
@@ -47,9 +47,13 @@ struct GaitKind {
   double turn_rad = 0.0;       ///< range of the headings of stances
   double flight_share = 0.0;   ///< of the frames in which both feet swing
   double bounce_m = kNaN;  ///< pelvis in the middle of a stance above a quarter of a stride before and after
-  double left_of_right_m = kNaN;  ///< left foot to the left of the right one, while they stand; NaN: not seen
+  double left_of_right_m = kNaN;         ///< left foot to the left of the right one, median; NaN: not seen
   double pelvis_left_of_right_m = kNaN;  ///< the same of the two front markers of the pelvis
-  std::string not_gait;                  ///< why it is no locomotion; empty: it is
+  double knees_left_of_right_m = kNaN;   ///< the same of the knees
+  double ankles_outward_m = kNaN;  ///< outer ankles from their feet's lines to the named sides, the lesser;
+                                   ///< NaN: not seen of both feet, or one each way
+  bool direction_doubted = false;  ///< unknown, as names of heel and toe contradict the rest
+  std::string not_gait;            ///< why it is no locomotion; empty: it is
 
   /// "walking over ground, forward, 1.11 m/s, strides of 1.20 s", "running on a treadmill, ...".
   [[nodiscard]] std::string sentence() const;

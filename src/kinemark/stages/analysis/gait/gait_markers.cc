@@ -210,6 +210,10 @@ class Finder {
       foot(side) = {.heel = choice.rear, .toe = choice.front, .set = choice.set, .passed_over = {}};
       break;
     }
+    foot(side).knee = most_seen(named(BodyPlace::knee, side));
+    const auto outer =
+        given_[first + 2] >= 0 ? given_[first + 2] : most_seen(named(BodyPlace::outer_ankle, side));
+    if (outer != foot(side).heel && outer != foot(side).toe) foot(side).ankle = outer;
     // Better names that are seen less.
     for (const auto* const all : {&heels, &toes})
       for (const auto m : *all) {

@@ -38,6 +38,8 @@ struct FootMarkers {
   std::int64_t toe = -1;                  ///< at the forefoot or the toes, else what stands for them
   FootSet set = FootSet::heel_and_toe;    ///< what they are
   std::vector<std::int64_t> passed_over;  ///< at heel or toe, but seen too little
+  std::int64_t ankle = -1;                ///< outer one, beside heel and toe: it tells which is which
+  std::int64_t knee = -1;                 ///< of the same side
   /// Whether events can be found of it.
   [[nodiscard]] bool complete() const { return heel >= 0 && toe >= 0; }
   /// Whether they are two markers, so that a foot points somewhere.

@@ -27,6 +27,11 @@ constexpr std::array<std::string_view, 5> kFront{"asis", "asi", "ias", "fwt", "a
 constexpr std::array<std::string_view, 4> kBack{"psis", "psi", "ips", "bwt"};
 constexpr std::array<std::string_view, 12> kSacrum{"sacr", "sacrum", "vsac",   "sac", "vsacral", "sacral",
                                                    "psis", "s2",     "sacrol", "mwt", "pelr",    "midhip"};
+constexpr std::array<std::string_view, 11> kKnee{
+    "kne", "knee", "lk", "kneelat", "lkne", "lfe", "latknee", "kneeouter", "lateralknee", "fle", "kjc"};
+constexpr std::array<std::string_view, 13> kOuterAnkle{"ank",    "ankle", "lm",        "lmal",     "llmal",
+                                                       "llm",    "fal",   "lmall",     "anklelat", "latmal",
+                                                       "mallat", "rlm",   "ankleouter"};
 // Single letters are the names of one marker set only: believed where both feet have them (gait_markers.cc).
 constexpr std::array<std::string_view, 1> kForefootLetter{"d"}, kAnkleLetter{"a"};
 
@@ -42,6 +47,10 @@ std::span<const std::string_view> words_of(BodyPlace place) {
       return kFront;
     case BodyPlace::back_of_pelvis:
       return kBack;
+    case BodyPlace::knee:
+      return kKnee;
+    case BodyPlace::outer_ankle:
+      return kOuterAnkle;
     case BodyPlace::sacrum:
       break;
   }

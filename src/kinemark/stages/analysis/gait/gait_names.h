@@ -13,7 +13,16 @@
 namespace kinemark::analysis {
 
 /// Places that events of walking need.
-enum class BodyPlace : std::uint8_t { heel, forefoot, ankle, front_of_pelvis, back_of_pelvis, sacrum };
+enum class BodyPlace : std::uint8_t {
+  heel,
+  forefoot,
+  ankle,
+  front_of_pelvis,
+  back_of_pelvis,
+  sacrum,
+  knee,
+  outer_ankle,  ///< at the lateral malleolus: a name that means no other place of the ankle
+};
 
 /// Lower-case letters and digits after the last colon: "rheel" of "Anna:R.Heel".
 [[nodiscard]] std::string plain_name(std::string_view name);

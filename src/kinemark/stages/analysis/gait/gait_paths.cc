@@ -122,6 +122,8 @@ Status GaitSmoother::add_foot(const data::Trajectories& markers, const FootMarke
     if (static_cast<double>(gap.count()) > kBridged_s * markers.time.rate_hz) how.hidden.push_back(gap);
   how.share = static_cast<double>(std::ranges::count(all, true)) / static_cast<double>(markers.frames());
   known_[i] = std::move(known);
+  if (foot.ankle >= 0) ankle_[i] = mean_of_markers(markers, {foot.ankle});
+  if (foot.knee >= 0) knee_[i] = mean_of_markers(markers, {foot.knee});
   return {};
 }
 
@@ -233,7 +235,20 @@ void GaitSmoother::exchange_sides() {
   std::swap(toe_[0], toe_[1]);
   std::swap(known_[0], known_[1]);
   std::swap(seen_[0], seen_[1]);
+  std::swap(ankle_[0], ankle_[1]);
+  std::swap(knee_[0], knee_[1]);
   std::swap(paths_.feet[0], paths_.feet[1]);
+}
+
+std::array<std::string, 2> GaitSmoother::ends_of(data::Side side) const {
+  const auto i = data::index_of(side);
+  return {points_[at(heel_[i])].name, points_[at(toe_[i])].name};
+}
+
+void GaitSmoother::exchange_ends(data::Side side) {
+  const auto i = data::index_of(side);
+  std::swap(heel_[i], toe_[i]);
+  std::swap(paths_.feet[i].heel, paths_.feet[i].toe);
 }
 
 GaitPaths GaitSmoother::arrange(const std::vector<SeriesMatrix>& points) const {
@@ -252,7 +267,11 @@ GaitPaths GaitSmoother::arrange(const std::vector<SeriesMatrix>& points) const {
                    .toe = points[at(toe_[i])] * turn,
                    .known = known_[i],
                    .set = set_[i],
-                   .points = toe_[i] != heel_[i] && set_[i] != FootSet::by_place};
+                   .points = toe_[i] != heel_[i] && set_[i] != FootSet::by_place,
+                   .ankle = {},
+                   .knee = {}};
+    if (ankle_[i].rows() > 0) out.feet[i].ankle = ankle_[i] * turn;
+    if (knee_[i].rows() > 0) out.feet[i].knee = knee_[i] * turn;
   }
   out.pelvis = points.back() * turn;
   if (front_.rows() > 0) out.pelvis_front = (front_ * turn).leftCols<2>();

@@ -30,6 +30,8 @@ struct FootPaths {
   std::vector<bool> known;              ///< n; both were measured, or lie within a gap of 0.25 s at most
   FootSet set = FootSet::heel_and_toe;  ///< which markers they are
   bool points = false;                  ///< heel and toe are two markers: the foot points somewhere
+  math::SeriesMatrix ankle;             ///< n x 3, outer, as recorded, NaN where not seen; 0 rows: no marker
+  math::SeriesMatrix knee;              ///< the same of the knee
 
   [[nodiscard]] bool present() const { return heel.rows() > 0; }  ///< whether the foot has markers
 };
@@ -92,8 +94,12 @@ class GaitSmoother {
   [[nodiscard]] Eigen::Vector3d standing() const;
   /// How a foot was seen.
   [[nodiscard]] const FootSeen& seen(data::Side side) const { return seen_[data::index_of(side)]; }
+  /// Names of the markers at heel and toe of a foot that is there.
+  [[nodiscard]] std::array<std::string, 2> ends_of(data::Side side) const;
   /// Left becomes right, and right left.
   void exchange_sides();
+  /// Heel becomes toe, and toe heel.
+  void exchange_ends(data::Side side);
 
  private:
   struct Point {
@@ -116,6 +122,7 @@ class GaitSmoother {
   std::vector<Point> points_;  // one or two of each foot that is there, then the pelvis
   std::array<int, 2> heel_{-1, -1}, toe_{-1, -1};
   std::array<FootSet, 2> set_{};
+  std::array<math::SeriesMatrix, 2> ankle_, knee_;  // n x 3 in the recording's axes, or 0 rows
   std::array<std::vector<bool>, 2> known_;
   std::array<FootSeen, 2> seen_;
   std::vector<bool> pelvis_known_;

@@ -70,6 +70,9 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   out.ground = ground_velocity(smoother.paths());
   auto progress = progress_of(smoother.paths(), out.ground.velocity);
   if (!which.sides_known && left_along_the_way(smoother.paths(), progress) < 0.0) smoother.exchange_sides();
+  out.ends = judge_foot_ends(smoother.paths(), progress);
+  for (const Side side : data::kBothSides)
+    if (out.ends.exchanged[data::index_of(side)]) smoother.exchange_ends(side);
   const auto& paths = smoother.paths();
   out.steps = find_steps(paths, out.ground.velocity);
   add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
@@ -77,6 +80,7 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
   out.belt = belt_velocity(paths, out.steps, out.ground);
   out.kind = judge_kind(paths, out.ground, out.steps, progress, in_time);
+  if (out.ends.doubtful) out.kind.direction = GaitDirection::unknown, out.kind.direction_doubted = true;
   if (out.kind.belt) out.kind.belt_m_per_s = out.belt.velocity.norm();
   const double factor = sd_factor(out.kind.direction);
   for (std::size_t i = 0; i < out.events.size(); ++i) {

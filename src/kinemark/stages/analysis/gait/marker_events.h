@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/stages/analysis/gait/foot_ends.h"
 #include "kinemark/stages/analysis/gait/gait_kind.h"
 #include "kinemark/stages/analysis/gait/kinematic_events.h"
 
@@ -20,6 +21,7 @@ struct MarkerEvents {
   Ground belt;                          ///< belt_velocity(): what speeds and lengths are measured against
   Steps steps;                          ///< swings of both feet
   GaitKind kind;                        ///< of gait, or why it is none
+  FootEnds ends;                        ///< which feet have names of heel and toe exchanged
   std::vector<SwingEdge> edges;         ///< those that are seen, by side and time
   std::vector<FusedTime> fused;         ///< of each edge
   std::vector<data::GaitEvent> events;  ///< of each edge, with its whole SD
@@ -28,15 +30,16 @@ struct MarkerEvents {
 
 /// Find them: once at kFirstCutOff_hz for the pace, then smoothed at cut_off_of() it. Where no name tells the
 /// sides, left is the foot on the left of where the body goes.
-/// @param smoother  is left at that cut-off, its sides exchanged where they had to be
+/// @param smoother  is left at that cut-off, its sides, and heel and toe of a foot, exchanged where they had
+/// to be
 [[nodiscard]] Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarkers& which);
 
 /// Factor on SDs of a direction in which no plate has judged them: 1.5 backward and sideways, else 1.
 [[nodiscard]] double sd_factor(GaitDirection direction);
 
 /// What is to be said aloud, a sentence each: where a foot is hidden or held still, where a strike is missing
-/// between two others, feet that do not strike or strike at different numbers, sides that are exchanged or
-/// mirrored.
+/// between two others, feet that do not strike or strike at different numbers, names of heel and toe, of the
+/// front and the back of the pelvis, or of sides that are exchanged.
 [[nodiscard]] std::vector<std::string> findings_of(const GaitSmoother& smoother, const MarkerEvents& found);
 
 }  // namespace kinemark::analysis

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -146,6 +147,19 @@ std::string words_of(const StandingBody& body, const internal::Hypothesis& h) {
   return fmt::format("{} and {} exchanged", first, body.markers[at(h.second)].name);
 }
 
+/// What a pair's exchange scores in frames of one recording: mean over those that have both, and their
+/// number.
+double mean_score(const StandingBody& body, const internal::SharedPrior& prior,
+                  const std::vector<internal::SeenFrame>& frames, int first, int second) {
+  double sum = 0.0, count = 0.0;
+  for (const auto& frame : frames) {
+    if (!frame.x.col(first).allFinite() || !frame.x.col(second).allFinite()) continue;
+    sum += internal::explain_exchange(body, prior, frame, first, second).score;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : -kRival;
+}
+
 /// Spread of the length of a shift.
 double length_sd(const Vector3d& shift, const Vector3d& sd) {
   const double length = shift.norm();
@@ -248,10 +262,56 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   if (!moving.empty() && !out.findings.empty()) {
     const auto alone = judge_foundation(body, still, {}, options);
     if (!alone) return std::unexpected(alone.error());
-    for (auto& finding : out.findings)
+    for (auto& finding : out.findings) {
       finding.by_movement = std::ranges::none_of(alone->findings, [&](const FoundationFinding& other) {
         return other.marker == finding.marker && other.partner == finding.partner;
       });
+      if (!finding.by_movement || finding.partner.empty()) continue;
+      // Each of the two recordings by itself: which of them is better with the two exchanged?
+      const auto index = [&](const std::string& name) {
+        return static_cast<int>(std::ranges::find(still.names, name) - still.names.begin());
+      };
+      const auto marker_at = [&](int column) {
+        return static_cast<int>(std::ranges::find(columns, column) - columns.begin());
+      };
+      const int a = marker_at(index(finding.marker)), b = marker_at(index(finding.partner));
+      const auto by_names = internal::prior_of(body);
+      finding.either =
+          mean_score(body, by_names, {frame_at(still, columns, frame_idx, kHalf, options.still_sd_m)}, a, b) -
+              mean_score(body, by_names, moving, a, b) <
+          kRival;
+    }
+  }
+  return out;
+}
+
+Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
+                                                      const data::Trajectories& movement,
+                                                      const FoundationOptions& options) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  std::vector<FoundationFinding> out;
+  auto frames = frames_of(body, movement, options);
+  const auto prior = internal::prior_of(body);
+  while (!frames.empty() && std::ssize(out) < options.most_findings) {
+    std::set<std::pair<int, int>> pairs;
+    for (const auto* frame : {&frames.front(), &frames[frames.size() / 2]})
+      for (const auto& h : internal::explain(body, prior, *frame))
+        if (h.second >= 0 && h.score > options.least_score && keeps_its_place(body.markers[at(h.first)]) &&
+            keeps_its_place(body.markers[at(h.second)]))
+          pairs.emplace(h.first, h.second);
+    FoundationFinding best;
+    best.score = options.least_score;
+    std::pair<int, int> exchanged{-1, -1};
+    for (const auto& [first, second] : pairs)
+      if (const double score = mean_score(body, prior, frames, first, second); score >= best.score) {
+        best.score = score;
+        exchanged = {first, second};
+      }
+    if (exchanged.first < 0) break;
+    best.marker = body.markers[at(exchanged.first)].name;
+    best.partner = body.markers[at(exchanged.second)].name;
+    out.push_back(std::move(best));
+    for (auto& frame : frames) frame.x.col(exchanged.first).swap(frame.x.col(exchanged.second));
   }
   return out;
 }
@@ -260,6 +320,7 @@ std::string describe(const FoundationFinding& finding, const std::string& record
   std::string out;
   if (!finding.partner.empty()) {
     out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, recording);
+    if (finding.either) out += " or in the movement beside it: in which of the two cannot be known";
   } else {
     const Vector3d& shift = finding.shift_m;
     std::vector<std::string> parts;
@@ -272,7 +333,7 @@ std::string describe(const FoundationFinding& finding, const std::string& record
     out = fmt::format("{} lies {:.0f} mm (SD {:.0f}) from where it should in {}: {}", finding.marker,
                       1e3 * shift.norm(), 1e3 * length_sd(shift, finding.shift_sd_m), recording, join(parts));
   }
-  if (finding.by_movement) out += ", as the movement shows it";
+  if (finding.by_movement && !finding.either) out += ", as the movement shows it";
   if (!finding.rivals.empty()) out += fmt::format(" (or: {})", join(finding.rivals));
   return out;
 }

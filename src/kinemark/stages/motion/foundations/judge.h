@@ -42,6 +42,7 @@ struct FoundationFinding {
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero();  ///< 1 SD of each
   double score = 0.0;                                    ///< as FoundationOptions::least_score
   bool by_movement = false;  ///< movements show it; the still recording alone does not: either may be wrong
+  bool either = false;       ///< of a pair by_movement: nothing tells in which of the two recordings it is
   std::vector<std::string> rivals;  ///< other explanations that are nearly as likely, in words
 };
 
@@ -60,6 +61,13 @@ struct FoundationJudgement {
 [[nodiscard]] Result<FoundationJudgement> judge_foundation(
     const StandingBody& body, const data::Trajectories& still,
     std::span<const data::Trajectories* const> movements, const FoundationOptions& options = {});
+
+/// Pairs of pelvis and legs that are exchanged throughout a recording in which somebody moves:
+/// FoundationOptions:: moving_frames frames are asked, and the score is the mean over them. Singles are not
+/// asked, as a posture may explain them. Fails where the options do.
+[[nodiscard]] Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
+                                                                    const data::Trajectories& movement,
+                                                                    const FoundationOptions& options = {});
 
 /// "LTOE and LHEE are exchanged in the static trial" or "LKNE lies 52 mm (SD 8) from where it should in the
 /// static trial: 48 mm forward, 20 mm down", with the rivals.

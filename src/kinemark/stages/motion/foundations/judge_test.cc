@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -215,6 +216,13 @@ TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
   exchanged.by_movement = true;
   EXPECT_EQ(describe(exchanged, "cal.c3d"),
             "LTOE and LHEE are exchanged in cal.c3d, as the movement shows it");
+  EXPECT_THAT(describe(exchanged, "cal.c3d"),
+              Not(HasSubstr(" or in the movement beside it: in which of the two cannot be known")));
+  exchanged.either = true;
+  EXPECT_EQ(
+      describe(exchanged, "cal.c3d"),
+      "LTOE and LHEE are exchanged in cal.c3d or in the movement beside it: in which of the two cannot be "
+      "known");
   FoundationFinding shifted{.marker = "LKNE",
                             .shift_m = Vector3d(-0.048, 0.020, 0.001),
                             .shift_sd_m = Vector3d::Constant(0.008),
@@ -319,6 +327,28 @@ TEST(Judge, AMovementShowsWhatTheStaticTrialAloneCannot) {
   exchange(still, "LTOE", "LHEE");
   for (const auto& finding : by_names(still, &movement).findings)
     EXPECT_EQ(finding.by_movement, finding.marker == "RTHI") << describe(finding, "cal.c3d");
+}
+
+TEST(Judge, ExchangesInAMovementAreFoundThereAndSoundOnesAccuseNobody) {
+  for (const std::uint64_t seed : {21, 22, 23}) {
+    const auto person = subject(seed);
+    const auto still = frames(person, 9, 0.03, seed);
+    auto movement = frames(person, 40, 0.25, seed + 100);
+    const auto body = body_of_names(movement.names);
+    const auto sound = judge_movement(body, movement);
+    ASSERT_TRUE(sound) << sound.error().message;
+    EXPECT_TRUE(sound->empty()) << seed << " " << sound->front().marker << " " << sound->front().partner;
+    exchange(movement, "LTOE", "LHEE");
+    const auto found = judge_movement(body, movement);
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_EQ(found->size(), 1U) << seed;
+    EXPECT_EQ(std::set({found->front().marker, found->front().partner}),
+              std::set<std::string>({"LHEE", "LTOE"}));
+    EXPECT_GT(found->front().score, FoundationOptions{}.least_score);
+  }
+  EXPECT_FALSE(judge_movement(body_of_names({"LHEE"}), frames(subject(1), 5, 0.1, 1), {.least_score = 0.0}));
+  const auto nobody = data::Trajectories::all_missing({"LHEE", "LTOE"}, {.rate_hz = 100.0, .frames = 5});
+  EXPECT_TRUE(judge_movement(body_of_names(nobody.names), nobody)->empty());
 }
 
 TEST(Judge, ThighWandsAtDifferentHeightsAreAsPrescribed) {

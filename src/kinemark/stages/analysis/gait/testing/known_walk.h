@@ -47,6 +47,7 @@ struct KnownWalk {
   /// speed upwards.
   double late_s = 0.08, late_rad = 0.05, late_turn = 1.5, late_m = 0.02, late_up = 0.1;
   double toe_out_rad = 0.1;      ///< of each foot
+  double sway_m = 0.02;          ///< of the pelvis, over the foot that stands
   double heading_rad = 0.4;      ///< of the walk in the laboratory
   bool treadmill = false;        ///< stays where it is; the belt runs
   double duration_s = 6.0;       ///< of the recording
@@ -99,6 +100,9 @@ struct KnownWalk {
   [[nodiscard]] Eigen::Vector3d pelvis_at(double time_s) const;
   /// "LHEE", "LTOE", "RHEE", "RTOE", "SACR" with white noise.
   [[nodiscard]] data::Trajectories markers(double noise_m, std::uint64_t seed) const;
+  /// The same with "LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE", "LANK" and "RANK". Feet may cross over (a
+  /// width below 0); hips, knees and outer ankles stay on their sides.
+  [[nodiscard]] data::Trajectories body_markers(double noise_m, std::uint64_t seed) const;
   /// The vertical force under a foot, N: up within a tenth of the stance, two humps, down within a tenth.
   [[nodiscard]] double load_n(data::Side side, double time_s) const;
   /// A plate that sees one step of a foot and nothing else, its frames means over a frame.
@@ -203,7 +207,7 @@ inline Eigen::Vector3d KnownWalk::pelvis_at(double time_s) const {
   const double phase = 2.0 * std::numbers::pi * (time_s - first_strike_s) / stride_s;
   const double middle =
       speed_m_per_s * (time_s - strike_s(data::Side::left, 0)) + 0.5 * foot_m - 0.31 * stride_m() - 0.08;
-  return in_laboratory(middle + 0.01 * std::sin(2.0 * phase), 0.02 * std::cos(phase),
+  return in_laboratory(middle + 0.01 * std::sin(2.0 * phase), sway_m * std::cos(phase),
                        0.95 - 0.02 * std::cos(2.0 * phase), time_s);
 }
 
@@ -232,6 +236,38 @@ inline data::Trajectories KnownWalk::markers(double noise_m, std::uint64_t seed)
     for (std::int64_t m = 0; m < 5; ++m) {
       for (int axis = 0; axis < 3; ++axis)
         out.x(f, m)[axis] = x[static_cast<std::size_t>(m)][axis] + noise_m * random.gaussian();
+      out.state[out.index(f, m)] = data::SampleState::measured;
+    }
+  }
+  return out;
+}
+
+inline data::Trajectories KnownWalk::body_markers(double noise_m, std::uint64_t seed) const {
+  const auto feet = markers(noise_m, seed);
+  auto out = data::Trajectories::all_missing({"LHEE", "LTOE", "RHEE", "RTOE", "SACR", "LASI", "RASI", "LPSI",
+                                              "RPSI", "LKNE", "RKNE", "LANK", "RANK"},
+                                             feet.time);
+  Random random(seed, 0x626f6479);
+  const Eigen::Vector3d forward(std::cos(heading_rad), std::sin(heading_rad), 0.0),
+      left(-std::sin(heading_rad), std::cos(heading_rad), 0.0), up = Eigen::Vector3d::UnitZ();
+  for (std::int64_t f = 0; f < out.frames(); ++f) {
+    std::vector<Eigen::Vector3d> x;
+    for (std::int64_t m = 0; m < feet.markers(); ++m) x.emplace_back(feet.x(f, m));
+    const Eigen::Vector3d sacrum = x[4];
+    for (const auto& [ahead, aside] : {std::pair{0.16, 0.12}, std::pair{0.0, 0.045}})
+      for (const double side : {1.0, -1.0}) x.emplace_back(sacrum + ahead * forward + side * aside * left);
+    std::array<Eigen::Vector3d, 2> ankles;
+    for (const std::size_t i : {0, 1}) {
+      const double side = i == 0 ? 1.0 : -1.0;
+      ankles[i] = x[2 * i] + 0.35 * (x[2 * i + 1] - x[2 * i]) + 0.04 * side * left + 0.05 * up;
+      const Eigen::Vector3d hip = sacrum + 0.08 * forward + 0.09 * side * left;
+      x.emplace_back(0.5 * (hip + ankles[i]) + 0.06 * forward + 0.05 * side * left);
+    }
+    x.insert(x.end(), ankles.begin(), ankles.end());
+    for (std::int64_t m = 0; m < out.markers(); ++m) {
+      const auto& from = x[static_cast<std::size_t>(m)];
+      for (int axis = 0; axis < 3; ++axis)
+        out.x(f, m)[axis] = from[axis] + (m < feet.markers() ? 0.0 : noise_m * random.gaussian());
       out.state[out.index(f, m)] = data::SampleState::measured;
     }
   }
