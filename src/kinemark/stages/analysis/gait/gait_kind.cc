@@ -395,8 +395,7 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   out.pelvis_left_of_right_m = kinds.pelvis_leftward(headings);
   if (steps.feet[0].swings.empty() && steps.feet[1].swings.empty())
     out.not_gait = "no foot swings: none moves by 80 mm over the ground";
-  else if (const double way_m = kinds.way_m(ground.velocity),
-           goes_m = std::isfinite(way_m) ? way_m : speed * steps.stride_s;
+  else if (const double goes_m = std::fmin(kinds.way_m(ground.velocity), speed * steps.stride_s);
            !(goes_m > kLeastStride_m))
     out.not_gait =
         fmt::format("the feet move, but the body goes {:.2f} m a stride over the ground; need {:.1f}", goes_m,
