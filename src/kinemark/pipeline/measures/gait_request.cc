@@ -100,7 +100,7 @@ nlohmann::ordered_json gait_json(const analysis::Gait& gait) {
   out["turning_deg"] = kind.turn_rad * 180.0 / std::numbers::pi;
   out["turning"] = kind.turning;
   out["speed"] = 1e3 * kind.speed_m_per_s;
-  out["stride_time_s"] = kind.stride_s;
+  out["stride_time_s"] = std::isfinite(kind.longer_than_s) ? Json(nullptr) : Json(kind.stride_s);
   out["person"] = gait.person.empty() ? Json(nullptr) : Json(gait.person);
   out["plates_out_of_step"] = gait.out_of_step;
   out["treadmill"] = gait.treadmill;

@@ -78,6 +78,9 @@ TEST(GaitJson, HasNullWhereNothingIsKnown) {
   EXPECT_FALSE(gait_json(gait)["treadmill"]);
   EXPECT_EQ(gait_json(gait)["direction"], "backward");
   EXPECT_EQ(gait_json(gait)["person"], "Ann");
+  EXPECT_EQ(gait_json(gait)["stride_time_s"], 0.46);
+  gait.kind.longer_than_s = 0.3;  // no stride was seen whole
+  EXPECT_TRUE(gait_json(gait)["stride_time_s"].is_null());
   EXPECT_NE(events_text(gait).find("sprinting over ground, backward"), std::string::npos);
   EXPECT_NE(events_text(gait).find("Left  Foot Strike    1.250 +- 0.006 s  plate 1"), std::string::npos);
 }

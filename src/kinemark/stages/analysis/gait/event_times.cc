@@ -49,6 +49,7 @@ constexpr Table kRunOff{{{{{50.03, 88.83, -74.29, 29.66}, 14.0},
                         {1.043, -0.0343, 0.0296, 0.0496, -0.0261}};
 
 constexpr double kMostApart_ms = 40.0, kOfSpread = 0.4;
+constexpr double kFoot_ms = 3.0;    // and of the means of its feet about the mean of both
 constexpr double kWithin_ms = 7.0;  // SD of the errors of one recording about their mean
 // Frames of most recordings learnt from: what they add is in the SDs, and is not counted a second time.
 constexpr double kLearntFrame_s = 0.01;
@@ -85,10 +86,16 @@ FusedTime fuse(const DetectorTimes& times, FootEvent what, bool running, FootSet
       out += table.weights[k + 1] * std::clamp(unbiased[k] - middle, -kMostApart_ms, kMostApart_ms);
   for (const double x : found) mean += x / static_cast<double>(found.size());
   for (const double x : found) squares += (x - mean) * (x - mean) / static_cast<double>(found.size());
-  return {.after_s = 1e-3 * out,
-          .common_sd_s = 1e-3 * std::sqrt(row.sd * row.sd - kWithin_ms * kWithin_ms),
-          .own_sd_s = std::sqrt(1e-6 * (kWithin_ms * kWithin_ms + kOfSpread * kOfSpread * squares) +
-                                std::max(0.0, frame_s * frame_s - kLearntFrame_s * kLearntFrame_s) / 12.0)};
+  DetectorTimes apart{};
+  for (std::size_t k = 0; k < kDetectors; ++k) apart[k] = 1e-3 * (unbiased[k] - middle);
+  return {
+      .after_s = 1e-3 * out,
+      .error = {.kind_s = 1e-3 * std::sqrt(row.sd * row.sd - kWithin_ms * kWithin_ms - kFoot_ms * kFoot_ms),
+                .foot_s = 1e-3 * kFoot_ms,
+                .own_s =
+                    std::sqrt(1e-6 * (kWithin_ms * kWithin_ms + kOfSpread * kOfSpread * squares) +
+                              std::max(0.0, frame_s * frame_s - kLearntFrame_s * kLearntFrame_s) / 12.0)},
+      .apart_s = apart};
 }
 
 }  // namespace kinemark::analysis

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/data/gait_event.h"
+#include "kinemark/stages/analysis/gait/gait_events.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
 
 namespace kinemark::analysis {
@@ -28,9 +30,8 @@ using DetectorTimes = std::array<double, kDetectors>;
 /// One time of an event, in seconds after that of Detector::middle.
 struct FusedTime {
   double after_s = 0.0;  ///< detectors less their biases: the median, and weights of what they differ by
-  double common_sd_s =
-      0.0;  ///< of one laboratory, marker set and shoe: the same for all events of a kind in a recording
-  double own_sd_s = 0.0;  ///< of each event by itself, growing with what the detectors differ by
+  EventError error;      ///< `own_s` grows with what the detectors differ by
+  DetectorTimes apart_s{kNaN, kNaN, kNaN, kNaN};  ///< each detector less its bias, from the median of all
 };
 
 /// Fuse the detectors of an event.

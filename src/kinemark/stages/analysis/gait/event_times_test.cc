@@ -26,13 +26,13 @@ TEST(EventTimes, DetectorsThatAgreeGiveTheirTime) {
   const DetectorTimes strike{0.00588 + 0.02556, -0.03432 + 0.02556, -0.01051 + 0.02556, 0.0};
   const auto fused = fuse(strike, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
   EXPECT_NEAR(fused.after_s, 0.02556 + 0.00299, 1e-4);
-  EXPECT_NEAR(std::hypot(fused.common_sd_s, fused.own_sd_s), 0.0180, 1e-4);
-  EXPECT_NEAR(fused.own_sd_s, 0.007, 1e-5);
+  EXPECT_NEAR(fused.error.sd_s(), 0.0180, 1e-4);
+  EXPECT_NEAR(fused.error.own_s, 0.007, 1e-5);
 }
 
 TEST(EventTimes, LongerFramesThanThoseLearntFromWidenTheSdShorterOnesDoNot) {
   const auto own = [](double rate_hz) {
-    return fuse(kNone, FootEvent::off, false, FootSet::heel_and_toe, 1.0 / rate_hz).own_sd_s;
+    return fuse(kNone, FootEvent::off, false, FootSet::heel_and_toe, 1.0 / rate_hz).error.own_s;
   };
   EXPECT_EQ(own(200.0), own(100.0));
   EXPECT_NEAR(own(100.0), 0.007, 1e-12);
@@ -45,8 +45,8 @@ TEST(EventTimes, OneThatIsFarOffMovesTheTimeByItsClippedShareAndWidensTheSd) {
   times[0] += 0.3;
   const auto after = fuse(times, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
   EXPECT_NEAR(after.after_s - before.after_s, 0.4272 * 0.040, 1e-3);
-  EXPECT_GT(after.own_sd_s, 2.0 * before.own_sd_s);
-  EXPECT_EQ(after.common_sd_s, before.common_sd_s);
+  EXPECT_GT(after.error.own_s, 2.0 * before.error.own_s);
+  EXPECT_EQ(after.error.kind_s, before.error.kind_s);
 }
 
 TEST(EventTimes, RunningHasBiasesOfItsOwn) {
@@ -63,7 +63,7 @@ TEST(EventTimes, EverySetOfMarkersHasAnSdOfFourteenMillisecondsOrMore) {
       for (const auto set : {FootSet::heel_and_toe, FootSet::ankle_and_toe, FootSet::toe_alone,
                              FootSet::rear_alone, FootSet::by_place}) {
         const auto fused = fuse(kNone, what, running, set, 0.001);
-        const double sd = std::hypot(fused.common_sd_s, fused.own_sd_s);
+        const double sd = fused.error.sd_s();
         EXPECT_TRUE(sd >= 0.0139 && sd < 0.022) << sd;
       }
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,12 +40,13 @@ std::optional<FootEvent> kind_of(std::string_view label) {
   return std::nullopt;
 }
 
-std::optional<GaitEvent> read_event(const data::Event& event) {
+std::optional<GaitEvent> read_event(const data::Event& event, double sd_s) {
   const std::string label = letters(event.label), context = letters(event.context);
   const auto of = [&](Side side, FootEvent what) {
     return GaitEvent{.side = side,
                      .what = what,
                      .time_s = event.time_s,
+                     .sd_s = sd_s,
                      .source = data::EventSource::file,
                      .method = "the file"};
   };
@@ -70,7 +73,7 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
                last = time.time_s(time.frames - 1) + half;
   std::vector<GaitEvent> read;
   for (const auto& event : events) {
-    const auto one = read_event(event);
+    const auto one = read_event(event, std::hypot(kFileOffset_s, kFileOwn_s, half / std::numbers::sqrt3));
     if (!one) continue;
     if (one->time_s >= first && one->time_s <= last)
       read.push_back(*one);

@@ -168,24 +168,24 @@ class GaitMeasurement {
     const auto again = find_edges_again(paths, markers_.steps, ground.velocity, markers_.edges);
     const bool running = markers_.kind.manner != GaitManner::walk;
     Random random(options_.seed, mix64(0x6576656e74) ^ static_cast<std::uint64_t>(k));
-    std::array<double, 2> common{};
-    for (const FootEvent what : data::kFootEvents) common[data::index_of(what)] = random.gaussian();
+    std::array<double, 2> of_kind{};
+    std::array<std::array<double, 2>, 2> of_foot{};  // by side
+    for (const FootEvent what : data::kFootEvents) of_kind[data::index_of(what)] = random.gaussian();
+    for (auto& side : of_foot)
+      for (double& draw : side) draw = random.gaussian();
     auto events = found_.events;
     for (std::size_t i = 0; i < events.size(); ++i) {
       auto& event = events[i];
-      const double draw = random.gaussian();
-      if (found_.edge[i] < 0) {
-        event.time_s += std::isfinite(event.sd_s) ? event.sd_s * draw : 0.0;
-        continue;
+      const auto what = data::index_of(event.what);
+      const auto& error = found_.error[i];
+      if (found_.edge[i] >= 0) {
+        const auto& edge = again[at(found_.edge[i])];
+        const double after = fuse(edge.after_s, edge.what, running, paths.foot(edge.side).set, 0.0).after_s;
+        noise[i][at(k)] = paths.time_s(edge.frame) + after - found_.offset[what].offset_s - event.time_s;
       }
-      const auto& edge = again[at(found_.edge[i])];
-      const auto& fused = markers_.fused[at(found_.edge[i])];
-      const auto& offset = found_.offset[data::index_of(event.what)];
-      const double after = fuse(edge.after_s, edge.what, running, paths.foot(edge.side).set, 0.0).after_s;
-      noise[i][at(k)] = paths.time_s(edge.frame) + after - offset.offset_s - event.time_s;
-      event.time_s += noise[i][at(k)] +
-                      common[data::index_of(event.what)] * offset.share * fused.common_sd_s +
-                      draw * fused.own_sd_s;
+      event.time_s += noise[i][at(k)] + error.kind_s * of_kind[what] +
+                      error.foot_s * of_foot[data::index_of(event.side)][what] +
+                      error.own_s * random.gaussian();
     }
     // What this recording would not have shown, no cycle can begin or end with.
     std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
@@ -285,6 +285,7 @@ void note_events(const EventsFound& found, Gait& out) {
 // one speed.
 void take_strides(Gait& out) {
   if (out.cycles.empty()) return;
+  out.kind.longer_than_s = kNaN;
   for (const auto& definition : gait_definitions()) {
     const double value = definition.scope == GaitScope::body ? definition.value(out.cycles) : kNaN;
     if (definition.what.id == "gait_speed" && std::isfinite(value)) out.kind.speed_m_per_s = value;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -45,27 +46,42 @@ struct Agreement {
 /// asked for.
 struct PlateOffset {
   double offset_s = 0.0;  ///< subtracted from the markers' times; 0: nothing was
-  double share = 1.0;     ///< of each event's common SD that is left
+  double share = 1.0;     ///< of EventError::kind_s that is left
   int compared = 0;       ///< events that the plates saw too
+};
+
+/// Parts of what an event errs by, standard deviations in s.
+struct EventError {
+  double kind_s = 0.0;  ///< the same for all events of a kind in a recording: laboratory, marker set, shoe
+  double foot_s = 0.0;  ///< the same for all of a kind and foot: how this foot comes and goes
+  double own_s = 0.0;   ///< of each event by itself
+  /// All of it.
+  [[nodiscard]] double sd_s() const { return std::hypot(kind_s, foot_s, own_s); }
 };
 
 /// Events of a recording by one choice.
 struct EventsFound {
   std::vector<data::GaitEvent> events;  ///< ascending in time
   std::vector<std::int64_t> edge;       ///< of each event: in MarkerEvents::edges; -1: not by markers
+  std::vector<EventError> error;        ///< of each event, besides what noise does to it
   std::array<PlateOffset, 2> offset;    ///< of strikes, of leavings
   std::vector<Agreement> agreement;     ///< between sources
   bool out_of_step = false;             ///< plates and markers do not run on one clock
-  std::vector<std::string> notes;       ///< on plates out of step, on what was taken off; a sentence each
+  std::vector<std::string> notes;       ///< on plates out of step, what was taken off, what the file's err by
 };
+
+/// What a laboratory's stored events usually err by, standard deviations: all of a kind in a recording the
+/// same way, as those of markers do, and each by itself (docs/theory/gait.md).
+inline constexpr double kFileOffset_s = 0.016, kFileOwn_s = 0.01;
 
 /// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or
 /// "LHS", "RTO" and the like; others are not about feet. An event outside the recording, and one that follows
 /// another of its kind and side within 0.3 s with none between, is left out and told. Where one follows
 /// later, both stand, and the one that is not labelled between them is told.
 struct FileEvents {
-  std::vector<data::GaitEvent> events;  ///< ascending in time; SD not known
-  std::vector<std::string> notes;       ///< one sentence each
+  std::vector<data::GaitEvent>
+      events;  ///< ascending in time, with kFileOffset_s, kFileOwn_s and a frame in the SD
+  std::vector<std::string> notes;  ///< one sentence each
 };
 /// @param events  of the file
 /// @param time    of the recording
@@ -80,6 +96,9 @@ struct FileEvents {
 ///
 /// Plates and markers are out of step where strikes and leavings differ by more than 30 ms on average, both
 /// the same way: `best` then takes no event of a plate.
+///
+/// Events of the file err by what they differ by from plates in step and from markers that saw the same
+/// instants, with a laboratory's usual error before: its mean and scatter are in their SDs, their times stay.
 ///
 /// @param of_plates, of_file  what they tell; their events are compared, and taken as `choice` says
 [[nodiscard]] EventsFound find_gait_events(const MarkerEvents& of_markers,

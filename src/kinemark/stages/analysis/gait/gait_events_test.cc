@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "kinemark/stages/analysis/gait/marker_events.h"
@@ -130,8 +131,9 @@ TEST_F(GaitEventsTest, AnOffsetToPlatesIsShrunkByItsVariance) {
     if (n == 1) {
       const auto first = std::ranges::find(of_markers_.events, plates[0].time_s + 0.01, &GaitEvent::time_s);
       const auto& fused = of_markers_.fused[static_cast<std::size_t>(first - of_markers_.events.begin())];
-      const double each = fused.own_sd_s * fused.own_sd_s + 9e-6,
-                   common = fused.common_sd_s * fused.common_sd_s;
+      const double each =
+                       fused.error.own_s * fused.error.own_s + fused.error.foot_s * fused.error.foot_s + 9e-6,
+                   common = fused.error.kind_s * fused.error.kind_s;
       EXPECT_NEAR(offset.offset_s, 0.01 * common / (common + each), 1e-9);
       EXPECT_NEAR(offset.share, std::sqrt(each / (common + each)), 1e-9);
     }
@@ -246,6 +248,86 @@ TEST_F(GaitEventsTest, WhereMarkersTellNothingTheFileIsTheLastToTell) {
   EXPECT_EQ(find_gait_events(nobody, {}, file, EventChoice::best).events.size(), 3u);
   EXPECT_TRUE(find_gait_events(nobody, {}, file, EventChoice::kinematics).events.empty());
   EXPECT_TRUE(find_gait_events(nobody, {}, file, EventChoice::plates).events.empty());
+}
+
+class FileErrors : public GaitEventsTest {
+ protected:
+  [[nodiscard]] EventsFound by_file(std::span<const GaitEvent> plates, std::vector<GaitEvent> file) const {
+    const double usual = std::hypot(kFileOffset_s, kFileOwn_s);
+    for (auto& event : file) event.sd_s = usual;
+    return find_gait_events(of_markers_, plates, file, EventChoice::file);
+  }
+};
+
+TEST_F(FileErrors, AreWhatTheyDifferByFromPlates) {
+  const auto plates = others(EventSource::plate, 4, -0.01), late = others(EventSource::file, 4, 0.03);
+  const auto found = by_file(plates, late);
+  ASSERT_EQ(found.events.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(found.events[i].time_s, late[i].time_s);  // their times stay
+    EXPECT_TRUE(found.events[i].sd_s > 0.035 && found.events[i].sd_s < 0.042) << found.events[i].sd_s;
+    EXPECT_NEAR(found.events[i].sd_s, found.error[i].sd_s(), 1e-12);
+    EXPECT_GT(found.error[i].kind_s, 4.0 * found.error[i].own_s);  // all alike: an offset
+  }
+  EXPECT_THAT(found.notes, Contains(HasSubstr("Foot Strike: the file's events err by 3")));
+  EXPECT_THAT(found.notes, Contains(HasSubstr(" ms (SD), as 4 of plates and 4 of markers show")));
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("a laboratory's usually do: nothing else tells of them"))));
+  // On plates they are known better than a laboratory's usual, and where they lie to and fro, not by an
+  // offset.
+  const auto same = by_file(plates, others(EventSource::file, 4, -0.01));
+  EXPECT_LT(same.events[0].sd_s, 0.011);
+  auto to_and_fro = others(EventSource::file, 4, -0.01);
+  for (std::size_t i = 0; i < 4; ++i) to_and_fro[i].time_s += i % 2 == 0 ? 0.03 : -0.03;
+  const auto scattered = by_file(plates, to_and_fro);
+  EXPECT_GT(scattered.error[0].own_s, 0.02);
+  EXPECT_LT(scattered.error[0].kind_s, scattered.error[0].own_s);
+}
+
+TEST_F(FileErrors, AreToldByMarkersWherePlatesAreOutOfStep) {
+  auto plates = others(EventSource::plate, 3, -0.045);
+  const auto offs = others(EventSource::plate, 3, -0.05, FootEvent::off);
+  plates.insert(plates.end(), offs.begin(), offs.end());
+  const auto found = by_file(plates, others(EventSource::file, 4, 0.0));
+  EXPECT_THAT(found.notes, Contains(HasSubstr(", as 4 of markers show")));
+  EXPECT_LT(found.events[0].sd_s, 0.02);
+}
+
+TEST_F(FileErrors, AreUsualWhereNothingElseTellsOfThem) {
+  const auto nowhere = others(EventSource::file, 4, 0.3);
+  const auto found = by_file({}, nowhere);
+  EXPECT_NEAR(found.events[0].sd_s, std::hypot(kFileOffset_s, kFileOwn_s), 1e-9);
+  EXPECT_THAT(found.notes, Contains("Foot Strike: the file's events err by 19 ms (SD), as a laboratory's "
+                                    "usually do: nothing else tells of them"));
+  EXPECT_THAT(find_gait_events(of_markers_, {}, nowhere, EventChoice::kinematics).notes,
+              Not(Contains(HasSubstr("the file's events err by"))));
+}
+
+// Laboratories whose labels err as usual, or all by 40 ms the same way, two steps of whom plates see: how
+// often what is true lies within twice the SD that is stated.
+TEST_F(FileErrors, HoldTheTruthAsOftenAsTheySay) {
+  Random random(7, 0x6c616273);
+  for (const double offset_s : {0.0, kFileOffset_s, 0.04}) {
+    int within = 0, all = 0;
+    for (int laboratory = 0; laboratory < 300; ++laboratory) {
+      const double offset = offset_s == 0.04 ? offset_s : offset_s * random.gaussian();
+      std::vector<GaitEvent> file, plates;
+      for (auto event : alone_.events)
+        if (event.what == FootEvent::strike) {
+          const double truth = event.time_s;
+          event.sd_s = 0.003, event.time_s = truth + event.sd_s * random.gaussian();
+          if (plates.size() < 2) plates.push_back(event);
+          event.time_s = truth + offset + kFileOwn_s * random.gaussian(), file.push_back(event);
+        }
+      const auto found = by_file(plates, file);
+      for (const auto& event : found.events) {
+        const auto truth = std::ranges::min_element(alone_.events, {}, [&](const GaitEvent& one) {
+          return one.what == event.what && one.side == event.side ? std::abs(one.time_s - event.time_s) : 1.0;
+        });
+        within += std::abs(truth->time_s - event.time_s) < 2.0 * event.sd_s, ++all;
+      }
+    }
+    EXPECT_GT(within, 0.92 * all) << offset_s;
+  }
 }
 
 // Changes of the laboratory that change no instant.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numbers>
 
@@ -36,6 +37,13 @@ constexpr double kFlat = 0.2;       // of the usual speed: a foot that points so
 constexpr double kFlat_s = 0.03, kLeastFoot_m = 0.03, kPelvisStep_s = 0.3;
 constexpr double kMovesOfMedian = 0.3, kAlong = 0.5, kStands_m_per_s = 0.05;
 constexpr double kUnevenBelt_m = 0.03;  // 1 mm on real belts, 40 and more where none is
+constexpr double kArcHalf = 0.075;      // of a stride
+constexpr double kErrors = 2.0;         // by which the mean of stances may be off
+// Turns a stride. Toes on ground and belts: 0.08 in walks, 0.15 in runs; heels and ankles of runners 0.5.
+// Runners spring by 46 mm and more; who flies without is on pedals, at 4 m/s at most.
+constexpr double kMostArc = 0.2, kMostArcUnsprung = 0.1, kMostArcOfRear = 0.6, kSprings_m = -0.03,
+                 kPedals_m_per_s = 4.5;
+constexpr double kUnfound_s = 0.1;  // from an end of what is seen
 constexpr double kTurn_rad = std::numbers::pi / 4.0;
 
 // Where foot or pelvis points at a time, and where the body goes then.
@@ -140,11 +148,38 @@ class Kinds {
     return steps.empty() ? kNaN : kOfMedian * math::median(steps);
   }
 
-  // Speed over the ground and the middle velocity, where the pelvis is known.
+  // Turns a stride that the velocity of a foot makes in the middle of a stance, at this speed: by a parabola
+  // through 0.15 of a stride, mean over all stances less twice its error. Of the toe, which stands longest;
+  // where none is named, of the marker that makes fewer.
+  [[nodiscard]] double arc(double speed) const {
+    const double toe = arc_of(&FootPaths::toe, speed);
+    return toe_named() ? toe : std::min(arc_of(&FootPaths::heel, speed), toe);
+  }
+  [[nodiscard]] bool toe_named() const {
+    return std::ranges::all_of(paths_.feet, [](const FootPaths& foot) {
+      return !foot.present() || foot.set == FootSet::heel_and_toe || foot.set == FootSet::ankle_and_toe ||
+             foot.set == FootSet::toe_alone;
+    });
+  }
+
+  // Median way of the pelvis over the ground in a stride, where somebody goes, m; NaN where none is seen
+  // whole.
+  [[nodiscard]] double way_m(const RowVector2d& ground) const {
+    const auto half = std::max<std::int64_t>(1, std::llround(0.5 * steps_.stride_s * paths_.rate_hz));
+    const RowVector2d belt = 2.0 * static_cast<double>(half) / paths_.rate_hz * ground;
+    std::vector<double> ways;
+    for (auto f = half; f + half < paths_.frames(); ++f)
+      if (steps_.going[at(f)] && paths_.pelvis_known[at(f - half)] && paths_.pelvis_known[at(f + half)])
+        ways.push_back(
+            ((paths_.pelvis.row(f + half) - paths_.pelvis.row(f - half)).leftCols<2>() - belt).norm());
+    return ways.empty() ? kNaN : math::median(ways);
+  }
+
+  // Speed over the ground and the middle velocity, where the pelvis is known and somebody goes.
   [[nodiscard]] std::pair<double, RowVector2d> speeds() const {
     std::vector<double> speed, x, y;
     for (std::int64_t f = 0; f < paths_.frames(); ++f) {
-      if (!paths_.pelvis_known[at(f)]) continue;
+      if (!paths_.pelvis_known[at(f)] || !steps_.going[at(f)]) continue;
       const RowVector2d v = progress_.velocity.row(f);
       speed.push_back(v.norm()), x.push_back(v[0]), y.push_back(v[1]);
     }
@@ -153,6 +188,47 @@ class Kinds {
   }
 
  private:
+  [[nodiscard]] double arc_of(math::SeriesMatrix FootPaths::* marker, double speed) const {
+    const auto half = std::max<std::int64_t>(2, std::llround(kArcHalf * steps_.stride_s * paths_.rate_hz));
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    double squares = 0.0, count = 0.0;
+    for (const Side side : data::kBothSides) {
+      const auto& swings = steps_.foot(side).swings;
+      const auto& known = paths_.foot(side).known;
+      for (std::size_t i = 0; i + 1 < swings.size(); ++i) {
+        if (!swings[i].lands || !swings[i + 1].leaves) continue;
+        const auto lands = *swings[i].lands, leaves = *swings[i + 1].leaves, middle = (lands + leaves) / 2;
+        if (middle < half || middle + half >= paths_.frames() ||
+            static_cast<double>(leaves - lands) > steps_.stride_s * paths_.rate_hz)
+          continue;
+        if (!std::all_of(known.begin() + (middle - half), known.begin() + (middle + half + 1),
+                         std::identity{}))
+          continue;
+        const auto bent = bend(paths_.foot(side).*marker, middle, half);
+        sum += bent, squares += bent.squaredNorm(), count += 1.0;
+      }
+    }
+    const Eigen::RowVector3d mean = sum / count;
+    const double error =
+        count > 2.0 ? std::sqrt(std::max(0.0, squares / count - mean.squaredNorm()) / (count - 1.0)) : 0.0;
+    return std::max(0.0, mean.norm() - kErrors * error) * paths_.rate_hz * paths_.rate_hz * steps_.stride_s /
+           (2.0 * std::numbers::pi * speed);
+  }
+
+  // Second derivative of the parabola through 2 half + 1 frames, per frame squared.
+  [[nodiscard]] static Eigen::RowVector3d bend(const math::SeriesMatrix& x, std::int64_t middle,
+                                               std::int64_t half) {
+    const auto n = static_cast<double>(2 * half + 1);
+    const double mean = (n * n - 1.0) / 12.0;  // of squares of frames from the middle
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    double squares = 0.0;
+    for (auto k = -half; k <= half; ++k) {
+      const double u = static_cast<double>(k * k) - mean;
+      sum += u * x.row(middle + k), squares += u * u;
+    }
+    return 2.0 / squares * sum;
+  }
+
   // Frames that a foot is flat in, one span a stance or part of one: visit(first, count).
   template <class Visit>
   void each_flat_span(Side side, const Visit& visit) const {
@@ -237,6 +313,44 @@ bool lands_together(const std::vector<data::GaitEvent>& events, double stride_s)
   return 2 * together > strikes;
 }
 
+// From what a foot does to when it does the same again, s: ascending.
+std::vector<double> strides_of(const std::vector<data::GaitEvent>& events) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const auto next = std::find_if(
+        events.begin() + static_cast<std::ptrdiff_t>(i) + 1, events.end(),
+        [&](const auto& one) { return one.side == events[i].side && one.what == events[i].what; });
+    if (next != events.end()) out.push_back(next->time_s - events[i].time_s);
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+// What every stride lasts longer than, where none was seen whole: the longest stretch in which a foot is
+// seen, nobody stands, and a kind of event is missing, less what is too near to an end to be found.
+double longer_than(const GaitPaths& paths, const Steps& steps, const std::vector<data::GaitEvent>& events) {
+  double out = 0.0;
+  for (const Side side : data::kBothSides)
+    for (const FootEvent what : data::kFootEvents) {
+      const auto& foot = paths.foot(side);
+      std::vector<std::int64_t> frames;
+      for (const auto& event : events)
+        if (event.side == side && event.what == what)
+          frames.push_back(std::llround((event.time_s - paths.start_s) * paths.rate_hz));
+      std::int64_t begun = 0;
+      bool at_event = false;  // begun at
+      for (std::int64_t f = 0; f <= paths.frames(); ++f) {
+        const bool seen = f < paths.frames() && foot.present() && foot.known[at(f)] && !steps.quiet[at(f)];
+        const bool event = std::ranges::find(frames, f) != frames.end();
+        if (seen && !event) continue;
+        const double ends = (at_event ? 0.0 : kUnfound_s) + (event ? 0.0 : kUnfound_s);
+        out = std::max(out, static_cast<double>(f - begun) / paths.rate_hz - ends);
+        begun = seen || event ? f : f + 1, at_event = event;
+      }
+    }
+  return out;
+}
+
 }  // namespace
 
 std::string_view to_string(GaitManner manner) { return kManners[manner]; }
@@ -251,8 +365,9 @@ bool RunEvidence::runs() const {
 RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground) {
   RunEvidence out;
   std::int64_t first = 0, last = paths.frames() - 1;
-  while (first < last && !paths.pelvis_known[at(first)]) ++first;
-  while (last > first && !paths.pelvis_known[at(last)]) --last;
+  const auto goes = [&](std::int64_t f) { return paths.pelvis_known[at(f)] && steps.going[at(f)]; };
+  while (first < last && !goes(first)) ++first;
+  while (last > first && !goes(last)) --last;
   if (last > first)
     out.speed_m_per_s = ((paths.pelvis.row(last) - paths.pelvis.row(first)).leftCols<2>() * paths.rate_hz /
                              static_cast<double>(last - first) -
@@ -278,10 +393,11 @@ RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps, const RowVe
   if (steps.feet[0].speed.size() == 0 || steps.feet[1].speed.size() == 0) return out;
   std::int64_t both = 0;
   for (std::int64_t f = 0; f < paths.frames(); ++f)
-    both += std::ranges::all_of(data::kBothSides, [&](Side side) {
-      return paths.foot(side).known[at(f)] && steps.foot(side).speed[f] > kStands * steps.usual[f];
-    });
-  out.flight_share = static_cast<double>(both) / static_cast<double>(paths.frames());
+    both += steps.going[at(f)] && std::ranges::all_of(data::kBothSides, [&](Side side) {
+              return paths.foot(side).known[at(f)] && steps.foot(side).speed[f] > kStands * steps.usual[f];
+            });
+  out.flight_share =
+      static_cast<double>(both) / std::max(1.0, static_cast<double>(std::ranges::count(steps.going, true)));
   return out;
 }
 
@@ -291,7 +407,8 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   const Kinds kinds(paths, steps, progress);
   const auto [speed, velocity] = kinds.speeds();
   const auto evidence = run_evidence(paths, steps, ground.velocity);
-  const double seconds = static_cast<double>(paths.frames() - 1) / paths.rate_hz;
+  const double seconds = static_cast<double>(paths.frames() - 1) / paths.rate_hz,
+               stands = static_cast<double>(std::ranges::count(steps.quiet, true)) / paths.rate_hz;
   out.speed_m_per_s = speed;
   out.flight_share = evidence.flight_share;
   out.bounce_m = evidence.bounce_m;
@@ -300,7 +417,12 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   out.manner = !evidence.runs()          ? GaitManner::walk
                : speed > kSprint_m_per_s ? GaitManner::sprint
                                          : GaitManner::run;
-  out.brief = seconds < steps.stride_s;
+  out.brief = seconds - stands < steps.stride_s;
+  out.arc = kinds.arc(speed);
+  if (const auto strides = strides_of(events); !strides.empty())
+    out.stride_s = strides[strides.size() / 4];  // a stand between is none
+  else
+    out.longer_than_s = longer_than(paths, steps, events);
   const auto headings = kinds.headings();
   judge_direction(headings, speed, out);
   out.left_of_right_m = kinds.feet_leftward(headings);
@@ -309,16 +431,27 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   out.pelvis_left_of_right_m = kinds.pelvis_leftward(headings);
   if (steps.feet[0].swings.empty() && steps.feet[1].swings.empty())
     out.not_gait = "no foot swings: none moves by 80 mm over the ground";
-  else if (!(speed * steps.stride_s > kLeastStride_m))
+  else if (const double goes_m = std::fmin(kinds.way_m(ground.velocity), speed * steps.stride_s);
+           !(goes_m > kLeastStride_m))
     out.not_gait =
-        fmt::format("the feet move, but the body goes {:.2f} m a stride over the ground; need {:.1f}",
-                    speed * steps.stride_s, kLeastStride_m);
+        fmt::format("the feet move, but the body goes {:.2f} m a stride over the ground; need {:.1f}", goes_m,
+                    kLeastStride_m);
   else if (events.size() < kLeastEvents &&
            !(!events.empty() && speed > kShortSpeed_m_per_s && seconds < kShort_s))
     out.not_gait =
         fmt::format("the feet land and leave {} times in all; need {}", events.size(), kLeastEvents);
   else if (lands_together(events, steps.stride_s))
     out.not_gait = "both feet land together, as in a jump";
+  else if (const double most = !kinds.toe_named() ? kMostArcOfRear
+                               : evidence.runs() && !(out.bounce_m < kSprings_m) && speed < kPedals_m_per_s
+                                   ? kMostArcUnsprung
+                                   : kMostArc;
+           out.belt && out.arc > most)
+    out.not_gait = fmt::format(
+        "the feet go round as on pedals: where they go back, their velocity turns at {:.2f} turns a stride; "
+        "on "
+        "a belt, where a foot goes straight and evenly, {:.2f} at most",
+        out.arc, most);
   else if (const double uneven_m = kinds.uneven_m(); out.belt && uneven_m > kUnevenBelt_m)
     out.not_gait = fmt::format(
         "the feet slide back as on a treadmill, but stand in heights that differ by {:.0f} mm from one "
@@ -336,7 +469,12 @@ std::string GaitKind::sentence() const {
       fmt::format("{}{} {}", brief ? "about " : "", goes, belt ? "on a treadmill" : "over ground");
   if (direction != GaitDirection::unknown) out += fmt::format(", {}", to_string(direction));
   if (turning) out += fmt::format(", turning by {:.0f} deg", turn_rad * 180.0 / std::numbers::pi);
-  out += fmt::format(": {:.2f} m/s, strides of {:.2f} s", speed_m_per_s, stride_s);
+  out += fmt::format(": {:.2f} m/s, ", speed_m_per_s);
+  if (std::isfinite(longer_than_s))
+    out += "no stride seen whole" +
+           (longer_than_s > 0.0 ? fmt::format(": each lasts more than {:.2f} s", longer_than_s) : "");
+  else
+    out += fmt::format("strides of {:.2f} s", stride_s);
   if (belt) out += fmt::format("; the feet slide back at {:.3f} m/s while they stand", belt_m_per_s);
   if (direction == GaitDirection::unknown)
     out += direction_doubted

@@ -41,12 +41,15 @@ struct GaitKind {
   bool belt = false;                                 ///< the ground moves: a treadmill
   bool turning = false;                              ///< by more than 45 deg
   bool brief = false;                                ///< less than two steps: the kind is about so
-  double speed_m_per_s = 0.0;  ///< median of the pelvis over the ground or belt; in Gait of all strides
-  double belt_m_per_s = 0.0;   ///< of the ground that stands under the feet
-  double stride_s = 0.0;       ///< usual; in Gait the mean of all strides
-  double turn_rad = 0.0;       ///< range of the headings of stances
-  double flight_share = 0.0;   ///< of the frames in which both feet swing
+  double speed_m_per_s = 0.0;   ///< median of the pelvis over the ground or belt; in Gait of all strides
+  double belt_m_per_s = 0.0;    ///< of the ground that stands under the feet
+  double stride_s = 0.0;        ///< usual; in Gait the mean of all strides
+  double longer_than_s = kNaN;  ///< no stride was seen whole, each lasts longer than this; NaN: one was
+  double turn_rad = 0.0;        ///< range of the headings of stances
+  double flight_share = 0.0;    ///< of the frames in which both feet swing
   double bounce_m = kNaN;  ///< pelvis in the middle of a stance above a quarter of a stride before and after
+  double arc = kNaN;  ///< turns a stride, at least, of the velocity of a foot in the middle of its stance:
+                      ///< none on ground and belt, about one on pedals; NaN: no stance was seen whole
   double left_of_right_m = kNaN;         ///< left foot to the left of the right one, median; NaN: not seen
   double pelvis_left_of_right_m = kNaN;  ///< the same of the two front markers of the pelvis
   double knees_left_of_right_m = kNaN;   ///< the same of the knees

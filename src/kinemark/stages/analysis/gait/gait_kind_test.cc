@@ -73,7 +73,7 @@ TEST(GaitKind, TheSameReversedInTimeIsBackward) {
   for (const auto what : data::kFootEvents) {
     const auto common = [what](const MarkerEvents& of) {
       const auto event = std::ranges::find(of.events, what, &data::GaitEvent::what);
-      return of.fused[static_cast<std::size_t>(event - of.events.begin())].common_sd_s;
+      return of.fused[static_cast<std::size_t>(event - of.events.begin())].error.kind_s;
     };
     EXPECT_NEAR(common(found) / common(forward), 1.5, 1e-9);
   }

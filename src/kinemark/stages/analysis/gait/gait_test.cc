@@ -146,6 +146,38 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
 }
 
+// A stored event errs like any other: 40 ms late against plates, stances are uncertain by as much, and
+// strides, in which what all have in common cancels, are not.
+TEST(Gait, WhatTheFilesEventsErrByReachesEveryMeasure) {
+  const KnownWalk walk;
+  const auto markers = walk.markers(0.0003, 3);
+  const data::Wrenches plates{
+      .time = markers.time,
+      .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+  GaitEvidence evidence{.plates = &plates, .events = {}};
+  for (const auto& event : walk.events())
+    evidence.events.push_back({std::string(data::to_string(event.what)),
+                               std::string(data::to_string(event.side)),
+                               event.time_s + (event.what == FootEvent::strike ? 0.04 : 0.0)});
+  const auto gait = analyze_gait(markers, evidence, {.choice = EventChoice::file, .refits = 39}).value();
+  for (const auto& event : gait.events)
+    EXPECT_TRUE(event.what == FootEvent::strike ? event.sd_s > 0.03 && event.sd_s < 0.05
+                                                : event.sd_s > 0.002 && event.sd_s < 0.015)
+        << event.sd_s;
+  for (const auto& m : gait.measures) {
+    if (m.id.ends_with("_sd")) continue;  // what differs between these strides is nothing
+    EXPECT_GT(m.sd, 0.0) << m.id;
+    EXPECT_LT(m.interval.low, m.interval.high) << m.id;
+    if (m.id == "stance_time") {
+      EXPECT_GT(m.sd, 0.02);
+      EXPECT_GT(m.interval.high, 0.62 * 1.08) << "true";
+    }
+    if (m.id == "stride_time") {
+      EXPECT_LT(m.sd, 0.01);
+    }
+  }
+}
+
 TEST(Gait, AStrikeThatIsMissingIsSaidWhereOneIs) {
   auto markers = KnownWalk{}.markers(0.0003, 3);
   EXPECT_THAT(analyze_gait(markers, {}, {.refits = 0})->notes,

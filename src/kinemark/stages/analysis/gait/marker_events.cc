@@ -15,6 +15,8 @@ using data::FootEvent;
 using data::Side;
 
 constexpr double kUnjudged = 1.5;
+constexpr double kScatter_s = 0.007;   // of a detector about the others, from event to event
+constexpr double kOfDifference = 0.7;  // of what the feet differ by: what each errs by
 
 // How far the left foot lies to the left of the right one along the way of the pelvis, m; the median over all
 // frames.
@@ -38,8 +40,9 @@ void add_events(const GaitPaths& paths, const std::vector<SwingEdge>& edges, Mar
       continue;
     }
     auto fused = fuse(edge.after_s, edge.what, running, paths.foot(edge.side).set, 1.0 / paths.rate_hz);
-    if (edge.at_gap) fused.own_sd_s = std::hypot(fused.own_sd_s, kAtEdgeSd_s);
-    if (edge.at_end) fused.own_sd_s = std::hypot(fused.own_sd_s, kAtEdgeSd_s);
+    auto& own_s = fused.error.own_s;
+    if (edge.at_gap) own_s = std::hypot(own_s, kAtEdgeSd_s);
+    if (edge.at_end) own_s = std::hypot(own_s, kAtEdgeSd_s);
     const double time_s = paths.time_s(edge.frame) + fused.after_s;
     const double half = 0.5 / paths.rate_hz;
     if (time_s < paths.start_s - half ||
@@ -50,9 +53,34 @@ void add_events(const GaitPaths& paths, const std::vector<SwingEdge>& edges, Mar
     out.events.push_back({.side = edge.side,
                           .what = edge.what,
                           .time_s = time_s,
-                          .sd_s = std::hypot(fused.common_sd_s, fused.own_sd_s),
+                          .sd_s = fused.error.sd_s(),
                           .source = data::EventSource::kinematics,
                           .method = "markers"});
+  }
+}
+
+// Where the detectors differ from each other in one foot otherwise than in the other, the feet come or go in
+// different ways, and no bias is that of both.
+void add_foot_errors(MarkerEvents& out) {
+  for (const FootEvent what : data::kFootEvents) {
+    double squares = 0.0, detectors = 0.0;
+    for (std::size_t k = 0; k < kDetectors; ++k) {
+      std::array<double, 2> sum{}, count{};
+      for (std::size_t i = 0; i < out.events.size(); ++i)
+        if (const double apart = out.fused[i].apart_s[k];
+            out.events[i].what == what && std::isfinite(apart)) {
+          const auto side = data::index_of(out.events[i].side);
+          sum[side] += apart, count[side] += 1.0;
+        }
+      if (!(count[0] > 0.0 && count[1] > 0.0)) continue;
+      const double differ = sum[0] / count[0] - sum[1] / count[1];
+      squares += std::max(0.0, differ * differ - kScatter_s * kScatter_s * (1.0 / count[0] + 1.0 / count[1]));
+      detectors += 1.0;
+    }
+    if (!(detectors > 0.0)) continue;
+    for (std::size_t i = 0; i < out.events.size(); ++i)
+      if (auto& error = out.fused[i].error; out.events[i].what == what)
+        error.foot_s = std::hypot(error.foot_s, kOfDifference * std::sqrt(squares / detectors));
   }
 }
 
@@ -76,6 +104,7 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   const auto& paths = smoother.paths();
   out.steps = find_steps(paths, out.ground.velocity);
   add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
+  add_foot_errors(out);
   auto in_time = out.events;
   std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
   out.belt = belt_velocity(paths, out.steps, out.ground);
@@ -84,8 +113,9 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   if (out.kind.belt) out.kind.belt_m_per_s = out.belt.velocity.norm();
   const double factor = sd_factor(out.kind.direction);
   for (std::size_t i = 0; i < out.events.size(); ++i) {
-    out.fused[i].common_sd_s *= factor, out.fused[i].own_sd_s *= factor;
-    out.events[i].sd_s *= factor;
+    auto& error = out.fused[i].error;
+    error.kind_s *= factor, error.foot_s *= factor, error.own_s *= factor;
+    out.events[i].sd_s = error.sd_s();
   }
   return out;
 }

@@ -142,8 +142,8 @@ TEST(MarkerEvents, SdsAreCommonAndOwn) {
   ASSERT_EQ(found.events.size(), found.edges.size());
   ASSERT_EQ(found.events.size(), found.fused.size());
   for (std::size_t i = 0; i < found.events.size(); ++i) {
-    EXPECT_NEAR(found.events[i].sd_s, std::hypot(found.fused[i].common_sd_s, found.fused[i].own_sd_s), 1e-12);
-    EXPECT_TRUE(found.fused[i].common_sd_s > 0.012 && found.fused[i].common_sd_s < 0.018);
+    EXPECT_NEAR(found.events[i].sd_s, found.fused[i].error.sd_s(), 1e-12);
+    EXPECT_TRUE(found.fused[i].error.kind_s > 0.012 && found.fused[i].error.kind_s < 0.018);
   }
   EXPECT_EQ(sd_factor(GaitDirection::forward), 1.0);
   EXPECT_EQ(sd_factor(GaitDirection::unknown), 1.0);

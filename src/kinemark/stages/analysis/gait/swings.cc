@@ -28,8 +28,11 @@ constexpr double kSwingOfStride = 1.0 / 2.3;
 constexpr double kDoubled = 1.5;  // of the shorter quarter: a swing was lost between
 constexpr double kLeastStride_s = 0.3, kMostStride_s = 2.5;
 
-// Velocities of a marker while it is low and neither rises nor falls.
-void add_low(const SeriesMatrix& x, const FootPaths& foot, double rate_hz, std::vector<RowVector2d>& out) {
+constexpr double kQuiet_m_per_s = 0.05, kQuiet_s = 0.7;
+
+// Velocities of a marker while it is low and neither rises nor falls, and nobody stands.
+void add_low(const SeriesMatrix& x, const FootPaths& foot, const std::vector<bool>& quiet, double rate_hz,
+             std::vector<RowVector2d>& out) {
   std::vector<double> heights;
   for (Eigen::Index f = 0; f < x.rows(); ++f)
     if (foot.known[at(f)]) heights.push_back(x(f, 2));
@@ -37,7 +40,7 @@ void add_low(const SeriesMatrix& x, const FootPaths& foot, double rate_hz, std::
   const double most = math::quantile(heights, kLowestShare) + kAboveLowest_m;
   const SeriesMatrix v = slopes(x, rate_hz);
   for (Eigen::Index f = 0; f < x.rows(); ++f)
-    if (foot.known[at(f)] && x(f, 2) < most && std::abs(v(f, 2)) < kStill_m_per_s)
+    if (foot.known[at(f)] && !quiet[at(f)] && x(f, 2) < most && std::abs(v(f, 2)) < kStill_m_per_s)
       out.emplace_back(v.row(f).leftCols<2>());
 }
 
@@ -191,12 +194,34 @@ Eigen::VectorXd speed_over_ground(const SeriesMatrix& x, double rate_hz, const R
   return (slopes(x, rate_hz).leftCols<2>().rowwise() - ground).rowwise().norm();
 }
 
+std::vector<bool> quiet_frames(const GaitPaths& paths) {
+  std::vector<bool> still(at(paths.frames()), true);
+  for (const auto& foot : paths.feet) {
+    if (!foot.present()) return std::vector<bool>(at(paths.frames()), false);
+    for (const auto* marker : {&foot.heel, &foot.toe}) {
+      const Eigen::VectorXd speed = speed_over_ground(*marker, paths.rate_hz, {0.0, 0.0});
+      for (std::int64_t f = 0; f < paths.frames(); ++f)
+        still[at(f)] = still[at(f)] && foot.known[at(f)] && speed[f] < kQuiet_m_per_s;
+    }
+  }
+  for (std::int64_t f = 0; f < paths.frames(); ++f) {
+    if (!still[at(f)]) continue;
+    auto last = f;
+    while (last + 1 < paths.frames() && still[at(last + 1)]) ++last;
+    if (static_cast<double>(last - f + 1) < kQuiet_s * paths.rate_hz)
+      for (auto k = f; k <= last; ++k) still[at(k)] = false;
+    f = last;
+  }
+  return still;
+}
+
 Ground ground_velocity(const GaitPaths& paths, const std::optional<RowVector2d>& near) {
   std::vector<RowVector2d> heels, toes;
+  const auto quiet = quiet_frames(paths);
   for (const auto& foot : paths.feet) {
     if (!foot.present()) continue;
-    add_low(foot.heel, foot, paths.rate_hz, heels);
-    add_low(foot.toe, foot, paths.rate_hz, toes);
+    add_low(foot.heel, foot, quiet, paths.rate_hz, heels);
+    add_low(foot.toe, foot, quiet, paths.rate_hz, toes);
   }
   std::vector<RowVector2d> v = heels;
   v.insert(v.end(), toes.begin(), toes.end());
@@ -249,7 +274,7 @@ Ground belt_velocity(const GaitPaths& paths, const Steps& steps, const Ground& g
 }
 
 Steps find_steps(const GaitPaths& paths, const RowVector2d& ground) {
-  Steps out;
+  Steps out{.quiet = quiet_frames(paths)};
   Eigen::VectorXd top = Eigen::VectorXd::Zero(paths.frames());
   for (const Side side : data::kBothSides) {
     const auto& foot = paths.foot(side);
@@ -263,6 +288,8 @@ Steps find_steps(const GaitPaths& paths, const RowVector2d& ground) {
     of.speed = speed_over_ground(middle, paths.rate_hz, ground);
     cross_gaps(middle, foot.known, of.seen, paths.rate_hz, ground, of.speed);
     for (Eigen::Index f = 0; f < top.size(); ++f)
+      if (out.quiet[at(f)]) of.speed[f] = 0.0;  // on a belt that stands still, too
+    for (Eigen::Index f = 0; f < top.size(); ++f)
       if (foot.known[at(f)]) top[f] = std::max(top[f], of.speed[f]);
   }
   const double least = std::max(
@@ -272,6 +299,14 @@ Steps find_steps(const GaitPaths& paths, const RowVector2d& ground) {
   for (const Side side : data::kBothSides)
     if (out.foot(side).speed.size() > 0) find_swings(paths, side, ground, out);
   out.stride_s = stride_of(out, paths.rate_hz);
+  out.going.assign(at(paths.frames()), false);
+  const std::int64_t half = std::llround(0.5 * out.stride_s * paths.rate_hz);
+  for (const auto& foot : out.feet)
+    for (const auto& swing : foot.swings) {
+      const auto first = std::max<std::int64_t>(0, swing.leaves.value_or(swing.peak) - half),
+                 last = std::min(paths.frames() - 1, swing.lands.value_or(swing.peak) + half);
+      for (auto f = first; f <= last; ++f) out.going[at(f)] = !out.quiet[at(f)];
+    }
   return out;
 }
 

@@ -22,8 +22,13 @@ struct Ground {
   double sd = 0.0;  ///< m/s, of its length: half of what heels and toes differ by while they stand
 };
 
+/// Frames in which somebody stands: no marker of either foot goes 0.05 m/s, for 0.7 s or more. None where a
+/// foot has no markers.
+[[nodiscard]] std::vector<bool> quiet_frames(const GaitPaths& paths);
+
 /// The commonest horizontal velocity of heels and toes while they are low (35 mm above their lowest) and do
-/// not rise or fall (0.35 m/s): a mode by mean shift, of width max(0.08 m/s, 3 % of the fast ones).
+/// not rise or fall (0.35 m/s), and nobody stands: a mode by mean shift, of width max(0.08 m/s, 3 % of the
+/// fast ones).
 /// @param near  start from this velocity alone, as in a simulated repetition; empty: from 60 and from 0
 [[nodiscard]] Ground ground_velocity(const GaitPaths& paths,
                                      const std::optional<Eigen::RowVector2d>& near = std::nullopt);
@@ -53,6 +58,8 @@ struct Steps {
   std::array<FootSwings, 2> feet;  ///< left, right
   Eigen::VectorXd usual;           ///< n, m/s: greatest speed of both feet within 0.7 s, not below 0.35
   double stride_s = 1.1;           ///< usual time from swing to swing of a foot, 0.3 to 2.5
+  std::vector<bool> quiet;         ///< n; quiet_frames()
+  std::vector<bool> going;         ///< n; within half a stride of a swing: not where somebody stands
 
   /// Of one foot.
   [[nodiscard]] const FootSwings& foot(data::Side side) const { return feet[data::index_of(side)]; }
