@@ -14,6 +14,7 @@
 #include "kinemark/stages/trajectory/smoothing/hand_on.h"
 #include "kinemark/stages/trajectory/smoothing/internal/account.h"
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
+#include "kinemark/stages/trajectory/smoothing/internal/local_bias.h"
 #include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 #include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 #include "kinemark/stages/trajectory/smoothing/internal/whiteness.h"
@@ -110,6 +111,7 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   account.bad_variances = samples->bad_variances;
   if (const auto status = run_filter(*samples, in, options, result); !status)
     return std::unexpected(status.error());
+  smoothing::add_local_bias(*samples, result);
   keep_fill_errors(in, marker, result);
   smoothing::judge_residuals(*samples, impulse_response(account.used, options, in.time.rate_hz),
                              in.time.rate_hz, result);

@@ -20,12 +20,13 @@ constexpr double kStrayRms = 5.0;       // from the median of the candidates
 constexpr double kStrayM = 0.010;
 constexpr double kOffEndRms = 3.0;  // from the samples beside the gap
 constexpr double kOffEndM = 0.005;
-constexpr double kSdScale = 0.90;  // mixture of scales: the RMS is above what covers 68 %
-constexpr double kFewWindows = 1.5;
+constexpr double kSdScale = 0.90;    // mixture of scales: the RMS is above what covers 68 %
+constexpr double kFewWindows = 2.0;  // as Student's t is wider than the normal distribution
 
 /// Candidates by number, and their errors grown to the length of the gap.
 struct Pool {
-  std::vector<std::size_t> use;
+  std::vector<std::size_t> finite;  // all that are numbers
+  std::vector<std::size_t> use;     // those that are combined
   std::vector<Eigen::MatrixXd> errors;
   std::vector<double> rms;  // 3D
 };
@@ -39,7 +40,8 @@ Pool grow_errors(const GapProblem& p, const std::vector<Fill>& fills) {
     pool.rms.push_back(scale * fill.rms_m());
   }
   for (std::size_t k = 0; k < fills.size(); ++k)
-    if (fills[k].gap.allFinite() && std::isfinite(pool.rms[k])) pool.use.push_back(k);
+    if (fills[k].gap.allFinite() && std::isfinite(pool.rms[k])) pool.finite.push_back(k);
+  pool.use = pool.finite;
   return pool;
 }
 
@@ -83,20 +85,19 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
   Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(R, 3 * W);
   for (std::size_t k = 0; k < pool.use.size(); ++k)
     combined += w(static_cast<Index>(k)) * pool.errors[pool.use[k]];
-  // Disagreement of the candidates, in the gap and in each window.
-  Eigen::VectorXd share = w.cwiseMax(0.02);
-  share /= share.sum();
+  // Disagreement of all candidates, those left out too, in the gap and in each window: mean square distance
+  // from the combination, each in units of its own error on the windows.
   double here = 0.0;
   Eigen::VectorXd there = Eigen::VectorXd::Zero(W);
   Eigen::VectorXd square(W);
   for (Index i = 0; i < W; ++i)
     square(i) = combined.middleCols(3 * i, 3).squaredNorm() / static_cast<double>(3 * R);
-  for (std::size_t k = 0; k < pool.use.size(); ++k) {
-    const double v = share(static_cast<Index>(k));
-    here += v * (fills[pool.use[k]].gap - gap).squaredNorm() / static_cast<double>(gap.size());
+  for (const std::size_t k : pool.finite) {
+    const double v =
+        1.0 / (static_cast<double>(pool.finite.size()) * (pool.rms[k] * pool.rms[k] + kLeastSquare));
+    here += v * (fills[k].gap - gap).squaredNorm() / static_cast<double>(gap.rows());
     for (Index i = 0; i < W; ++i)
-      there(i) += v * (pool.errors[pool.use[k]] - combined).middleCols(3 * i, 3).squaredNorm() /
-                  static_cast<double>(3 * R);
+      there(i) += v * (pool.errors[k] - combined).middleCols(3 * i, 3).squaredNorm() / static_cast<double>(R);
   }
   // How much of the size of the errors the disagreement explains: slope of the logarithms, 0 to 1.
   const Eigen::ArrayXd le = 0.5 * (square.array() + 1e-18).log();
@@ -106,9 +107,17 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
     slope = std::clamp(
         ((le - le.mean()) * (ls - ls.mean())).mean() / ((ls - ls.mean()).square().mean() + 1e-6), 0.0, 1.0);
   const double floor = 0.05 * there.mean() + 1e-18;
+  // Beyond what is usual on the windows errors grow in proportion, and below the least of them they do not
+  // shrink: there the slope was never seen. What errors grow by from short windows to the gap is itself
+  // uncertain.
+  const double usual = there.mean() + std::sqrt((there.array() - there.mean()).square().mean());
+  const double within = std::clamp(here, there.minCoeff(), usual);
+  const double beyond = std::max(1.0, (here + floor) / (usual + floor)) *
+                        static_cast<double>(p.shape.length) / static_cast<double>(p.window.length);
   Eigen::VectorXd profile = Eigen::VectorXd::Zero(R);
   for (Index i = 0; i < W; ++i) {
-    const double factor = std::clamp(std::pow((here + floor) / (there(i) + floor), slope), 1.0 / 16.0, 16.0);
+    const double factor =
+        beyond * std::clamp(std::pow((within + floor) / (there(i) + floor), slope), 1.0 / 16.0, 16.0);
     profile += factor * combined.middleCols(3 * i, 3).rowwise().squaredNorm() / static_cast<double>(3 * W);
   }
   if (p.shape.left > 0 && p.shape.right > 0) profile = (0.5 * (profile + profile.reverse())).eval();
@@ -118,8 +127,23 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
       profile(r) = (rough(std::max<Index>(0, r - 1)) + rough(r) + rough(std::min(R - 1, r + 1))) / 3.0;
   }
   // Overlapping windows carry less information than their number.
-  const double span = static_cast<double>(p.starts.back() - p.starts.front());
-  const double independent = std::max(1.0, span / static_cast<double>(p.window.length) + 1.0);
+  double independent = 0.0;
+  Index free = 0;
+  for (const Index start : p.starts) {
+    if (start < free) continue;
+    independent += 1.0;
+    free = start + p.window.length;
+  }
+  // Few windows do not show where along the gap errors are large: as many as two have the profile of a
+  // Brownian bridge, or of a walk from the side that is known.
+  Eigen::VectorXd bridge(R);
+  for (Index r = 0; r < R; ++r) {
+    const double u = static_cast<double>(p.rows(r) + 1) / static_cast<double>(p.window.length + 1);
+    bridge(r) = (p.shape.left > 0 ? u : 1.0) * (p.shape.right > 0 ? 1.0 - u : 1.0);
+  }
+  profile = ((independent * profile + kFewWindows * profile.mean() / bridge.mean() * bridge) /
+             (independent + kFewWindows))
+                .eval();
   const Eigen::VectorXd sd =
       (kSdScale * (profile * (1.0 + kFewWindows / independent)).array().sqrt()).matrix();
   // Rows of the window to frames of the gap, at the same part of the way.
