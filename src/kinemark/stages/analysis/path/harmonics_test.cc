@@ -31,13 +31,13 @@ HarmonicFit fit_of(const PathMatrix& x, double rate_hz) {
   return fit_harmonics(x, rate_hz, harmonic_form(x, rate_hz, peak));
 }
 
-Eigen::Vector3d ellipse(double angle) { return {0.1 * std::sin(angle), 0.04 * std::cos(angle), 0.0}; }
+Eigen::Vector3d oval(double angle) { return {0.1 * std::sin(angle), 0.04 * std::cos(angle), 0.0}; }
 
 TEST(Harmonics, CyclesNeedNotBeWhole) {
   for (const double cycles : {2.3, 2.5, 3.2, 5.75, 8.0, 12.4, 40.1})
     for (const double begin : {0.0, 0.2, 0.4}) {
       const double hz = 0.8;
-      const auto x = turning(cycles / hz, 100.0, [&](double t) { return hz * t + begin; }, ellipse);
+      const auto x = turning(cycles / hz, 100.0, [&](double t) { return hz * t + begin; }, oval);
       const auto fit = fit_of(x, 100.0);
       EXPECT_NEAR(fit.dominant_hz, hz, 1e-7) << cycles << " " << begin;
       EXPECT_LT(std::sqrt(fit.wander), 1e-6) << cycles << " " << begin;
@@ -72,12 +72,12 @@ TEST(Harmonics, ADominantFrequencyMayBeTwiceTheFundamental) {
   EXPECT_EQ(harmonic_form(x, 100.0, peak).dominant, 2);
   EXPECT_NEAR(fit_of(x, 100.0).dominant_hz, 1.4, 1e-7);
   // One that is not there is not taken.
-  const auto even = turning(7.3, 100.0, [](double t) { return 1.4 * t; }, ellipse);
+  const auto even = turning(7.3, 100.0, [](double t) { return 1.4 * t; }, oval);
   EXPECT_EQ(harmonic_form(even, 100.0, 1.4).dominant, 1);
 }
 
 TEST(Harmonics, OfLongSeriesMeansAreFitted) {
-  const auto x = turning(300.0, 240.0, [](double t) { return 0.931 * t; }, ellipse);
+  const auto x = turning(300.0, 240.0, [](double t) { return 0.931 * t; }, oval);
   EXPECT_NEAR(fit_of(x, 240.0).dominant_hz, 0.931, 1e-6);
 }
 
@@ -94,7 +94,7 @@ TEST(Harmonics, CyclesThatDifferWidenIt) {
       while (i + 2 < starts.size() && starts[i + 1] <= t) ++i;
       return static_cast<double>(i) + (t - starts[i]) / (starts[i + 1] - starts[i]);
     };
-    const auto fit = fit_of(turning(seconds, 100.0, cycles, ellipse), 100.0);
+    const auto fit = fit_of(turning(seconds, 100.0, cycles, oval), 100.0);
     ASSERT_TRUE(std::isfinite(fit.wander));
     inside += std::abs(fit.dominant_hz - hz) < 1.96 * std::sqrt(fit.wander);
     widest = std::max(widest, std::sqrt(fit.wander));
@@ -105,7 +105,7 @@ TEST(Harmonics, CyclesThatDifferWidenIt) {
 }
 
 TEST(Harmonics, NothingOfWhatDoesNotRepeat) {
-  const auto x = turning(1.0, 100.0, [](double t) { return 0.9 * t; }, ellipse);
+  const auto x = turning(1.0, 100.0, [](double t) { return 0.9 * t; }, oval);
   EXPECT_TRUE(std::isnan(fit_harmonics(x, 100.0, harmonic_form(x, 100.0, 0.9)).dominant_hz));
   EXPECT_TRUE(std::isnan(fit_harmonics(x, 100.0, harmonic_form(x, 100.0, kNaN)).dominant_hz));
 }
