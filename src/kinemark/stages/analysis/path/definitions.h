@@ -49,6 +49,8 @@ struct PathDefinition {
   bool needs_slow_noise = false;  ///< it has an interval only where slow noise is told from movement
   /// Of an extreme: the same without the bias of choosing it; null: it is none.
   double (*thinned)(const ThinnedExtremes& extremes) = nullptr;
+  /// Square of the deviation that repetitions add which differ, as noise makes them as well; null: none.
+  double (*wander)(const PathFacts& facts) = nullptr;
 };
 
 /// All of them, in the order in which they are shown.

@@ -6,17 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/internal/refit_values.h"
 #include "kinemark/stages/analysis/path/noise_sentences.h"
 #include "kinemark/stages/analysis/path/stated_measure.h"
 
 namespace kinemark::analysis {
+
+using internal::RefitValues;
+
 namespace {
 
 constexpr std::int64_t kLeastSamples = 30;  // measured, for a smoother to be chosen
@@ -225,65 +228,6 @@ double MeasuredPath::below_noise(const Stretch& stretch) const {
   return quick && moves <= 2.25 * noise ? 1.5 : 0.0;
 }
 
-// Values of every measure that is asked for: of what was recorded, of the pilot, and of the refits; NaN where
-// a measure is not taken of such a path.
-struct MeasuredPath::Refits {
-  std::vector<const PathDefinition*> definitions;
-  std::vector<double> less, least, raw, pilot;                 // one for each definition
-  std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
-  std::vector<double> let_through;                             // noise of each refit behind the smoother
-  std::vector<double> thinned;                  // of extremes: of what was recorded, mean over refits
-  std::vector<std::vector<double>> by_thinned;  // of extremes: deviations
-
-  // Which paths a measure is taken of.
-  static bool of_less(Pivot pivot) { return pivot != Pivot::raw_squared; }
-  static bool of_least(Pivot pivot) { return pivot == Pivot::of_derivative; }
-  static bool of_raw(Pivot pivot) { return pivot == Pivot::raw_squared; }
-
-  std::vector<double> values(const PathSamples& path, const PathFrame& frame, bool (*taken)(Pivot),
-                             const NearPath* near = nullptr) const {
-    const PathFacts facts(path, frame, near);
-    std::vector<double> out;
-    for (const auto* definition : definitions)
-      out.push_back(taken(definition->pivot) ? definition->value(facts) : kNaN);
-    return out;
-  }
-  bool any_extreme() const {
-    return std::ranges::any_of(definitions, [](const auto* d) { return d->thinned != nullptr; });
-  }
-  // Thinned extremes of a recording or refit by several copies of its noise.
-  std::vector<double> thinned_values(const PathMatrix& x, std::span<const PathMatrix> copies) const {
-    std::vector<double> out(definitions.size(), 0.0);
-    const auto axes = principal_axes(x);
-    for (const auto& copy : copies) {
-      const auto extremes = thinned_extremes(x, axes, copy);
-      for (std::size_t i = 0; i < out.size(); ++i)
-        if (definitions[i]->thinned != nullptr)
-          out[i] += definitions[i]->thinned(extremes) / static_cast<double>(copies.size());
-    }
-    return out;
-  }
-  // Spread of deviations among the third of refits with most noise over that with least.
-  double doubt(const std::vector<double>& deviations) const {
-    if (deviations.size() != let_through.size() || deviations.size() < 30) return 1.0;
-    std::vector<std::size_t> order(deviations.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [this](std::size_t k) { return let_through[k]; });
-    const std::size_t third = order.size() / 3;
-    const auto spread = [&](std::size_t from) {
-      double sum = 0.0, squares = 0.0, size = 0.0;
-      for (std::size_t k = from; k < from + third; ++k)
-        if (const double d = deviations[order[k]]; std::isfinite(d)) sum += d, squares += d * d, size += 1.0;
-      return size < 2.0 ? kNaN : std::sqrt(std::max(0.0, squares / size - sum * sum / size / size));
-    };
-    const double calm = spread(0), loud = spread(order.size() - third);
-    return calm > 0.0 ? loud / calm : 1.0;
-  }
-  bool any(bool (*taken)(Pivot)) const {
-    return std::ranges::any_of(definitions, [taken](const auto* d) { return taken(d->pivot); });
-  }
-};
-
 // A stretch with as much before and behind it as its smoothed samples depend on, and samples enough.
 MeasuredPath::Neighbourhood MeasuredPath::around(const Stretch& stretch) const {
   const std::int64_t n = recording_.x.rows();
@@ -324,18 +268,19 @@ PathCurves MeasuredPath::curves_of(const PathSamples& path, const PathFrame& fra
 
 // Deviations of refits around the pilot path; `spread`, where there is one, gets their curves.
 void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
-                         const PathFrame& frame, Refits& refits, CurveSpread* spread) const {
+                         const PathFrame& frame, RefitValues& refits, CurveSpread* spread) const {
   const auto stream = mix64(static_cast<std::uint64_t>(marker_) + 1);
   const auto part = [&](const SeriesMatrix& x) {
     return differentiate(x, stretch.first - near.first, stretch.count, recording_.rate_hz);
   };
-  const bool least_too = refits.any(Refits::of_least), raw_too = refits.any(Refits::of_raw);
+  const bool least_too = refits.any(RefitValues::of_least), raw_too = refits.any(RefitValues::of_raw);
   if (least_too)
     refits.least = refits.values(differentiate(least_, stretch.first, stretch.count, recording_.rate_hz),
-                                 frame, Refits::of_least);
+                                 frame, RefitValues::of_least);
   const PathSamples pilot_part = part(pilot);
   const NearPath near_pilot(pilot_part.x);
-  refits.pilot = refits.values(pilot_part, frame, Refits::of_less, &near_pilot);
+  std::vector<double> wander_of_pilot, wander;
+  refits.pilot = refits.values(pilot_part, frame, RefitValues::of_less, &near_pilot, &wander_of_pilot);
   // What noise is added to where measures are taken of samples that are not smoothed.
   const std::int64_t first = stretch.first - near.first;
   const PathMatrix raw = raw_path(near.recording, less_.middleRows(near.first, near.recording.x.rows()))
@@ -346,26 +291,26 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
     };
     const PathSamples less_part = of_batch(batch.less);
     if (spread != nullptr) spread->add(less_part);
-    const auto a = refits.values(less_part, frame, Refits::of_less, &near_pilot);
-    const auto b = least_too ? refits.values(of_batch(batch.least), frame, Refits::of_least) : a;
+    const auto a = refits.values(less_part, frame, RefitValues::of_less, &near_pilot, &wander);
+    const auto b = least_too ? refits.values(of_batch(batch.least), frame, RefitValues::of_least) : a;
     const auto c =
         raw_too
             ? refits.values({.rate_hz = recording_.rate_hz,
                              .x = raw + PathMatrix(batch.simulated.block(first, 3 * k, stretch.count, 3)) -
                                   pilot_part.x},
-                            frame, Refits::of_raw)
+                            frame, RefitValues::of_raw)
             : a;
     for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
       const Pivot pivot = refits.definitions[i]->pivot;
       const double base = refits.pilot[i];
-      if (Refits::of_less(pivot))
+      refits.wander_of_noise[i] += (wander[i] - wander_of_pilot[i]) / static_cast<double>(options_.refits);
+      if (RefitValues::of_less(pivot))
         refits.by_less[i].push_back(pivot == Pivot::squared ? a[i] * a[i] - base * base : a[i] - base);
-      if (Refits::of_least(pivot)) refits.by_least[i].push_back(b[i] - base);
-      if (Refits::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
+      if (RefitValues::of_least(pivot)) refits.by_least[i].push_back(b[i] - base);
+      if (RefitValues::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
     }
   };
   const bool extremes = refits.any_extreme();
-  refits.thinned.assign(refits.definitions.size(), 0.0);
   const PathMatrix recorded = less_.middleRows(stretch.first, stretch.count);
   std::vector<PathMatrix> copies;  // the noise of a batch, and of the one before where it is alone
   const auto thin = [&](const RefitBatch& batch) {
@@ -452,21 +397,19 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
   PathFrame frame = recognise(pilot_part);
   frame.start_s = first_s_ + static_cast<double>(stretch.first) / rate;
 
-  Refits refits;
+  std::vector<const PathDefinition*> asked;
   for (const auto& definition : path_definitions())
-    if (is_asked(definition, options_, frame)) refits.definitions.push_back(&definition);
-  const std::size_t count = refits.definitions.size();
-  refits.by_thinned.resize(count);
-  refits.by_less.resize(count), refits.by_least.resize(count), refits.by_raw.resize(count);
-  refits.less = refits.values(less, frame, Refits::of_less);
-  refits.least.assign(count, kNaN), refits.raw.assign(count, kNaN);
-  const bool raw_too = refits.any(Refits::of_raw);
+    if (is_asked(definition, options_, frame)) asked.push_back(&definition);
+  RefitValues refits(std::move(asked));
+  refits.less = refits.values(less, frame, RefitValues::of_less, nullptr, &refits.wander);
+  const bool raw_too = refits.any(RefitValues::of_raw);
   if (raw_too)
     refits.raw = refits.values(
         {.rate_hz = rate, .x = raw_path(recording_, less_).middleRows(stretch.first, stretch.count)}, frame,
-        Refits::of_raw);
+        RefitValues::of_raw);
   CurveSpread spread(pilot_part);
   if (intervals) refit(stretch, near, pilot, frame, refits, curves != nullptr ? &spread : nullptr);
+  refits.add_wander(options_.seed, mix64(stream));
 
   if (curves != nullptr) {
     *curves = curves_of(less, frame, stretch, spread);
@@ -476,7 +419,7 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
   auto summary = summary_of(stretch, frame, intervals);
   summary.region = region.name;
   std::vector<data::Measure> out;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
     const auto& definition = *refits.definitions[i];
     const bool raw_one = definition.pivot == Pivot::raw_squared,
                thinned = intervals && definition.thinned != nullptr;

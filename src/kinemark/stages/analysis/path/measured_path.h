@@ -20,6 +20,10 @@
 
 namespace kinemark::analysis {
 
+namespace internal {
+struct RefitValues;
+}
+
 /// Why a marker is not measured.
 enum class NotMeasuredWhy : std::uint8_t {
   made_samples,     ///< the recorder made as many samples as it measured, or more
@@ -72,15 +76,13 @@ class MeasuredPath {
     std::int64_t first = 0;
     Recording recording;
   };
-  struct Refits;
-
   [[nodiscard]] PathCurves curves_of(const PathSamples& path, const PathFrame& frame, const Stretch& stretch,
                                      const CurveSpread& spread) const;
 
   [[nodiscard]] Stretch stretch_of(const data::Region& region) const;
   [[nodiscard]] Neighbourhood around(const Stretch& stretch) const;
   void refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
-             const PathFrame& frame, Refits& refits, CurveSpread* spread) const;
+             const PathFrame& frame, internal::RefitValues& refits, CurveSpread* spread) const;
   // Times the noise by which the stretch moves about its slow trend at most; 0: by more.
   [[nodiscard]] double below_noise(const Stretch& stretch) const;
   [[nodiscard]] double excess_about_mean(const Stretch& stretch, double seconds) const;

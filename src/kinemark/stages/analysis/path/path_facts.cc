@@ -39,6 +39,14 @@ double drift_of(const PathSamples& path, double time_s) {
   return speed * time_s / (level.colwise().maxCoeff() - level.colwise().minCoeff()).norm();
 }
 
+// Where the periodogram is largest.
+double dominant_peak(const PathSamples& path) {
+  constexpr double kLowest_hz = 0.3;
+  const double low = peak_frequency(periodogram_of(path.x, path.rate_hz, kLowHz), kLowest_hz);
+  // Where a higher one may have more, all of them.
+  return std::isnan(low) ? peak_frequency(periodogram_of(path.x, path.rate_hz), kLowest_hz) : low;
+}
+
 // What `make` makes, made once.
 template <class Value, class Make>
 const Value& once(std::optional<Value>& value, const Make& make) {
@@ -61,6 +69,7 @@ PathFrame recognise(const PathSamples& path) {
       static_cast<double>((speed.array() <= kMovingShare * peak).count()) / static_cast<double>(path.count());
   out.steady = hardly_changes(speed);
   out.cycle_axis = detrended_axis(path.x);
+  out.harmonics = harmonic_form(path.x, path.rate_hz, dominant_peak(path));
   const auto window = movement_window(speed, path.rate_hz);
   const double last_s = static_cast<double>(path.count() - 1) / path.rate_hz;
   // A sample's tolerance, so that a rest of just that length counts.
@@ -120,11 +129,8 @@ const Eigen::Vector3d& PathFacts::box() const {
 const Periodogram& PathFacts::periodogram() const {
   return once(periodogram_, [this] { return periodogram_of(path.x, path.rate_hz, kLowHz); });
 }
-double PathFacts::dominant_hz() const {
-  constexpr double kLowest_hz = 0.3;
-  const double low = peak_frequency(periodogram(), kLowest_hz);
-  // Where a higher one may have more, all of them.
-  return std::isnan(low) ? peak_frequency(periodogram_of(path.x, path.rate_hz), kLowest_hz) : low;
+const HarmonicFit& PathFacts::harmonics() const {
+  return once(harmonics_, [this] { return fit_harmonics(path.x, path.rate_hz, frame.harmonics); });
 }
 
 }  // namespace kinemark::analysis

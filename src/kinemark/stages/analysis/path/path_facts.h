@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "kinemark/stages/analysis/path/harmonics.h"
 #include "kinemark/stages/analysis/path/path_samples.h"
 #include "kinemark/stages/analysis/path/shape.h"
 #include "kinemark/stages/analysis/path/smoothness.h"
@@ -22,6 +23,7 @@ struct PathFrame {
   bool closed = false;    ///< periodic, and comes back to where it was: not a walk
   bool steady = false;    ///< hardly_changes() of its speed
   Eigen::Vector3d cycle_axis = Eigen::Vector3d::UnitX();  ///< along which cycles are counted
+  HarmonicForm harmonics;      ///< by which its dominant frequency above 0.3 Hz is found
   double share_at_rest = 0.0;  ///< of the samples slower than kMovingShare of the peak speed
 };
 
@@ -74,7 +76,7 @@ class PathFacts {
   [[nodiscard]] const CurvatureTerms& curvature_terms() const;  ///< for curvature and torsion
   [[nodiscard]] const Eigen::Vector3d& box() const;             ///< the smallest, descending, m
   [[nodiscard]] const Periodogram& periodogram() const;         ///< of the stretch, up to kLowHz
-  [[nodiscard]] double dominant_hz() const;                     ///< above 0.3 Hz, of the stretch
+  [[nodiscard]] const HarmonicFit& harmonics() const;           ///< of the stretch, of the settled form
 
  private:
   std::optional<PathSamples> part_;
@@ -87,6 +89,7 @@ class PathFacts {
   mutable std::optional<CurvatureTerms> curvature_terms_;
   mutable std::optional<Eigen::Vector3d> box_;
   mutable std::optional<Periodogram> periodogram_;
+  mutable std::optional<HarmonicFit> harmonics_;
 };
 
 }  // namespace kinemark::analysis
