@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/measured_joints.h"
 #include "kinemark/workflow/scale/internal/grow.h"
+#include "kinemark/workflow/scale/internal/sizes.h"
 #include "kinemark/workflow/scale/internal/trials.h"
 
 namespace kinemark::workflow {
@@ -143,6 +146,25 @@ class Scaling {
     return {};
   }
 
+  /// Whether the factors of all steps together are those of a person.
+  Status judge_factors() {
+    std::vector<SizeSource> sources;
+    for (const auto* trial : {&in_.measured, &in_.still, &in_.motion})
+      if (*trial) sources.push_back({(*trial)->name, &(*trial)->recording.trial.markers});
+    std::optional<RecipeSizes> recipe;
+    if (found_.scaled && !sources.empty() && !found_.from_motion)
+      recipe = {.recipe = &*options_.recipe, .scaled = &*found_.scaled, .trial = sources.front().name};
+    const auto s = judge_sizes(given_, found_.factors, sources, recipe, found_.remarks);
+    return s ? s : Status(fail_at(in_.names.model, s.error()));
+  }
+
+  /// A failure of a later step, with what was found in the static trials.
+  [[nodiscard]] Error with_findings(Error error) const {
+    for (const auto& gate : found_.remarks.gates)
+      if (!gate.passed) error.message += ". " + gate.sentence;
+    return error;
+  }
+
   /// How well markers fit, where something was placed by them.
   Status judge_fit() {
     if (!found_.from_motion && !found_.placed) return {};
@@ -221,10 +243,11 @@ Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs
     return std::unexpected(s.error());
   if (auto s = check_inputs(inputs, options); !s) return std::unexpected(s.error());
   Scaling scaling(model, std::move(inputs), options);
-  for (const auto step : {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials,
-                          &Scaling::scale_by_recipe, &Scaling::scale_by_static_trial,
-                          &Scaling::adapt_to_motion, &Scaling::weigh_and_fit_muscles, &Scaling::judge_fit})
-    if (auto s = (scaling.*step)(); !s) return std::unexpected(s.error());
+  for (const auto step :
+       {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials, &Scaling::scale_by_recipe,
+        &Scaling::scale_by_static_trial, &Scaling::adapt_to_motion, &Scaling::judge_factors,
+        &Scaling::weigh_and_fit_muscles, &Scaling::judge_fit})
+    if (auto s = (scaling.*step)(); !s) return std::unexpected(scaling.with_findings(s.error()));
   return scaling.take();
 }
 

@@ -86,7 +86,7 @@ struct JudgedTrial {
   motion::FoundationJudgement judgement;  ///< markers elsewhere and exchanged pairs
 };
 
-/// Gates: static_trial (one each), marker_rms where markers were placed or followed.
+/// Gates: static_trial (one each), sizes, marker_rms where markers were placed or followed.
 struct ScaleFound {
   data::ModelDescription model;                    ///< scaled, markers placed
   std::vector<JudgedTrial> static_trials;          ///< as they were judged
@@ -107,10 +107,10 @@ struct ScaleFound {
 /// between markers of one segment. Joints that were measured may leave their position in the model so far.
 /// Frames that a recorder made between those that it measured are left out, which is said.
 ///
-/// Code::usage as ScaleMethod::check() and where an input is missing, or is there without a use. Else fails,
-/// naming what it is of, as screen_markers(), bring_into_axes() of prepare, motion::scale_model(),
-/// place_markers(), adapt_model(), add_clavicles(), scale_paths(). About 1 ms per frame and step for a whole
-/// body.
+/// A failure after a static trial with findings ends with them. Code::usage as ScaleMethod::check() and where
+/// an input is missing, or is there without a use. Else fails, naming what it is of, as screen_markers(),
+/// bring_into_axes() of prepare, motion::scale_model(), place_markers(), adapt_model(), add_clavicles(),
+/// scale_paths(). About 1 ms per frame and step for a whole body.
 [[nodiscard]] Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs,
                                        const ScaleOptions& options = {});
 

@@ -120,8 +120,9 @@ TEST(Scale, FindsSizesFromAMotionAndSaysHowWellTheyFit) {
   EXPECT_NEAR(factor_of(found, "tibia_l"), 1.0 / 0.93, 0.03);
   EXPECT_NEAR(mass_of(found.model), 60.0, 1e-9);
   EXPECT_TRUE(found.static_trials.empty());
-  ASSERT_EQ(found.remarks.gates.size(), 1U);
-  EXPECT_EQ(found.remarks.gates[0].name, "marker_rms");
+  ASSERT_EQ(found.remarks.gates.size(), 2U);
+  EXPECT_EQ(found.remarks.gates[0].name, "sizes");
+  EXPECT_EQ(found.remarks.gates[1].name, "marker_rms");
   EXPECT_TRUE(found.remarks.passed());
   options.max_rms_m = 1e-5;
   const auto strict = scale(person().small, by_motion(), options).value();
@@ -148,6 +149,35 @@ TEST(Scale, AnExchangeInTheStaticTrialIsNamedBeforeItIsBuiltOn) {
   EXPECT_FALSE(found.remarks.passed());
   EXPECT_THAT(found.remarks.warnings, Contains(HasSubstr("LHEE and LTOE are exchanged in cal")));
   EXPECT_EQ(found.static_trials.at(0).judgement.movements, 1) << "the motion is asked too";
+}
+
+TEST(Scale, ABodyIsNeverTurnedInsideOutAndTheExchangeIsNamed) {
+  auto options = quick();
+  options.adapt.marker_noise_sd_m = 1e-4;  // sizes follow the markers at any price
+  auto inputs = by_static_trial();
+  exchange(inputs.still->recording.trial.markers, "LASI", "RASI");
+  const auto found = scale(person().small, std::move(inputs), options).value();
+  EXPECT_THAT(found.remarks.warnings, Contains(HasSubstr("LASI and RASI are exchanged in cal")));
+  EXPECT_THAT(found.remarks.warnings,
+              Contains(HasSubstr("People do not differ as much as these sizes: pelvis")));
+  for (const auto& factor : found.factors) EXPECT_GT(factor.factors.minCoeff(), 0.1) << factor.body;
+  for (const auto& body : found.model.bodies) EXPECT_GE(body.mass, 0.0) << body.name;
+}
+
+TEST(Scale, AFailureBehindAStaticTrialSaysWhatIsWrongInThat) {
+  auto model = person().small;
+  for (auto& body : model.bodies) body.mass = 0.0;
+  auto options = quick();
+  options.mass_kg = 70.0;
+  auto inputs = by_static_trial();
+  const auto clean = scale(model, inputs, options);
+  ASSERT_FALSE(clean);
+  EXPECT_THAT(clean.error().message, Not(HasSubstr("are exchanged")));
+  exchange(inputs.still->recording.trial.markers, "LASI", "RASI");
+  const auto failed = scale(model, std::move(inputs), options);
+  ASSERT_FALSE(failed);
+  EXPECT_THAT(failed.error().message, HasSubstr("has no mass that could be scaled to 70 kg"));
+  EXPECT_THAT(failed.error().message, HasSubstr("LASI and RASI are exchanged in cal"));
 }
 
 TEST(Scale, ARecipeIsMeasuredAndItsMarkersArePlacedWhereThatIsAsked) {

@@ -32,6 +32,8 @@ constexpr int kSettleSteps = 20;
 constexpr int kQuietRounds = 3;
 constexpr double kSameMotion = 0.1;  // shares of motion that need no further round
 constexpr double kFarthest = 3.0;    // prior deviations that a parameter may go in one step
+constexpr double kLeastSize = 0.2;   // of the model's: no segment is turned inside out
+constexpr double kOfTheWay = 0.9;    // to the least size, at most, in one step
 
 MatrixXd inverse(const NormalSums& sums, const MatrixXd& known) {
   MatrixXd S = sums.S.selfadjointView<Eigen::Lower>();
@@ -41,6 +43,17 @@ MatrixXd inverse(const NormalSums& sums, const MatrixXd& known) {
 }
 
 }  // namespace
+
+double Adaptation::share_of(const VectorXd& step) const {
+  double share = 1.0;
+  for (Index k = 0; k < step.size(); ++k) {
+    const auto& parameter = parameters_[at(k)];
+    const double room = x_[k] + (1.0 - kLeastSize) * parameter.initial;
+    if (parameter.kind == ParameterKind::body_scale && step[k] < 0.0)
+      share = std::min(share, kOfTheWay * room / -step[k]);
+  }
+  return share;
+}
 
 Adaptation::Adaptation(const data::ModelDescription& model, const data::Trajectories& markers,
                        const std::vector<GeometryParameter>& parameters, const AdaptOptions& options,
@@ -128,7 +141,7 @@ Status Adaptation::iterate(int limit, double least_sd, AdaptResult& result) {
       }
       // Gain predicted by the quadratic model for the first, longest step.
       if (!std::isfinite(ahead)) ahead = 2.0 * g.dot(step) - step.dot(S * step);
-      const VectorXd x_try = x_ + step;
+      const VectorXd x_try = x_ + share_of(step) * step;
       MatrixXd states_try = states_;
       auto sums = projection_.solve(x_try, states_try);
       const double then = sums.cost + known(x_try).cost;
@@ -191,6 +204,7 @@ std::optional<double> Adaptation::step_by(const Quiet& quiet) {
   if (!step.allFinite()) return std::nullopt;
   for (Index k = 0; k < step.size(); ++k)
     step *= std::min(1.0, kFarthest * parameters_[at(k)].prior_sd / std::max(std::abs(step[k]), 1e-300));
+  step *= share_of(step);
   const VectorXd x_try = x_ + step;
   MatrixXd states_try = states_;
   auto there = projection_.solve(x_try, states_try);

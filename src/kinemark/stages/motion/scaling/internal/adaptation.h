@@ -47,6 +47,8 @@ class Adaptation {
   /// Priors and measured joints at a geometry. @param position_sd  above 0: least prior of marker positions
   [[nodiscard]] Known known(const Eigen::VectorXd& x, double position_sd = 0.0) const;
   [[nodiscard]] double residual_noise() const;
+  /// How much of a step may be taken so that every size stays above a fifth of the model's.
+  [[nodiscard]] double share_of(const Eigen::VectorXd& step) const;
   Status iterate(int limit, double least_sd, AdaptResult& result);
   Status settle(AdaptResult& result);
   std::optional<double> step_by(const Quiet& quiet);
