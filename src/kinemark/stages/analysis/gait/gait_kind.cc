@@ -36,9 +36,10 @@ constexpr double kTogether = 0.12;  // of a stride: strikes of both feet in a ju
 constexpr double kFlat = 0.2;       // of the usual speed: a foot that points somewhere
 constexpr double kFlat_s = 0.03, kLeastFoot_m = 0.03, kPelvisStep_s = 0.3;
 constexpr double kMovesOfMedian = 0.3, kAlong = 0.5, kStands_m_per_s = 0.05;
-constexpr double kUnevenBelt_m = 0.03;  // 1 mm on real belts, 40 and more where none is
-constexpr double kArcHalf = 0.075;      // of a stride
-constexpr double kErrors = 2.0;         // by which the mean of stances may be off
+constexpr double kUnevenBelt_m = 0.03;     // 1 mm on real belts, 40 and more where none is
+constexpr double kArcHalf = 0.075;         // of a stride
+constexpr double kErrorOfFew = 1.0 / 3.0;  // one or two stances do not tell their scatter
+constexpr double kErrors = 2.0;            // by which the mean of stances may be off
 // Turns a stride. Toes on ground and belts: 0.08 in walks, 0.15 in runs; heels and ankles of runners 0.5.
 // Runners spring by 46 mm and more; who flies without is on pedals, at 4 m/s at most.
 constexpr double kMostArc = 0.2, kMostArcUnsprung = 0.1, kMostArcOfRear = 0.6, kSprings_m = -0.03,
@@ -209,8 +210,9 @@ class Kinds {
       }
     }
     const Eigen::RowVector3d mean = sum / count;
-    const double error =
-        count > 2.0 ? std::sqrt(std::max(0.0, squares / count - mean.squaredNorm()) / (count - 1.0)) : 0.0;
+    const double error = count > 2.0
+                             ? std::sqrt(std::max(0.0, squares / count - mean.squaredNorm()) / (count - 1.0))
+                             : kErrorOfFew * mean.norm();
     return std::max(0.0, mean.norm() - kErrors * error) * paths_.rate_hz * paths_.rate_hz * steps_.stride_s /
            (2.0 * std::numbers::pi * speed);
   }

@@ -109,6 +109,21 @@ TEST(Machines, FeetThatRiseAndFallOrStayAreNoGait) {
   }
 }
 
+// Two stances in 10 mm of noise do not tell a belt from pedals; a circle is one even then.
+TEST(Machines, FewStancesAccuseNobody) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    KnownWalk walk;
+    walk.treadmill = true, walk.duration_s = 1.9, walk.rate_hz = 60.0;
+    EXPECT_THAT(
+        kind_of(walk.markers(0.01, seed)).not_gait,
+        Not(HasSubstr("the feet go round as on pedals: where they go back, their velocity turns at ")))
+        << seed;
+    EXPECT_THAT(kind_of(Machine{.duration_s = 1.7}.markers(seed)).not_gait,
+                HasSubstr("the feet go round as on pedals: where they go back, their velocity turns at "))
+        << seed;
+  }
+}
+
 // Slow and fast, noisy and on few frames: who walks on a belt is on no pedals.
 TEST(Machines, BeltsAreNoPedals) {
   Random random(13, 2);
