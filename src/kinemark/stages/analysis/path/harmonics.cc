@@ -24,6 +24,7 @@ constexpr double kTellingShare = 1.0 / 3.0;  // of the squares, that a lower fun
 constexpr double kRounding = 1e-14;          // of the squares, that say nothing
 constexpr int kIterations = 30;
 constexpr double kUneven = 1.0;  // rad, from which phases are followed
+constexpr double kOther = 0.1;   // of the frequency, by which followed phases may move it
 
 // A path by its even and its odd part about the middle, without which a fit would have twice the work.
 struct Halves {
@@ -240,7 +241,10 @@ HarmonicFit fit_harmonics(const PathMatrix& x, double rate_hz, const HarmonicFor
   if (phases.size() < 3) return {};
   const auto [least, most] = std::ranges::minmax(phases);
   const double slope = slope_of(phases), per_value = 4.0 * best->hz / kTurn;
-  if (most - least > kUneven) out.dominant_hz += slope * per_value;
+  if (most - least > kUneven) {
+    if (std::abs(slope * per_value) > kOther * out.dominant_hz) return {};
+    out.dominant_hz += slope * per_value;
+  }
   // Phases that go on by chance from cycle to cycle: deviation of a line through them, of few cycles by
   // simulation, since the line takes most of what they differ by.
   double squares = 0.0;

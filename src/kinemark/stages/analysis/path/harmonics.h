@@ -36,8 +36,9 @@ struct HarmonicFit {
 };
 
 /// Least squares of trend and harmonics, the frequency by Gauss and Newton. Where phases depart by more than
-/// a radian from an even movement, the line of least squares through them. Cost: n times the square of the
-/// number of multiples, a few times; of long series means over some samples are fitted.
+/// a radian from an even movement, the line of least squares through them; none where that is off by a tenth.
+/// Cost: n times the square of the number of multiples, a few times; of long series means over some samples
+/// are fitted.
 [[nodiscard]] HarmonicFit fit_harmonics(const PathMatrix& x, double rate_hz, const HarmonicForm& form);
 
 }  // namespace kinemark::analysis
