@@ -16,6 +16,8 @@
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/turn.h"
@@ -78,6 +80,8 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
   out.facts = std::move(facts);
+  if (job.find_exchanges)
+    workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);
   if (!job.find_exchanges || !recording->rate_known) return {};
   const auto swaps = workflow::find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());

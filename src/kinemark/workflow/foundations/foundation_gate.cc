@@ -10,6 +10,7 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/stages/motion/foundations/landmarks.h"
+#include "kinemark/stages/motion/foundations/mirror.h"
 #include "kinemark/stages/motion/foundations/stillness.h"
 
 namespace kinemark::workflow {
@@ -74,6 +75,11 @@ Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string
   remarks.warnings.push_back(gate.sentence);
   remarks.gates.push_back(std::move(gate));
   return found;
+}
+
+void note_mirrored(const std::string& name, const motion::StandingBody& body,
+                   const data::Trajectories& recording, std::vector<std::string>& warnings) {
+  if (motion::shows_mirrored_body(body, recording)) warnings.push_back(motion::describe_mirrored(name));
 }
 
 }  // namespace kinemark::workflow

@@ -31,4 +31,8 @@ namespace kinemark::workflow {
     const std::string& name, const data::Trajectories& recording, const std::string& consequence,
     Remarks& remarks);
 
+/// A warning where a recording of any movement shows the mirror image of the body.
+void note_mirrored(const std::string& name, const motion::StandingBody& body,
+                   const data::Trajectories& recording, std::vector<std::string>& warnings);
+
 }  // namespace kinemark::workflow

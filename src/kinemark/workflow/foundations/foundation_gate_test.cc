@@ -57,6 +57,8 @@ TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
   EXPECT_EQ(remarks.gates[0].name, "static_trial");
   EXPECT_TRUE(remarks.gates[0].passed);
   EXPECT_EQ(remarks.gates[0].value, 0.0);
+  EXPECT_THAT(remarks.gates[0].sentence,
+              Not(HasSubstr("shows a mirrored body: an axis of the recording is negated")));
   EXPECT_THAT(remarks.gates[0].sentence, HasSubstr("No marker of cal.c3d lies where a body cannot have it."));
   EXPECT_THAT(remarks.gates[0].sentence, Not(HasSubstr("Everything below takes it as it is")));
   EXPECT_EQ(judged->judged.size(), kNames.size());
@@ -133,6 +135,59 @@ TEST(FoundationGate, OfARecordingIsMissedWhereItHoldsAnExchange) {
   Remarks beside;
   ASSERT_TRUE(judge_static_trial("cal.c3d", body, standing(), std::span(&movement, 1), beside));
   EXPECT_TRUE(beside.passed());
+}
+
+void negate(data::Trajectories& trial, int axis) {
+  for (std::int64_t f = 0; f < trial.frames(); ++f)
+    for (std::int64_t m = 0; m < trial.markers(); ++m) trial.x(f, m)[axis] *= -1.0;
+}
+
+TEST(FoundationGate, SaysThatABodyIsMirroredAndWhatElseLooksAlike) {
+  for (int axis = 0; axis < 3; ++axis) {
+    auto trial = standing();
+    negate(trial, axis);
+    Remarks remarks;
+    const auto judged = judge_static_trial("cal.c3d", motion::body_of_names(kNames), trial, {}, remarks);
+    ASSERT_TRUE(judged) << judged.error().message;
+    ASSERT_EQ(judged->findings.size(), 1U);
+    EXPECT_EQ(judged->findings[0].marker, "");
+    EXPECT_FALSE(remarks.passed());
+    EXPECT_THAT(remarks.gates[0].sentence,
+                HasSubstr("cal.c3d shows a mirrored body: an axis of the recording is negated"));
+    EXPECT_THAT(remarks.gates[0].sentence, HasSubstr("or all names of left and right are exchanged"));
+  }
+}
+
+TEST(FoundationGate, NoPairIsBlamedForAMirroredWalk) {
+  auto walk = motion::testing::walking_body(kNames, 60);
+  negate(walk, 2);
+  Remarks remarks;
+  ASSERT_TRUE(judge_recording("walk.c3d", walk, "nothing is computed", remarks));
+  EXPECT_TRUE(remarks.passed());
+  note_mirrored("walk.c3d", motion::body_of_names(kNames), walk, remarks.warnings);
+  EXPECT_EQ(remarks.warnings.size(), 1U);
+}
+
+TEST(FoundationGate, AllNamesOfBothSidesExchangedLookLikeAMirror) {
+  auto trial = standing();
+  for (const std::string stem : {"ASI", "PSI", "KNE", "ANK", "HEE", "TOE"})
+    exchange(trial, "L" + stem, "R" + stem);
+  std::vector<std::string> warnings;
+  note_mirrored("walk.c3d", motion::body_of_names(kNames), trial, warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("walk.c3d shows a mirrored body"));
+}
+
+TEST(FoundationGate, NothingIsSaidOfARightBodyOrOneExchangeOrTooFewMarkers) {
+  std::vector<std::string> warnings;
+  auto trial = standing();
+  note_mirrored("walk.c3d", motion::body_of_names(kNames), trial, warnings);
+  exchange(trial, "LASI", "RASI");
+  note_mirrored("walk.c3d", motion::body_of_names(kNames), trial, warnings);
+  auto few = data::Trajectories::all_missing({"LASI", "RASI", "LPSI"}, {.rate_hz = 100.0, .frames = 3});
+  note_mirrored("walk.c3d", motion::body_of_names(few.names), few, warnings);
+  note_mirrored("walk.c3d", motion::body_of_names({}), few, warnings);
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(FoundationGate, IsNotThereWhereNothingCanBeJudged) {

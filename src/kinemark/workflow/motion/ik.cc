@@ -11,8 +11,10 @@
 #include <utility>
 
 #include "kinemark/data/finding.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/motion/used_markers.h"
 #include "kinemark/workflow/prepare/resample_forces.h"
 #include "kinemark/workflow/prepare/turn.h"
@@ -147,6 +149,7 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   found.used = solved_markers(markers, fit, motion);
   auto& [warnings, gates] = found.remarks;
   warnings = fit.warnings;
+  note_mirrored("the recording", motion::body_of_names(markers.names), markers, warnings);
   std::ranges::move(data::describe_all(fit.findings, motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(gates, options, model, markers, found.result);

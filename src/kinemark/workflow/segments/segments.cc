@@ -66,6 +66,8 @@ Result<data::Trajectories> judge_moving(const data::Recording& recording, const 
                                         SegmentsFound& found) {
   auto& used = found.used.trial;
   if (is_own_static(recording, options)) return used.markers;
+  note_mirrored(options.name, motion::body_of_names(used.markers.names), used.markers,
+                found.remarks.warnings);
   const auto pairs = judge_recording(options.name, used.markers,
                                      options.drop_doubtful ? "all is computed with them exchanged back"
                                                            : "what is computed from them is not so",

@@ -14,7 +14,10 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
 #include "kinemark/data/name_index.h"
+#include "kinemark/stages/motion/foundations/internal/body_parts.h"
 #include "kinemark/stages/motion/foundations/internal/hypotheses.h"
+#include "kinemark/stages/motion/foundations/mirror.h"
+#include "kinemark/stages/motion/foundations/standing_body.h"
 
 namespace kinemark::motion {
 namespace {
@@ -27,6 +30,8 @@ constexpr double kRival = 6.0;           // explanations this much less likely a
 constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
 // Of a marker of trunk, head or arms between two recordings, per axis: shoulders move on the trunk.
 constexpr double kLoose_m = 0.030;
+constexpr double kMirrored = 30.0;  // least gain of a mirror image; bodies' images gain 118 and more
+constexpr int kMirrorFrames = 3;    // of a movement
 
 /// Where the body's markers are in a recording.
 std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
@@ -116,6 +121,30 @@ std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data:
   return out;
 }
 
+/// Most of these frames show the mirror image of a body.
+bool are_mirrored(const StandingBody& body, const internal::SharedPrior& prior,
+                  const std::vector<internal::SeenFrame>& frames) {
+  const auto mirrored = std::ranges::count_if(frames, [&](const internal::SeenFrame& frame) {
+    return internal::explain_mirrored(body, prior, frame) >= kMirrored;
+  });
+  return 2 * mirrored > std::ssize(frames);
+}
+
+/// What pelvis, legs, trunk and head tell of a recording's handedness; the whole body where these are too
+/// few.
+StandingBody without_arms(const StandingBody& body) {
+  StandingBody out = body;
+  std::erase_if(out.markers, [](const StandingBody::Marker& marker) {
+    const auto landmark = landmark_of(marker.name);
+    return landmark && (landmark->part == BodyPart::upper_arm || landmark->part == BodyPart::forearm ||
+                        landmark->part == BodyPart::hand);
+  });
+  if (out.markers.size() < kFewest) return body;
+  for (auto& marker : out.markers) marker.mirror = -1;
+  internal::pair_markers(out);
+  return out;
+}
+
 /// Shoulders, arms and heads move on the trunk by more than a rigid body tells: beside a movement, a single
 /// marker is accused on pelvis and legs alone.
 bool keeps_its_place(const StandingBody::Marker& marker) {
@@ -201,9 +230,16 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   out.frame = frame_idx;
 
   internal::SharedPrior prior = internal::prior_of(body);
+  const double mirrored = internal::explain_mirrored(body, prior, frame);
+  if (mirrored >= kMirrored) {
+    out.findings.push_back({.marker = "", .partner = "", .score = mirrored, .rivals = {}});
+    frame = internal::mirror_image(std::move(frame));
+  }
   std::vector<internal::SeenFrame> moving;
   for (const auto* movement : movements) {
     auto frames = frames_of(body, *movement, options);
+    if (are_mirrored(body, prior, frames))
+      for (auto& one : frames) one = internal::mirror_image(std::move(one));
     out.movements += frames.empty() ? 0 : 1;
     moving.insert(moving.end(), frames.begin(), frames.end());
   }
@@ -292,6 +328,8 @@ Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
   std::vector<FoundationFinding> out;
   auto frames = frames_of(body, movement, options);
   const auto prior = internal::prior_of(body);
+  if (are_mirrored(body, prior, frames))
+    for (auto& frame : frames) frame = internal::mirror_image(std::move(frame));
   while (!frames.empty() && std::ssize(out) < options.most_findings) {
     std::set<std::pair<int, int>> pairs;
     for (const auto* frame : {&frames.front(), &frames[frames.size() / 2]})
@@ -316,7 +354,22 @@ Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
   return out;
 }
 
+bool shows_mirrored_body(const StandingBody& whole, const data::Trajectories& recording) {
+  const StandingBody body = without_arms(whole);
+  const auto frames = body.markers.empty() ? std::vector<internal::SeenFrame>{}
+                                           : frames_of(body, recording, {.moving_frames = kMirrorFrames});
+  return !frames.empty() && are_mirrored(body, internal::prior_of(body), frames);
+}
+
+std::string describe_mirrored(const std::string& recording) {
+  return fmt::format(
+      "{} shows a mirrored body: an axis of the recording is negated or its frame is left-handed, "
+      "or all names of left and right are exchanged",
+      recording);
+}
+
 std::string describe(const FoundationFinding& finding, const std::string& recording) {
+  if (finding.marker.empty()) return describe_mirrored(recording);
   std::string out;
   if (!finding.partner.empty()) {
     out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, recording);

@@ -35,7 +35,7 @@ struct FoundationOptions {
 
 /// A marker that lies elsewhere, or a pair that is exchanged.
 struct FoundationFinding {
-  std::string marker;   ///< as in the recording
+  std::string marker;   ///< as in the recording; empty: all of it is mirrored
   std::string partner;  ///< exchanged with it; empty: the marker lies elsewhere
   Eigen::Vector3d shift_m =
       Eigen::Vector3d::Zero();  ///< seen less expected: forward, up, to the right of the body

@@ -44,11 +44,14 @@ Status leave_out_doubtful(ScaleTrial& trial) {
 
 Status judge_stills(const std::vector<const ScaleTrial*>& stills, const std::optional<ScaleTrial>& motion,
                     const std::string& model_name, ScaleFound& found) {
-  if (stills.empty()) return {};
+  if (stills.empty() && !motion) return {};
   const auto body = motion::body_of_model(found.model);
   if (!body) return fail_at(model_name, body.error());
   std::vector<const data::Trajectories*> movements;
-  if (motion) movements.push_back(&motion->recording.trial.markers);
+  if (motion) {
+    movements.push_back(&motion->recording.trial.markers);
+    note_mirrored(motion->name, *body, *movements.back(), found.remarks.warnings);
+  }
   for (const auto* still : stills) {
     auto judgement =
         judge_static_trial(still->name, *body, still->recording.trial.markers, movements, found.remarks);

@@ -180,4 +180,20 @@ Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior, 
   return exchanged(body, prior, frame, fit_body(body, prior, frame), first, second);
 }
 
+double explain_mirrored(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame) {
+  // Bodies in 38 recordings have 0.1 to 1.2, their mirror images 1.8 and more.
+  constexpr double kMostOfABody = 1.7;
+  const BodyFit none = fit_body(body, prior, frame);
+  const auto seen = static_cast<double>(std::max<Eigen::Index>(1, none.by_pose.rows()));
+  if (none.cost <= kMostOfABody * seen) return 0.0;
+  const double cost = fit_body(body, prior, mirror_image(frame)).cost;
+  if (cost > kMostOfABody * seen) return 0.0;
+  return std::max(0.0, none.cost - cost) / std::max(kLeastMisfit, cost / seen);
+}
+
+SeenFrame mirror_image(SeenFrame frame) {
+  frame.x.row(0) *= -1.0;
+  return frame;
+}
+
 }  // namespace kinemark::motion::internal

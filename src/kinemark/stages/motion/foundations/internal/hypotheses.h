@@ -28,4 +28,12 @@ struct Hypothesis {
 [[nodiscard]] Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior,
                                           const SeenFrame& frame, int first, int second);
 
+/// Gain of the frame's mirror image over the frame, as of an exchange; 0 where the frame is a body's, or its
+/// image is none.
+[[nodiscard]] double explain_mirrored(const StandingBody& body, const SharedPrior& prior,
+                                      const SeenFrame& frame);
+
+/// The mirror image of a frame, in the plane of the laboratory's y and z.
+[[nodiscard]] SeenFrame mirror_image(SeenFrame frame);
+
 }  // namespace kinemark::motion::internal
