@@ -142,7 +142,7 @@ void negate(data::Trajectories& trial, int axis) {
     for (std::int64_t m = 0; m < trial.markers(); ++m) trial.x(f, m)[axis] *= -1.0;
 }
 
-TEST(FoundationGate, SaysThatABodyIsMirroredAndWhatElseLooksAlike) {
+TEST(FoundationGate, SaysThatABodyIsMirroredAndWhatElseSeemsAlike) {
   for (int axis = 0; axis < 3; ++axis) {
     auto trial = standing();
     negate(trial, axis);

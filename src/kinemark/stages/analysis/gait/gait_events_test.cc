@@ -283,7 +283,7 @@ TEST_F(FileErrors, AreWhatTheyDifferByFromPlates) {
   EXPECT_LT(scattered.error[0].kind_s, scattered.error[0].own_s);
 }
 
-TEST_F(FileErrors, AreToldByMarkersWherePlatesAreOutOfStep) {
+TEST_F(FileErrors, AreJudgedByMarkersWherePlatesAreOutOfStep) {
   auto plates = others(EventSource::plate, 3, -0.045);
   const auto offs = others(EventSource::plate, 3, -0.05, FootEvent::off);
   plates.insert(plates.end(), offs.begin(), offs.end());

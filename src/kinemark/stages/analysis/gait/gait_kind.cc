@@ -205,8 +205,8 @@ class Kinds {
         if (!std::all_of(known.begin() + (middle - half), known.begin() + (middle + half + 1),
                          std::identity{}))
           continue;
-        const auto bent = bend(paths_.foot(side).*marker, middle, half);
-        sum += bent, squares += bent.squaredNorm(), count += 1.0;
+        const auto change = second_derivative(paths_.foot(side).*marker, middle, half);
+        sum += change, squares += change.squaredNorm(), count += 1.0;
       }
     }
     const Eigen::RowVector3d mean = sum / count;
@@ -218,8 +218,8 @@ class Kinds {
   }
 
   // Second derivative of the parabola through 2 half + 1 frames, per frame squared.
-  [[nodiscard]] static Eigen::RowVector3d bend(const math::SeriesMatrix& x, std::int64_t middle,
-                                               std::int64_t half) {
+  [[nodiscard]] static Eigen::RowVector3d second_derivative(const math::SeriesMatrix& x, std::int64_t middle,
+                                                            std::int64_t half) {
     const auto n = static_cast<double>(2 * half + 1);
     const double mean = (n * n - 1.0) / 12.0;  // of squares of frames from the middle
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();

@@ -12,7 +12,6 @@
 namespace kinemark::analysis {
 namespace {
 
-using data::FootEvent;
 using data::Side;
 using testing::KnownWalk;
 

@@ -124,7 +124,7 @@ Status judge_sizes(const data::ModelDescription& given, const std::vector<data::
   data::Gate gate{
       .name = "sizes", .passed = true, .value = 1.0, .bound = kBeside, .unit = "times", .sentence = ""};
   std::vector<std::string> sentences;
-  std::vector<double> told;  // bodies of one size share a sentence
+  std::vector<double> said;  // bodies of one size share a sentence
   if (overall < kSmallest || overall > kLargest) {
     gate.passed = false;
     sentences.push_back(fmt::format("the bodies are {:.2f} times as large as those of the model", overall));
@@ -136,8 +136,8 @@ Status judge_sizes(const data::ModelDescription& given, const std::vector<data::
     gate.value = std::max(gate.value, worst);
     if (worst <= kBeside) continue;
     gate.passed = false;
-    if (sentences.size() >= kSentences || std::ranges::count(told, factor) > 0) continue;
-    told.push_back(factor);
+    if (sentences.size() >= kSentences || std::ranges::count(said, factor) > 0) continue;
+    said.push_back(factor);
     auto distances = recipe ? measured_of(*recipe, body.body) : std::vector<Distance>{};
     if (distances.empty())
       distances = distances_of(given, w.marker, given.find_body(body.body), overall, sources);

@@ -31,8 +31,7 @@ inline data::Trajectories walking_body(const std::vector<std::string>& names, st
       pose[s].linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
       if (segment.parent >= 0) pose[s] = pose[at(segment.parent)] * pose[s];
     }
-    for (std::size_t m = 0; m < body.markers.size(); ++m) {
-      const auto& marker = body.markers[m];
+    for (const auto& marker : body.markers) {
       const auto column = walk.find(marker.name);
       walk.x(f, column) = pose[at(marker.segment)] * marker.x_in_segment +
                           Eigen::Vector3d(0.01 * static_cast<double>(f), 0.0, 0.0);
