@@ -166,7 +166,7 @@ TEST(Live, AFrameThatDoesNotAdvanceIsRefused) {
 
 TEST(Live, WhatCannotBeFollowedIsSaidWithTheNameOfTheSource) {
   const Walk walk;
-  const auto refused = [&](stream::SourceFacts facts) {
+  const auto refused = [&](const stream::SourceFacts& facts) {
     const auto angles = live(walk.model, facts, [](const auto&) {});
     return angles ? std::string("followed") : angles.error().message;
   };

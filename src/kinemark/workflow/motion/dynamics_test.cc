@@ -171,7 +171,7 @@ TEST(Dynamics, WhatNobodyMeasuredIsNotThere) {
   options.torques = true;
   const auto found = dynamics(pendulum.model, given, options).value();
   for (const auto* values : {&found.motion.q, &found.motion.qd, &found.motion.qdd, &found.motion.tau,
-                             &found.motion.tau_sd, &found.sd[0], &found.sd[1], &found.sd[2]}) {
+                             &found.motion.tau_sd, found.sd.data(), &found.sd[1], &found.sd[2]}) {
     EXPECT_TRUE(std::isnan((*values)[100]));
     EXPECT_TRUE(std::isfinite((*values)[101]));
   }

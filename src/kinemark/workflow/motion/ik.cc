@@ -27,8 +27,7 @@ std::string offset_sentence(const motion::IkResult& result, const IkOptions& opt
                             const model::Model& model, const data::Trajectories& markers) {
   const auto& mean = result.fit.mean_error_m;
   if (!mean.allFinite()) return {};  // no marker is seen, which the gate says
-  const std::string as_it_is =
-      fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
+  std::string as_it_is = fmt::format("The mean of all marker errors is {:.1f} mm long.", 1e3 * mean.norm());
   if (mean.norm() <= options.bounds.max_offset_m) return as_it_is;
   const auto offset = motion::find_common_offset(model, markers, options.ik);
   if (!offset) return as_it_is;
