@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -51,6 +52,15 @@ struct GaitEvent {
   double sd_s = kNaN;                            ///< one standard deviation of the time; NaN: not known
   EventSource source = EventSource::kinematics;  ///< who says so
   std::string method;                            ///< "plate 2", "O'Connor 2007", "the file"
+};
+
+/// Parts of what an event errs by, standard deviations in s.
+struct EventError {
+  double kind_s = 0.0;  ///< the same for all events of a kind in a recording: laboratory, marker set, shoe
+  double foot_s = 0.0;  ///< the same for all of a kind and foot: how this foot comes and goes
+  double own_s = 0.0;   ///< of each event by itself
+  /// All of it.
+  [[nodiscard]] double sd_s() const { return std::hypot(kind_s, foot_s, own_s); }
 };
 
 }  // namespace kinemark::data

@@ -18,6 +18,7 @@ nlohmann::ordered_json foundation_json(const std::string& file,
       one["shift_sd_m"] = {finding.shift_sd_m.x(), finding.shift_sd_m.y(), finding.shift_sd_m.z()};
     }
     one["by_movement"] = finding.by_movement;
+    one["either"] = finding.either;
     one["score"] = finding.score;
     one["rivals"] = finding.rivals;
     one["sentence"] = motion::describe(finding, file);
@@ -26,6 +27,7 @@ nlohmann::ordered_json foundation_json(const std::string& file,
   return {{"file", file},
           {"judged", judgement.judged},
           {"movements", judgement.movements},
+          {"mirrored", judgement.mirrored},
           {"findings", std::move(findings)}};
 }
 

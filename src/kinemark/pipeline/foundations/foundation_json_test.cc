@@ -20,6 +20,7 @@ TEST(FoundationJson, OfACleanTrialNamesWhatWasJudged) {
   EXPECT_EQ(json["judged"].size(), 3U);
   EXPECT_TRUE(json["findings"].empty());
   EXPECT_EQ(json["movements"], 0);
+  EXPECT_FALSE(json["mirrored"]);
 }
 
 TEST(FoundationJson, OfAnExchangeNamesThePairAndNoShift) {
@@ -29,6 +30,15 @@ TEST(FoundationJson, OfAnExchangeNamesThePairAndNoShift) {
   const auto json = foundation_json("cal.c3d", judgement);
   EXPECT_EQ(json["findings"][0]["partner"], "LTOE");
   EXPECT_FALSE(json["findings"][0].contains("shift_m"));
+}
+
+TEST(FoundationJson, OfAMirroredTrialNamesNoMarker) {
+  motion::FoundationJudgement judgement;
+  judgement.judged = {"LHEE", "LTOE"};
+  judgement.mirrored = true;
+  const auto json = foundation_json("cal.c3d", judgement);
+  EXPECT_TRUE(json["mirrored"]);
+  EXPECT_TRUE(json["findings"].empty());
 }
 
 TEST(FoundationJson, WritesAShiftWithItsSpreadAndWithoutAPartner) {

@@ -10,7 +10,6 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/stages/motion/foundations/landmarks.h"
-#include "kinemark/stages/motion/foundations/mirror.h"
 #include "kinemark/stages/motion/foundations/stillness.h"
 
 namespace kinemark::workflow {
@@ -29,7 +28,7 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
   auto judgement = motion::judge_foundation(body, still, movements);
   if (!judgement) return fail_at(name, judgement.error());
   if (judgement->judged.empty()) return judgement;
-  const auto found = judgement->findings.size();
+  const auto found = judgement->findings.size() + (judgement->mirrored ? 1 : 0);
   data::Gate gate{.name = "static_trial",
                   .passed = found == 0,
                   .value = static_cast<double>(found),
@@ -38,6 +37,7 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
                   .sentence = fmt::format("No marker of {} lies where a body cannot have it.", name)};
   if (found > 0) {
     std::vector<std::string> sentences;
+    if (judgement->mirrored) sentences.push_back(motion::describe_mirrored(name));
     for (const auto& finding : judgement->findings) sentences.push_back(motion::describe(finding, name));
     gate.sentence = fmt::format(
         "The static trial cannot be built on: {}. Everything below takes it as it is; label it again or "

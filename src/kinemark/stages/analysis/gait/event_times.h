@@ -8,7 +8,6 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/data/gait_event.h"
-#include "kinemark/stages/analysis/gait/gait_events.h"
 #include "kinemark/stages/analysis/gait/gait_markers.h"
 
 namespace kinemark::analysis {
@@ -29,8 +28,8 @@ using DetectorTimes = std::array<double, kDetectors>;
 
 /// One time of an event, in seconds after that of Detector::middle.
 struct FusedTime {
-  double after_s = 0.0;  ///< detectors less their biases: the median, and weights of what they differ by
-  EventError error;      ///< `own_s` grows with what the detectors differ by
+  double after_s = 0.0;    ///< detectors less their biases: the median, and weights of what they differ by
+  data::EventError error;  ///< `own_s` grows with what the detectors differ by
   DetectorTimes apart_s{kNaN, kNaN, kNaN, kNaN};  ///< each detector less its bias, from the median of all
 };
 

@@ -125,7 +125,7 @@ void take_markers(const MarkerEvents& of_markers, EventsFound& out) {
 }
 
 // An event of a better source takes the place of the nearest of its kind and side, or comes beside.
-void put(EventsFound& found, const GaitEvent& event, const EventError& error) {
+void put(EventsFound& found, const GaitEvent& event, const data::EventError& error) {
   const auto i = nearest_to(found.events, event);
   if (i == found.events.size()) {
     found.events.push_back(event);
@@ -147,7 +147,7 @@ struct AgainstFile {
 
 // What the file's events of a kind err by: their offset is normal with a laboratory's usual SD before,
 // sources tell it with their own offsets. Times stay, so that the offset itself is an error.
-EventError error_of_file(double usual_own_s, std::span<const AgainstFile> sources) {
+data::EventError error_of_file(double usual_own_s, std::span<const AgainstFile> sources) {
   double squares = kUsualCount * square(usual_own_s), count = kUsualCount;
   for (const auto& source : sources) {
     if (source.later.empty()) continue;
@@ -212,7 +212,7 @@ void sort_by_time(EventsFound& found) {
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return found.events[i].time_s; });
   std::vector<GaitEvent> events;
   std::vector<std::int64_t> edge;
-  std::vector<EventError> error;
+  std::vector<data::EventError> error;
   for (const auto i : order) {
     events.push_back(std::move(found.events[i]));
     edge.push_back(found.edge[i]);

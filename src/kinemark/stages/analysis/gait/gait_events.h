@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -50,20 +49,11 @@ struct PlateOffset {
   int compared = 0;       ///< events that the plates saw too
 };
 
-/// Parts of what an event errs by, standard deviations in s.
-struct EventError {
-  double kind_s = 0.0;  ///< the same for all events of a kind in a recording: laboratory, marker set, shoe
-  double foot_s = 0.0;  ///< the same for all of a kind and foot: how this foot comes and goes
-  double own_s = 0.0;   ///< of each event by itself
-  /// All of it.
-  [[nodiscard]] double sd_s() const { return std::hypot(kind_s, foot_s, own_s); }
-};
-
 /// Events of a recording by one choice.
 struct EventsFound {
   std::vector<data::GaitEvent> events;  ///< ascending in time
   std::vector<std::int64_t> edge;       ///< of each event: in MarkerEvents::edges; -1: not by markers
-  std::vector<EventError> error;        ///< of each event, besides what noise does to it
+  std::vector<data::EventError> error;  ///< of each event, besides what noise does to it
   std::array<PlateOffset, 2> offset;    ///< of strikes, of leavings
   std::vector<Agreement> agreement;     ///< between sources
   bool out_of_step = false;             ///< plates and markers do not run on one clock

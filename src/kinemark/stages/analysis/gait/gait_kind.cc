@@ -328,7 +328,7 @@ std::vector<double> strides_of(const std::vector<data::GaitEvent>& events) {
   return out;
 }
 
-// What every stride lasts longer than, where none was seen whole: the longest stretch in which a foot is
+// What every stride lasts longer than, where none was seen whole: the longest span in which a foot is
 // seen, nobody stands, and a kind of event is missing, less what is too near to an end to be found.
 double longer_than(const GaitPaths& paths, const Steps& steps, const std::vector<data::GaitEvent>& events) {
   double out = 0.0;
@@ -451,8 +451,7 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
            out.belt && out.arc > most)
     out.not_gait = fmt::format(
         "the feet go round as on pedals: where they go back, their velocity turns at {:.2f} turns a stride; "
-        "on "
-        "a belt, where a foot goes straight and evenly, {:.2f} at most",
+        "on a belt, where a foot goes straight and evenly, {:.2f} at most",
         out.arc, most);
   else if (const double uneven_m = kinds.uneven_m(); out.belt && uneven_m > kUnevenBelt_m)
     out.not_gait = fmt::format(

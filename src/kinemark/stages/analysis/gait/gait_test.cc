@@ -35,6 +35,12 @@ Gait measured(const KnownWalk& walk, const GaitOptions& options = {.refits = 0})
   return analyze_gait(walk.markers(0.0005, 3), {}, options).value();
 }
 
+// A plate under a step of each foot.
+data::Wrenches two_plates(const KnownWalk& walk, const TimeBase& time) {
+  return {.time = time,
+          .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+}
+
 TEST(Gait, MeasuresAreThoseOfTheWalker) {
   KnownWalk walk;
   walk.right_later = 0.51;
@@ -105,9 +111,7 @@ TEST(Gait, IntervalsHoldTheTruthAndDoNotDependOnThreads) {
 TEST(Gait, PlatesReplaceAndCorrectWhatMarkersTell) {
   const KnownWalk walk;
   const auto markers = walk.markers(0.0003, 3);
-  const data::Wrenches plates{
-      .time = markers.time,
-      .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+  const auto plates = two_plates(walk, markers.time);
   const auto with = analyze_gait(markers, {.plates = &plates}, {.refits = 0}).value();
   const auto without = analyze_gait(markers, {}, {.refits = 0}).value();
   int by_plate = 0;
@@ -151,9 +155,7 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
 TEST(Gait, WhatTheFilesEventsErrByReachesEveryMeasure) {
   const KnownWalk walk;
   const auto markers = walk.markers(0.0003, 3);
-  const data::Wrenches plates{
-      .time = markers.time,
-      .items = {walk.plate("plate 1", Side::left, 2), walk.plate("plate 2", Side::right, 2)}};
+  const auto plates = two_plates(walk, markers.time);
   GaitEvidence evidence{.plates = &plates, .events = {}};
   for (const auto& event : walk.events())
     evidence.events.push_back({std::string(data::to_string(event.what)),

@@ -16,7 +16,6 @@
 #include "kinemark/data/name_index.h"
 #include "kinemark/stages/motion/foundations/internal/body_parts.h"
 #include "kinemark/stages/motion/foundations/internal/hypotheses.h"
-#include "kinemark/stages/motion/foundations/mirror.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 
 namespace kinemark::motion {
@@ -230,11 +229,9 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   out.frame = frame_idx;
 
   internal::SharedPrior prior = internal::prior_of(body);
-  const double mirrored = internal::explain_mirrored(body, prior, frame);
-  if (mirrored >= kMirrored) {
-    out.findings.push_back({.marker = "", .partner = "", .score = mirrored, .rivals = {}});
-    frame = internal::mirror_image(std::move(frame));
-  }
+  out.mirrored = internal::explain_mirrored(body, prior, frame) >= kMirrored;
+  if (out.mirrored) frame = internal::mirror_image(std::move(frame));
+  const internal::SeenFrame seen = frame;
   std::vector<internal::SeenFrame> moving;
   for (const auto* movement : movements) {
     auto frames = frames_of(body, *movement, options);
@@ -313,9 +310,7 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
       const int a = marker_at(index(finding.marker)), b = marker_at(index(finding.partner));
       const auto by_names = internal::prior_of(body);
       finding.either =
-          mean_score(body, by_names, {frame_at(still, columns, frame_idx, kHalf, options.still_sd_m)}, a, b) -
-              mean_score(body, by_names, moving, a, b) <
-          kRival;
+          mean_score(body, by_names, {seen}, a, b) - mean_score(body, by_names, moving, a, b) < kRival;
     }
   }
   return out;
@@ -369,7 +364,6 @@ std::string describe_mirrored(const std::string& recording) {
 }
 
 std::string describe(const FoundationFinding& finding, const std::string& recording) {
-  if (finding.marker.empty()) return describe_mirrored(recording);
   std::string out;
   if (!finding.partner.empty()) {
     out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, recording);

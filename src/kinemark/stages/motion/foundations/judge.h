@@ -35,7 +35,7 @@ struct FoundationOptions {
 
 /// A marker that lies elsewhere, or a pair that is exchanged.
 struct FoundationFinding {
-  std::string marker;   ///< as in the recording; empty: all of it is mirrored
+  std::string marker;   ///< as in the recording
   std::string partner;  ///< exchanged with it; empty: the marker lies elsewhere
   Eigen::Vector3d shift_m =
       Eigen::Vector3d::Zero();  ///< seen less expected: forward, up, to the right of the body
@@ -52,6 +52,7 @@ struct FoundationJudgement {
   std::vector<std::string> judged;          ///< markers that were asked
   std::int64_t frame = -1;                  ///< middle of the stillest part, which was judged; -1: none
   int movements = 0;                        ///< recordings that it was compared with
+  bool mirrored = false;                    ///< its mirror image shows the body; findings are that image's
 };
 
 /// Judge the stillest part of a recording against a body, and against movements of the same session, in which
@@ -63,11 +64,18 @@ struct FoundationJudgement {
     std::span<const data::Trajectories* const> movements, const FoundationOptions& options = {});
 
 /// Pairs of pelvis and legs that are exchanged throughout a recording in which somebody moves:
-/// FoundationOptions:: moving_frames frames are asked, and the score is the mean over them. Singles are not
+/// FoundationOptions::moving_frames frames are asked, and the score is the mean over them. Singles are not
 /// asked, as a posture may explain them. Fails where the options do.
 [[nodiscard]] Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
                                                                     const data::Trajectories& movement,
                                                                     const FoundationOptions& options = {});
+
+/// Whether the mirror image of a recording of any movement shows the body, and the recording does not: in
+/// most of three evenly picked frames. False where fewer than six markers of the body are seen. About 0.1 s.
+[[nodiscard]] bool shows_mirrored_body(const StandingBody& body, const data::Trajectories& recording);
+
+/// "cal.c3d shows a mirrored body: ...", with the causes that look alike.
+[[nodiscard]] std::string describe_mirrored(const std::string& recording);
 
 /// "LTOE and LHEE are exchanged in the static trial" or "LKNE lies 52 mm (SD 8) from where it should in the
 /// static trial: 48 mm forward, 20 mm down", with the rivals.
