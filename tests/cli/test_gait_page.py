@@ -3,11 +3,11 @@
 """The gait report of kinemark analyze, from outside: figures, tables, page, norms."""
 
 import csv
-import html.parser
+import json
 import math
 import re
 
-from support import CommandTest, real_file
+from support import CommandTest, real_file, report_data
 from test_gait import NAMES, STRIDE_S, walk
 from test_measures import write_trc
 
@@ -40,42 +40,6 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-class Outline(html.parser.HTMLParser):
-    """Names of figures and sections, cells of tables; unclosed elements are an error."""
-
-    VOID = {"meta", "br", "img", "input", "link", "hr"}
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.figures, self.sections, self.cells, self.text = [], [], [], [], []
-        self.feed(text)
-        assert not self.open, self.open
-
-    def handle_starttag(self, tag, attributes):
-        if tag in self.VOID:
-            return
-        self.open.append(tag)
-        name = dict(attributes).get("id")
-        if tag == "figure":
-            self.figures.append(name)
-        if tag == "h2":
-            self.sections.append(name)
-        if tag in ("td", "th"):
-            self.cells.append("")
-
-    def handle_startendtag(self, tag, attributes):
-        pass
-
-    def handle_endtag(self, tag):
-        assert self.open and self.open[-1] == tag, (tag, self.open[-3:])
-        self.open.pop()
-
-    def handle_data(self, data):
-        self.text.append(data)
-        if self.open and self.open[-1] in ("td", "th", "span") and self.cells:
-            self.cells[-1] += data
-
-
 class GaitPage(CommandTest):
     def setUp(self):
         super().setUp()
@@ -88,21 +52,25 @@ class GaitPage(CommandTest):
         result = self.good("analyze", self.file, "--measures", "gait", "--angles", self.motion, "--refits", 39, *arguments, **options)
         return result
 
-    def outline(self):
-        return Outline(self.page.read_text(encoding="utf-8"))
+    def shown(self):
+        """What the page shows."""
+        return json.loads(report_data(self.page.read_text(encoding="utf-8")))["result"]
+
+    def figures_shown(self):
+        return [figure["name"] for figure in self.shown()["figures"]]
 
     def test_page_and_figures(self):
         self.draw("--report", self.page, "--figures", self.figures)
-        outline = self.outline()
+        shown, drawn = self.shown(), self.figures_shown()
         self.assertEqual(
-            outline.figures,
+            drawn,
             ["gait_kinematics", "gait_hip_flexion_knee_flexion", "gait_knee_flexion_ankle_dorsiflexion"],
         )
-        self.assertEqual([s for s in outline.sections if s != "remarks"], ["figures", "measures", "events", "reading"])
-        self.assertIn("Stride time", outline.cells)
-        self.assertIn("Pelvic tilt (deg)", outline.text)
+        self.assertIn("Stride time", [row["title"] for row in shown["measures"]])
+        self.assertTrue(shown["events"])
+        self.assertIn("Pelvic tilt (deg)", shown["figures"][0]["body"])
         names = {p.name for p in self.figures.iterdir()}
-        for stem in outline.figures:
+        for stem in drawn:
             self.assertIn(f"{stem}.svg", names)
         self.assertLessEqual({"gait_curves.csv", "gait_pairs.csv"}, names)
         for picture in self.figures.glob("*.png"):
@@ -133,7 +101,7 @@ class GaitPage(CommandTest):
         own = {r["own_sd"] for r in rows_of(self.figures / "gait_curves.csv") if r["cycle"] == "mean"}
         self.assertEqual(own, {"3"})
         self.assertIn("own error", (self.figures / "gait_kinematics.svg").read_text())
-        self.assertIn("Dotted lines hold 95 %", self.page.read_text())
+        self.assertTrue(self.shown()["own_error"])
 
     def norm(self, columns=("hip_flexion", "knee_angle"), name="norm.csv", shift=0.0):
         lines = ["curve,percent,mean,sd,unit,source"]
@@ -145,10 +113,11 @@ class GaitPage(CommandTest):
     def test_norm_is_drawn_with_its_source(self):
         measures = self.write("times.csv", "measure,low,high,unit\nstride_time,1.0,1.2,s\ncadence,90,95,1/min\n")
         self.draw("--figures", self.figures, "--figure-formats", "svg", "--report", self.page, "--norm", self.norm(), "--norm", measures)
-        text = self.page.read_text(encoding="utf-8")
-        self.assertIn("Twenty adults (mean ± 2 SD at each point)", text)
-        self.assertIn("90 to 95", text)
-        self.assertIn("above", text)
+        shown = self.shown()
+        self.assertEqual("Twenty adults (mean ± 2 SD at each point)", shown["curve_norm"])
+        cadence = next(row for row in shown["measures"] if row["title"] == "Cadence")
+        self.assertEqual(cadence["norm"], "90 to 95")
+        self.assertTrue(any(word.startswith("above") for word in cadence["judgement"]), cadence)
         rows = [r for r in rows_of(self.figures / "gait_curves.csv") if r["cycle"] == "mean"]
         self.assertEqual({r["quantity"] for r in rows if r["norm_low"]}, {"hip_flexion", "knee_flexion"})
         for row in rows:
@@ -178,7 +147,7 @@ class GaitPage(CommandTest):
         other = self.write("other.csv", "curve,percent,low,high\nelbow,0,1,2\nelbow,100,1,2\n")
         result = self.draw("--report", self.page, "--norm", other)
         self.assertIn("the norm's elbow fits no curve here; drawn are", result.err)
-        self.assertIn("gait_kinematics", self.outline().figures)
+        self.assertIn("gait_kinematics", self.figures_shown())
 
     def test_norm_in_another_unit_is_not_drawn(self):
         other = self.write("other.csv", "curve,percent,low,high,unit\nknee_angle,0,1,2,rad\nknee_angle,100,1,2,rad\n")
@@ -217,13 +186,13 @@ class GaitPage(CommandTest):
         self.motion.write_text("\n".join(text) + "\n")
         result = self.draw("--report", self.page)
         self.assertRegex(result.err, r"Left: 1 curve without a value in \d cycles: knee_angle_l")
-        self.assertIn("gait_kinematics", self.outline().figures)
+        self.assertIn("gait_kinematics", self.figures_shown())
 
     def test_a_recording_without_angles_still_has_its_measures(self):
         result = self.good("analyze", self.file, "--measures", "gait", "--refits", 0, "--report", self.page)
         self.assertIn("no angles are drawn", result.err)
-        self.assertEqual(self.outline().figures, [])
-        self.assertIn("Stride time", self.outline().cells)
+        self.assertEqual(self.figures_shown(), [])
+        self.assertIn("Stride time", [row["title"] for row in self.shown()["measures"]])
 
     def test_paths_and_walking_share_a_page(self):
         self.good("analyze", self.file, "--measures", "gait,path_length", "--angles", self.motion, "--refits", 0, "--report", self.page)
@@ -254,7 +223,7 @@ class GaitPage(CommandTest):
         walking, still = (real_file(f"btk-others/PiG_{name}_FF.c3d") for name in ("Motion3", "Calibration3"))
         cycles = self.folder / "cycles.csv"
         result = self.good("analyze", walking, "--segments", "pig", "--static", still, "--refits", 0, "--report", self.page, "--figures", self.figures, "--figure-formats", "svg", "--write-cycles", cycles)
-        self.assertTrue({"gait_kinematics", "gait_kinetics", "gait_hip_flexion_knee_flexion"} <= set(self.outline().figures), result.err)
+        self.assertTrue({"gait_kinematics", "gait_kinetics", "gait_hip_flexion_knee_flexion"} <= set(self.figures_shown()), result.err)
         self.assertNotIn("walking is not drawn", result.err)
         rows = [r for r in rows_of(self.figures / "gait_curves.csv") if r["cycle"] == "mean"]
         knee = [float(r["value"]) for r in rows if r["curve"] == "LKneeAngles_flexion"]

@@ -450,7 +450,7 @@ export interface LiveCoordinate {
 export interface ResultSummary {
   /** Which page this is. */ schema: "kinemark.result_report";
   /** Its version. */ schema_version: 1;
-  /** Which result it shows. */ kind: "joints" | "scale" | "calibrate" | "reconstruct" | "study" | "measures";
+  /** Which result it shows. */ kind: "joints" | "scale" | "calibrate" | "reconstruct" | "study" | "measures" | "gait";
   /** Name for people. */ trial: string;
   /** `attention`: look before use. */ verdict: Verdict;
   /** Version of the program. */ version: string;
@@ -461,7 +461,7 @@ export interface ResultSummary {
 }
 
 /** One of these, by `summary.kind`. */
-export type ResultPage = JointsPage | ScalePage | CalibratePage | ReconstructPage | StudyPage | MeasuresPage;
+export type ResultPage = JointsPage | ScalePage | CalibratePage | ReconstructPage | StudyPage | MeasuresPage | GaitPage;
 
 /** The page of joints. */
 export interface JointsPage {
@@ -502,6 +502,13 @@ export interface StudyPage {
 export interface MeasuresPage {
   /** Envelope. */ summary: ResultSummary & { kind: "measures" };
   /** The document of the command, and what the page adds. */ result: MeasuresResult;
+  /** No space view. */ scene: null;
+}
+
+/** The page of a gait report. */
+export interface GaitPage {
+  /** Envelope. */ summary: ResultSummary & { kind: "gait" };
+  /** What it shows. */ result: GaitResult;
   /** No space view. */ scene: null;
 }
 
@@ -885,6 +892,60 @@ export interface StudyRow {
   /** Which of the two, in words; null: none. */ expected_is: string | null;
   /** At most, or [at least, at most]; null: nothing was asked. */ bound: number | null | [number | null, number | null];
   /** Within the bound; null: nothing was asked. */ pass: boolean | null;
+}
+
+/** A gait report. */
+export interface GaitResult {
+  /** Left and right. */ feet: [GaitFoot, GaitFoot];
+  /** Where the angles come from; null: none is drawn. */ angles_from: string | null;
+  /** Lengths and speed are those on its belt. */ treadmill: boolean;
+  /** Coverage of the intervals of measures, 0 to 1; null: there are none. */ level: number | null;
+  /** Who the norms of measures are from. */ norm_sources: string[];
+  /** The norms of curves in words; empty: none is drawn. */ curve_norm: string;
+  /** The figures show what measurement alone does to a curve. */ own_error: boolean;
+  /** Curves over the cycle, and pairs of angles. */ figures: DrawnFigure[];
+  /** Measures of time and distance. */ measures: GaitMeasure[];
+  /** How far the walk is from the norm. */ deviation: GaitScores;
+  /** Ascending in time. */ events: GaitPageEvent[];
+}
+
+/** What the cycles of a foot have in common. */
+export interface GaitFoot {
+  /** From strike to strike. */ cycles: number;
+  /** Cycles and toe-off in words. */ in_words: string;
+}
+
+/** One measure of left, right and both feet beside the norm, as shown. */
+export interface GaitMeasure {
+  /** Name for people. */ title: string;
+  /** Span measured; empty: all of it. */ region: string;
+  /** Unit of the values. */ unit: string;
+  /** Left, right, both: value and interval; empty: not there. */ value: [string, string, string];
+  /** `below`, `within` or `above` the norm, with what the interval says; empty: no norm. */ judgement: [string, string, string];
+  /** The norm's range; empty: none. */ norm: string;
+}
+
+/** Movement Analysis Profile and Gait Profile Score (Baker et al. 2009). */
+export interface GaitScores {
+  /** The profile; empty: no norm has means. */ scores: GaitScore[];
+  /** Gait Profile Score of left and right, deg; null: one of the nine is not known. */ side_deg: [number | null, number | null];
+  /** Gait Profile Score of both sides, deg; null: one of the fifteen is not known. */ both_deg: number | null;
+  /** Which of the nine are not known. */ lacking: string[];
+}
+
+/** Root mean square over the cycle of the mean curve less the norm's mean. */
+export interface GaitScore {
+  /** Name of the angle. */ title: string;
+  /** Left and right, deg; null: not known at every point. */ value_deg: [number | null, number | null];
+}
+
+/** A strike or an off of a foot. */
+export interface GaitPageEvent {
+  /** Left or Right. */ foot: string;
+  /** Foot Strike or Foot Off. */ event: string;
+  /** When, s of the recording's clock. */ time_s: number;
+  /** Standard deviation of that time, s; null: not known. */ sd_s: number | null;
+  /** How it was found. */ by: string;
 }
 
 /** An answer with a status of 400 and above. */

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Made-up results of every kind that a result page shows.
-import type { CalibrateResult, Joint, JointsResult, MeasuresResult, PackedScene, ReconstructResult, ResultPage, ResultSummary, ScaleResult, StudyResult } from "../src/page_types.ts";
+import type { CalibrateResult, GaitResult, Joint, JointsResult, MeasuresResult, PackedScene, ReconstructResult, ResultPage, ResultSummary, ScaleResult, StudyResult } from "../src/page_types.ts";
 import { hostile } from "./simulated.ts";
 import { deflated } from "./packed.ts";
 import { pack, simulatedMarkers } from "./simulated_markers.ts";
@@ -129,6 +129,18 @@ const measures: MeasuresResult = {
   ],
 };
 
+const gait: GaitResult = {
+  feet: [{ cycles: 3, in_words: "Left: 3 cycles, toe-off at 60.0 ± 0.8 % (0.66 s)" }, { cycles: 1, in_words: "Right: 1 cycle, toe-off at 61.0 % (0.67 s)" }],
+  angles_from: `Plug-in Gait ${hostile}`, treadmill: true, level: 0.95, norm_sources: ["B"], curve_norm: "A book (mean ± 2 SD at each point)", own_error: true,
+  figures: [{ name: "gait_kinematics", caption: `Kinematics ${hostile}`, body: measures.figures[0]!.body }],
+  measures: [
+    { title: "Stride time", region: "", unit: "s", value: ["1.00 [0.99 to 1.01]", "1.25", ""], judgement: ["below", "within", ""], norm: "1.1 to 1.3" },
+    { title: `Speed ${hostile}`, region: "", unit: "m/s", value: ["", "", "1.31"], judgement: ["", "", ""], norm: "" },
+  ],
+  deviation: { scores: [{ title: "Knee flexion", value_deg: [6.1, null] }], side_deg: [7.2, null], both_deg: null, lacking: ["Hip rotation"] },
+  events: [{ foot: "Left", event: "Foot Strike", time_s: 0.5, sd_s: 0.012, by: "markers" }, { foot: "Right", event: "Foot Off", time_s: 0.62, sd_s: null, by: `file ${hostile}` }],
+};
+
 /** Pages of results, by kind. */
 export const simulatedResults = (): Record<ResultSummary["kind"], ResultPage> => ({
   joints: { summary: summaryOf("joints", { clock }), result: joints, scene: sceneOfJoints() },
@@ -137,4 +149,5 @@ export const simulatedResults = (): Record<ResultSummary["kind"], ResultPage> =>
   reconstruct: { summary: summaryOf("reconstruct", { clock }), result: reconstruct, scene: { ...simulatedMarkers(frames).scene, cameras: [cameraAt("A", -0.5), cameraAt("B", 0.5)] } },
   study: { summary: summaryOf("study"), result: study, scene: null },
   measures: { summary: summaryOf("measures"), result: measures, scene: null },
+  gait: { summary: summaryOf("gait"), result: gait, scene: null },
 });

@@ -29,12 +29,38 @@ export const ofSimulatedResults: Record<string, Check> = {
     assert.ok(((await page.locator("h1").textContent()) ?? "").endsWith(hostile));
     assert.equal(await page.locator("#page img, #page script").count(), 0);
   },
+};
+
+/** All but a gait report, which is printed. */
+export const foldsFindings: Record<string, Check> = {
   "findings of a kind are folded, a single one is not": async ({ page }) => {
     assert.equal(await page.locator(".group.single .text").first().textContent(), `too far ${hostile}`);
     assert.equal(await page.locator("details.group summary .text").textContent(), "2 remarks");
     assert.equal(await page.locator("details.group li").first().isVisible(), false);
     await page.locator("details.group summary").click();
     assert.equal(await page.locator("details.group li").first().isVisible(), true);
+  },
+};
+
+/** What only a gait report has. */
+export const ofGait: Record<string, Check> = {
+  "what needs attention comes first, remarks are open, as it is printed": async ({ page }) => {
+    assert.equal(await page.locator("#attention .group.single .text").first().textContent(), `too far ${hostile}`);
+    assert.equal(await page.locator("#attention details").count(), 0);
+    assert.equal(await page.locator("#remarks li").count(), 2);
+  },
+  "sections are those that the walk has, and links lead to them": async ({ page }) => {
+    const shown = await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id));
+    assert.deepEqual(shown, ["attention", "figures", "measures", "deviation", "events", "remarks", "reading", "settings"]);
+    assert.deepEqual(await page.locator("nav.bar a").evaluateAll((all) => all.map((a) => a.getAttribute("href")!.slice(1))), shown);
+  },
+  "a value outside of the norm stands out, one within does not": async ({ page }) => {
+    assert.equal(await page.locator("#measures small.outside").allTextContents().then((all) => all.join()), "below");
+    assert.match((await page.locator("#measures .lead").textContent())!, /95 % interval\. Norm: B\. On a treadmill/);
+    assert.equal(await page.locator(".tile").nth(3).locator("dd").last().textContent(), "1 of 1 outside the norm");
+  },
+  "a score that is not known says what it lacks": async ({ page }) => {
+    assert.match((await page.locator("#deviation").textContent())!, /No Gait Profile Score of both sides: .* are Hip rotation\./);
   },
 };
 

@@ -14,7 +14,7 @@ import { simulatedMarkers, simulatedScene, simulatedWalk } from "../simulated_ma
 import { alwaysOfClean, ofSimulatedClean } from "./clean.ts";
 import { simulatedBodies } from "../simulated_meshes.ts";
 import { simulatedResults } from "../simulated_results.ts";
-import { alwaysOfResults, ofJoints, ofSimulatedResults, savesFigures } from "./results.ts";
+import { alwaysOfResults, foldsFindings, ofGait, ofJoints, ofSimulatedResults, savesFigures } from "./results.ts";
 import { standsWhereItProjects } from "./projection.ts";
 import { ofCameras, ofPair, ofRecording, ofRegions, simulatedPair } from "./features.ts";
 import { showsMeshes } from "./meshes.ts";
@@ -231,7 +231,7 @@ if (given.length === 0) {
   failed += await run(page("walk.html", simulatedWalk()), { ...walksInCycles, ...alwaysOfMarkers });
   failed += await run(recording, ofRecording);
   for (const [kind, data] of Object.entries(simulatedResults())) {
-    const checks = { ...ofSimulatedResults, ...savesFigures, ...(kind === "joints" ? { ...ofRegions, ...ofJoints } : kind === "calibrate" || kind === "reconstruct" ? ofCameras : {}), ...alwaysOfResults };
+    const checks = { ...ofSimulatedResults, ...savesFigures, ...(kind === "gait" ? ofGait : foldsFindings), ...(kind === "joints" ? { ...ofRegions, ...ofJoints } : kind === "calibrate" || kind === "reconstruct" ? ofCameras : {}), ...alwaysOfResults };
     failed += await run(page(`${kind}.html`, data), checks);
   }
   failed += await run(page("unknown.html", { summary: { schema: "kinemark.other", schema_version: 9 }, series: {} }), ofUnknown);

@@ -20,11 +20,12 @@ struct GaitPageFacts {
   std::string command_line;             ///< as typed; may be empty
   std::vector<data::InputFile> inputs;  ///< files that were read
   std::vector<std::string> warnings;    ///< of the job; one sentence each
+  std::vector<data::Gate> gates;        ///< bounds that the job had to meet
 };
 
-/// One HTML page that needs nothing else and runs nothing: the figures, measures left and right with
-/// intervals and norms, scores, events, what must be known, how to read it. The same sheet gives the same
-/// bytes.
+/// One HTML page that needs nothing else, made by the viewer (docs/formats/pages.md, GaitPage): what must be
+/// known, the figures, measures left and right with intervals and norms, scores, events, how to read it. The
+/// same sheet gives the same bytes.
 [[nodiscard]] std::string gait_page(const GaitSheet& sheet, const GaitDeviation& deviation,
                                     std::span<const GaitFigure> figures, const GaitPageFacts& facts);
 

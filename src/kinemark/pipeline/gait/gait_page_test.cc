@@ -5,17 +5,32 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "kinemark/pipeline/gait/testing/known_curves.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using data::Side;
+using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 std::string page_of(const GaitSheet& sheet, const GaitPageFacts& facts = {.angles_from = "Plug-in Gait"}) {
   return gait_page(sheet, gait_deviation(sheet), gait_figures(sheet), facts);
+}
+
+// What the page shows.
+json shown(const std::string& page) {
+  const std::string begin = "id=\"kinemark-data\">";
+  const auto first = page.find(begin) + begin.size();
+  return json::parse(page.substr(first, page.find("</script>", first) - first));
+}
+
+json result_of(const GaitSheet& sheet, const GaitPageFacts& facts = {.angles_from = "Plug-in Gait"}) {
+  return shown(page_of(sheet, facts))["result"];
 }
 
 GaitSheet page_walk(const GaitNorms& norms = {}, double sd_deg = 0.5) {
@@ -29,90 +44,112 @@ GaitNorms all_norms() {
   return out;
 }
 
-TEST(GaitPage, HoldsFiguresMeasuresEventsAndHowToReadThem) {
-  const auto page = page_of(page_walk());
-  EXPECT_THAT(page, ::testing::StartsWith("<!DOCTYPE html>"));
-  EXPECT_THAT(page, HasSubstr("<h1>Gait report: walk.c3d</h1>"));
-  EXPECT_THAT(page, HasSubstr("Left: 3 cycles, toe-off at 60.0"));
-  EXPECT_THAT(page, HasSubstr("<figure id=\"gait_kinematics\">\n<svg"));
-  EXPECT_THAT(page,
-              HasSubstr("<th scope=\"row\">Stride time</th><td>s</td><td class=\"number\">1 [0.99 to 1.01]"));
-  EXPECT_THAT(page, HasSubstr("In brackets the 95 % interval."));
-  EXPECT_THAT(page, HasSubstr("<td>Left</td><td>Foot Strike</td><td class=\"number\">0.000</td>"));
-  EXPECT_THAT(page, HasSubstr("O'Connor 2007"));
-  EXPECT_THAT(page, HasSubstr("Dotted lines hold 95 %"));
-  EXPECT_THAT(page, HasSubstr("Angles: Plug-in Gait."));
+json row_of(const json& result, const std::string& title) {
+  for (const auto& row : result["measures"])
+    if (row["title"] == title) return row;
+  return nullptr;
 }
 
-TEST(GaitPage, WhereNoAngleIsDrawnItSaysSo) {
+TEST(GaitPage, HoldsFiguresMeasuresAndEvents) {
+  const auto page = page_of(page_walk());
+  EXPECT_THAT(page, StartsWith("<!doctype html>"));
+  const auto data = shown(page);
+  EXPECT_EQ(data["summary"]["kind"], "gait");
+  EXPECT_EQ(data["summary"]["trial"], "walk.c3d");
+  const auto& result = data["result"];
+  EXPECT_EQ(result["feet"][0]["cycles"], 3);
+  EXPECT_THAT(result["feet"][0]["in_words"].get<std::string>(),
+              StartsWith("Left: 3 cycles, toe-off at 60.0"));
+  EXPECT_EQ(result["figures"][0]["name"], "gait_kinematics");
+  EXPECT_THAT(result["figures"][0]["body"].get<std::string>(), StartsWith("<svg"));
+  const auto row = row_of(result, "Stride time");
+  EXPECT_EQ(row["unit"], "s");
+  EXPECT_THAT(row["value"][0].get<std::string>(), StartsWith("1 [0.99 to 1.01]"));
+  EXPECT_EQ(result["level"], 0.95);
+  EXPECT_EQ(result["events"][0]["foot"], "Left");
+  EXPECT_EQ(result["events"][0]["event"], "Foot Strike");
+  EXPECT_EQ(result["events"][0]["time_s"], 0.0);
+  EXPECT_THAT(result["events"][0]["by"].get<std::string>(), HasSubstr("O'Connor 2007"));
+  EXPECT_EQ(result["own_error"], true);
+  EXPECT_EQ(result["angles_from"], "Plug-in Gait");
+}
+
+TEST(GaitPage, WhereNoAngleIsDrawnNoneHasASource) {
   auto moment = testing::known_curve("LHipMoment x", Side::left);
   moment.curves.quantity = data::Quantity::moment;
   for (const auto& curves : {std::vector<SheetInput>{}, std::vector{moment}}) {
     const auto page = page_of(make_gait_sheet("walk.c3d", curves, testing::known_gait(), {}));
-    EXPECT_THAT(page, HasSubstr("Angles: none."));
+    EXPECT_TRUE(shown(page)["result"]["angles_from"].is_null());
     EXPECT_THAT(page, Not(HasSubstr("Plug-in Gait")));
   }
 }
 
-TEST(GaitPage, NeedsNothingElseAndRunsNothing) {
-  const auto page = page_of(page_walk());
-  for (const char* word : {"<script", "src=", "href=", "@import", "url("})
-    EXPECT_THAT(page, Not(HasSubstr(word)));
-}
-
-TEST(GaitPage, SaysNothingOfWhatIsAbsent) {
-  const auto page = page_of(page_walk({}, 0.0));
-  EXPECT_THAT(page, Not(HasSubstr("Dotted lines")));
-  EXPECT_THAT(page, HasSubstr("How exact the angles are is not known"));
-  EXPECT_THAT(page, Not(HasSubstr("Norm")));
-  EXPECT_THAT(page, Not(HasSubstr("id=\"deviation\"")));
-  EXPECT_THAT(page, Not(HasSubstr("id=\"remarks\"")));
-  EXPECT_THAT(page, Not(HasSubstr("treadmill")));
+TEST(GaitPage, HoldsNothingOfWhatIsAbsent) {
+  const auto data = shown(page_of(page_walk({}, 0.0)));
+  const auto& result = data["result"];
+  EXPECT_EQ(result["own_error"], false);
+  EXPECT_EQ(result["curve_norm"], "");
+  EXPECT_TRUE(result["norm_sources"].empty());
+  EXPECT_TRUE(result["deviation"]["scores"].empty());
+  EXPECT_EQ(result["treadmill"], false);
+  EXPECT_TRUE(data["summary"]["groups"].empty());
+  EXPECT_EQ(data["summary"]["verdict"], "good");
 }
 
 TEST(GaitPage, ComparesWithTheNormAndNamesItsSource) {
-  const auto page = page_of(page_walk(all_norms()));
-  EXPECT_THAT(page, HasSubstr("Norm: A book (mean \u00b1 2 SD at each point)"));
-  EXPECT_THAT(page, HasSubstr("<span class=\"judged beyond\">below</span>"));
-  EXPECT_THAT(page, HasSubstr("<td class=\"number\">1.1 to 1.3</td>"));
-  EXPECT_THAT(page, HasSubstr("Norm: B."));
+  const auto result = result_of(page_walk(all_norms()));
+  EXPECT_EQ(result["curve_norm"], "A book (mean \u00b1 2 SD at each point)");
+  EXPECT_EQ(result["norm_sources"], json({"B"}));
+  EXPECT_EQ(row_of(result, "Stride time")["judgement"][0], "below");
+  EXPECT_EQ(row_of(result, "Stride time")["norm"], "1.1 to 1.3");
 }
 
-TEST(GaitPage, TheProfileScoreIsGivenWithItsDefinition) {
-  const auto sheet = page_walk(all_norms());
-  const auto page = page_of(sheet);
-  EXPECT_THAT(page, HasSubstr("Baker et al. 2009"));
-  EXPECT_THAT(page,
-              HasSubstr("Gait Profile Score of both sides: 21.1 deg."));  // 30 deg sine: 30 sqrt(50 / 101)
+TEST(GaitPage, TheProfileScoreIsThatOfTheCurves) {
+  const auto full = result_of(page_walk(all_norms()))["deviation"];
+  EXPECT_NEAR(full["both_deg"].get<double>(), 30.0 * std::sqrt(50.0 / 101.0), 0.05);  // a sine of 30 deg
+  EXPECT_TRUE(full["lacking"].empty());
   auto curves = testing::known_walk();
   std::erase_if(curves, [](const SheetInput& one) { return one.curves.id.ends_with("HipAngles z"); });
-  const auto partial = page_of(make_gait_sheet("walk.c3d", curves, testing::known_gait(), all_norms()));
-  EXPECT_THAT(partial, HasSubstr("No Gait Profile Score of both sides"));
-  EXPECT_THAT(partial, HasSubstr("are Hip rotation."));
+  const auto partial =
+      result_of(make_gait_sheet("walk.c3d", curves, testing::known_gait(), all_norms()))["deviation"];
+  EXPECT_TRUE(partial["both_deg"].is_null());
+  EXPECT_EQ(partial["lacking"], json({"Hip rotation"}));
 }
 
 TEST(GaitPage, RemarksOfJobAndSheetOnceEach) {
-  auto sheet = make_gait_sheet("walk", {testing::known_curve("LKneeAngles x", Side::left, 1)},
-                               testing::known_gait(1, 0), {});
-  const auto page = page_of(sheet, {.angles_from = "x", .warnings = {sheet.remarks[0], "a < b"}});
-  EXPECT_THAT(page, HasSubstr("<li>a &lt; b</li>"));
-  const auto first = page.find("one cycle alone has no deviation");
-  ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(page.find("one cycle alone has no deviation", first + 1), std::string::npos);
+  const auto sheet = make_gait_sheet("walk", {testing::known_curve("LKneeAngles x", Side::left, 1)},
+                                     testing::known_gait(1, 0), {});
+  const auto data = shown(page_of(sheet, {.angles_from = "x", .warnings = {sheet.remarks[0], "a < b"}}));
+  std::vector<std::string> said;
+  for (const auto& group : data["summary"]["groups"])
+    for (const auto& item : group["items"]) said.push_back(item["text"]);
+  auto expected = sheet.remarks;
+  expected.emplace_back("a < b");
+  EXPECT_THAT(said, ::testing::UnorderedElementsAreArray(expected));
 }
 
-TEST(GaitPage, NamesAreEscaped) {
-  const auto sheet =
-      make_gait_sheet("<b>&", {testing::known_curve("L<i>Angles x", Side::left)}, testing::known_gait(), {});
-  const auto page = page_of(sheet, {.angles_from = "<u>", .command_line = "kinemark <x>"});
-  for (const char* word : {"<b>", "<i>", "<u>", "<x>"}) EXPECT_THAT(page, Not(HasSubstr(word)));
-  EXPECT_THAT(page, HasSubstr("&lt;b&gt;&amp;"));
+TEST(GaitPage, AMissedBoundComesFirstAndOnePassedIsNotSaid) {
+  const auto data = shown(page_of(
+      page_walk(),
+      {.gates = {{.name = "feet", .sentence = "fine"},
+                 {.name = "recording", .passed = false, .sentence = "'LHEE' and 'LTOE' are exchanged"}}}));
+  EXPECT_EQ(data["summary"]["verdict"], "attention");
+  ASSERT_EQ(data["summary"]["groups"].size(), 1U);
+  EXPECT_EQ(data["summary"]["groups"][0]["items"][0]["text"], "'LHEE' and 'LTOE' are exchanged");
+}
+
+TEST(GaitPage, NamesAreTextInIt) {
+  const auto sheet = make_gait_sheet("</script><b>", {testing::known_curve("L<i>Angles x", Side::left)},
+                                     testing::known_gait(), {});
+  const auto page = page_of(sheet, {.angles_from = "</script><u>", .command_line = "kinemark </script><x>"});
+  for (const char* word : {"</script><b>", "</script><u>", "</script><x>"})
+    EXPECT_THAT(page, Not(HasSubstr(word)));
 }
 
 TEST(GaitPage, ATreadmillIsSaid) {
   auto gait = testing::known_gait();
   gait.treadmill = true;
-  EXPECT_THAT(page_of(make_gait_sheet("w", testing::known_walk(), gait, {})), HasSubstr("On a treadmill"));
+  EXPECT_EQ(result_of(make_gait_sheet("w", testing::known_walk(), gait, {}))["treadmill"], true);
 }
 
 TEST(GaitPage, TheSameGivesTheSameBytes) {

@@ -94,6 +94,7 @@ Result<std::vector<ResultFile>> GaitDrawing::draw(const std::filesystem::path& p
   if (job_.report.empty()) return files;
   facts.command_line = job_.command_line;
   facts.warnings = outcome.warnings;
+  facts.gates = outcome.gates;
   files.push_back(
       text_file(job_.report, [this, facts = std::move(facts)] { return gait_report_page(*report_, facts); }));
   return files;

@@ -73,7 +73,8 @@ GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome)
                                                  : job.gait.angles.filename().string(),
           .command_line = job.command_line,
           .inputs = inputs_of(outcome),
-          .warnings = outcome.warnings};
+          .warnings = outcome.warnings,
+          .gates = outcome.gates};
 }
 
 // The page of walking alone, or of measures, which shows others too.
