@@ -34,7 +34,7 @@ struct Heeded {
 constexpr std::array kHeeded = {
     Heeded{"IN MOTION start end output", kRecordings | kMotions},
     Heeded{"list", kList},
-    Heeded{"rate edits drop rename frames up rotate doubtful noise", kRecordings},
+    Heeded{"rate unit edits drop rename frames up rotate doubtful noise", kRecordings},
     Heeded{"select refits level", kRecordings | kMotion},
     Heeded{"measures region between", kMeasures},
     Heeded{"model setup no-error-bars torques cutoff", kMotions},

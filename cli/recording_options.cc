@@ -22,6 +22,7 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
   };
   auto& part = recording.selection;
   add("--rate", recording.rate_hz, "HZ", "Frame rate of a file that stores none (.v3d, .amc)");
+  add("--unit", recording.unit, "UNIT", "Unit of a table of coordinates that states none: mm, cm or m");
   add("--edits", recording.edits, "FILE",
       "Journal of edits to apply first: that beside the recording where there is one, none, or a FILE")
       ->default_str(pipeline::kEditsBeside);
@@ -59,6 +60,7 @@ std::string finite_time(const std::string& text) {
 
 void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input) {
   if (!io::needs_rate(input)) recording.rate_hz = 0.0;
+  if (!recording.unit.empty() && !io::may_lack_unit(input)) recording.unit.clear();
 }
 
 }  // namespace kinemark::cli

@@ -14,7 +14,7 @@ def options_in(shown):
 
 
 RECORDING = {
-    "--rate": 50, "--edits": "absent.jsonl", "--select": "L*", "--drop": "LKNE", "--rename": "LKNE=LEFT", "--doubtful": "perhaps",
+    "--rate": 50, "--unit": "mm", "--edits": "absent.jsonl", "--select": "L*", "--drop": "LKNE", "--rename": "LKNE=LEFT", "--doubtful": "perhaps",
     "--frames": "6-20", "--start": 0.05, "--end": 0.2, "--up": "z", "--rotate": "x 90",
 }
 OF_BODY = {**RECORDING, "--select": "?ASI,?PSI,?KNE", "--up": "-y"}

@@ -12,7 +12,7 @@ from test_measures import write_trc
 
 EVERYWHERE = {"--help", "--threads", "--seed", "--force", "--quiet", "--json", "--config", "--save-config"}
 RECORDING = {
-    "--rate": 50, "--edits": "absent.jsonl", "--select": "?HEE,?TOE", "--drop": "SACR", "--rename": "SACR=SACRUM",
+    "--rate": 50, "--unit": "mm", "--edits": "absent.jsonl", "--select": "?HEE,?TOE", "--drop": "SACR", "--rename": "SACR=SACRUM",
     "--frames": "20-380", "--start": 0.4, "--end": 3.9, "--up": "y", "--rotate": "x 90",
 }
 SPANS = {"--list": None, "--region": "part=1s-3s", "--between": "Foot Strike"}

@@ -8,10 +8,11 @@ import shutil
 
 from support import CommandTest, read_csv, report_data, table
 
-OPTIONS = ("--rate", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
+OPTIONS = ("--rate", "--unit", "--edits", "--select", "--drop", "--rename", "--frames", "--start", "--end", "--up", "--rotate", "--doubtful")
 COMMANDS = ("info", "convert", "clean", "ik", "track", "joints", "scale", "measure", "analyze", "report")
 NOT_SENSIBLE = {  # a value of each option, and what is said of it, whatever the command
     "--rate": ("-1", 2, "--rate is -1 Hz; need a number above 0"),
+    "--unit": ("furlong", 2, "--unit: 'furlong' is no unit of length; need mm, cm or m"),
     "--edits": ("absent.jsonl", 4, "absent.jsonl"),
     "--select": ("NOSE", 3, "no marker is named 'NOSE'"),
     "--drop": ("NOSE", 3, "no marker is named 'NOSE'"),
@@ -164,6 +165,14 @@ class RecordingOptionsTest(CommandTest):
         self.refused(2, "rate", "convert", "walk.c3d", "walk.csv", "--rate", 50)
         self.good("convert", "reach.v3d", "walk.c3d", "out", "--to", "csv", "--rate", 50)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()), ["reach.csv", "walk.csv"])
+
+
+    def test_a_unit_is_for_tables_that_state_none(self):
+        self.refused(2, "states the unit of its coordinates", "convert", "walk.c3d", "walk.csv", "--unit", "mm")
+        self.write("reach.csv", "time,A_X,A_Y,A_Z\n" + "".join(f"{0.01 * i:.2f},{100 + i},20,{30 + 10 * i}\n" for i in range(40)))
+        self.refused(3, ["reach.csv", "--unit mm, cm or m"], "convert", "reach.csv", "a.csv")
+        self.good("convert", "reach.csv", "walk.c3d", "out", "--to", "csv", "--unit", "mm")
+        self.assertEqual(read_csv(self.folder / "out/reach.csv")[0]["x_m"], "0.1")
 
 
 class EveryOptionOfAnalyze(CommandTest):

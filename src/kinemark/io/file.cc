@@ -66,7 +66,7 @@ Result<std::size_t> InputFile::read_at(std::size_t offset, std::span<std::byte> 
 Result<std::string> read_begin(const std::filesystem::path& path) {
   const auto file = InputFile::open(path);
   if (!file) return std::unexpected(file.error());
-  std::string begin(512, '\0');
+  std::string begin(16UL << 10, '\0');
   const auto size = file->read_at(0, std::as_writable_bytes(std::span(begin)));
   if (!size) return std::unexpected(size.error());
   begin.resize(*size);

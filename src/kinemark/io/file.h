@@ -39,7 +39,7 @@ class InputFile {
   std::string name_;
 };
 
-/// The first bytes of a file, 512 or all that there are: enough to tell its format.
+/// The first 16 KiB of a file or all that there is: enough to tell its format, also by the labels of a table.
 [[nodiscard]] Result<std::string> read_begin(const std::filesystem::path& path);
 
 /// The whole file as text. Files over `max_bytes` are refused with Code::bad_input.

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/text_dialect.h"
 
 namespace kinemark::io {
 namespace {
@@ -18,7 +20,8 @@ constexpr std::size_t kJudged = 1UL << 20;
 /// What is no larger is for the reader of its format to judge, which knows what it expects.
 Status judge(std::string_view begin, std::size_t size, const std::string& name) {
   if (size <= kJudged) return {};
-  if (const auto zero = begin.find('\0'); zero != std::string_view::npos)
+  if (const auto zero = is_utf16(begin) ? std::string_view::npos : begin.find('\0');
+      zero != std::string_view::npos)
     return fail(Code::bad_input,
                 fmt::format("{}: is no text: byte {} is zero. Nothing more was read.", name, zero + 1));
   if (begin.find_first_of("\r\n") == std::string_view::npos)
@@ -42,12 +45,12 @@ Result<std::string> read_lines_of_text(const std::filesystem::path& path, std::s
   if (file->size() > max_bytes)
     return fail(Code::bad_input, fmt::format("{}: has {} bytes; at most {} are read as text", path.string(),
                                              file->size(), max_bytes));
-  if (file->size() <= kJudged) return text;
+  if (file->size() <= kJudged) return in_plain_dialect(std::move(text));
   text.resize(file->size());
   const auto n = file->read_at(kJudged, std::as_writable_bytes(std::span(text).subspan(kJudged)));
   if (!n) return std::unexpected(n.error());
   text.resize(kJudged + *n);
-  return text;
+  return in_plain_dialect(std::move(text));
 }
 
 }  // namespace kinemark::io

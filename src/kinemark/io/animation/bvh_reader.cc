@@ -89,14 +89,15 @@ Result<JointValues> read_rows(TextLines& lines, std::size_t channels, std::vecto
   return out;
 }
 
-/// Below the root: do the positions of the first frame stand for the offsets? Then they are near them.
-bool stand_for_offsets(const JointTree& tree, const JointValues& values) {
+/// Of the root, or of the joints below it: do the positions of the first frame stand for the offsets? Then
+/// they are near them.
+bool stand_for_offsets(const JointTree& tree, const JointValues& values, bool of_root) {
   double from_offsets = 0.0, from_zero = 0.0;
   std::size_t c = 0;
   for (const auto& joint : tree.joints)
     for (const auto& channel : joint.channels) {
       const double value = values.values[c++];
-      if (channel.is_rotation || joint.parent < 0 || std::isnan(value)) continue;
+      if (channel.is_rotation || (joint.parent < 0) != of_root || std::isnan(value)) continue;
       from_offsets += std::abs(value - joint.offset(channel.axis));
       from_zero += std::abs(value);
     }
@@ -104,10 +105,10 @@ bool stand_for_offsets(const JointTree& tree, const JointValues& values) {
 }
 
 /// Positions instead of offsets, for joints that have all three.
-void let_stand_for_offsets(JointTree& tree) {
+void let_stand_for_offsets(JointTree& tree, bool of_root) {
   for (auto& joint : tree.joints)
-    joint.stands_for_offset =
-        joint.parent >= 0 && std::ranges::count(joint.channels, false, &JointChannel::is_rotation) == 3;
+    if ((joint.parent < 0) == of_root)
+      joint.stands_for_offset = std::ranges::count(joint.channels, false, &JointChannel::is_rotation) == 3;
 }
 
 Result<data::Trial> parse(std::string_view text) {
@@ -137,11 +138,13 @@ Result<data::Trial> parse(std::string_view text) {
   if (*frames != static_cast<double>(values->frames))
     warnings.push_back(fmt::format("the file announces {:.15g} frames and holds {}, which are used", *frames,
                                    values->frames));
-  if (stand_for_offsets(*tree, *values)) {
-    let_stand_for_offsets(*tree);
-    warnings.emplace_back(
-        "positions of joints below the root are those of the offsets in the first frame, and are taken in "
-        "their place");
+  for (const bool of_root : {true, false}) {
+    if (!stand_for_offsets(*tree, *values, of_root)) continue;
+    let_stand_for_offsets(*tree, of_root);
+    warnings.push_back(
+        fmt::format("positions of {} are those of {} in the first frame, and are taken in {} place",
+                    of_root ? "the root" : "joints below the root", of_root ? "its offset" : "the offsets",
+                    of_root ? "its" : "their"));
   }
   auto choice = choose_unit("the file states no unit of length", bvh_units(), extent_of(*tree, *values));
   warnings.push_back(std::move(choice.warning));

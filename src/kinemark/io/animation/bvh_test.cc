@@ -56,6 +56,24 @@ TEST(ParseBvh, JointsAndEndSitesArePointsInMetres) {
   EXPECT_EQ(trial.markers.count_missing(), 0);
 }
 
+TEST(ParseBvh, PositionsOfTheRootStandForItsOffsetWhereTheyAreNearIt) {
+  const auto with_offset = [](const std::string& offset, const std::string& rows) {
+    Text text;
+    text.rows = rows;
+    std::string out = text.join();
+    return good(out.replace(out.find("OFFSET 0 0 0"), 12, "OFFSET " + offset));
+  };
+  // As LaFAN1 has it: the offset is the first position.
+  const auto twice = with_offset("100 90 -500", "100 90 -500 0 0 0 0 0 0\n110 90 -500 0 0 0 0 0 0\n");
+  EXPECT_LT((twice.markers.x(1, 0) - Vector3d(1.1, 0.9, -5.0)).norm(), 1e-12);
+  EXPECT_THAT(twice.warnings,
+              Contains(HasSubstr("positions of the root are those of its offset in the first frame")));
+  // Small positions beside a large offset are beside it.
+  const auto beside = with_offset("0 90 0", "1 0 0 0 0 0 0 0 0\n2 0 0 0 0 0 0 0 0\n");
+  EXPECT_LT((beside.markers.x(1, 0) - Vector3d(0.02, 0.9, 0.0)).norm(), 1e-12);
+  EXPECT_THAT(beside.warnings, Not(Contains(HasSubstr("its offset"))));
+}
+
 TEST(ParseBvh, AnglesAreChannelsInTheOrderOfTheFile) {
   const auto trial = good(Text{}.join());
   EXPECT_THAT(trial.channels.names, ElementsAre("Hips_angles_ZXY", "Arm_angles_ZXY"));

@@ -15,6 +15,7 @@
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/markers/plausible.h"
+#include "kinemark/io/text_dialect.h"
 
 namespace kinemark::io {
 namespace {
@@ -63,10 +64,18 @@ std::string names_of_read_formats() {
   return join_names(names, names.size());
 }
 
+/// The beginning of a file, that of a text in the form that readers expect.
+Result<std::string> read_plain_begin(const std::filesystem::path& path) {
+  auto begin = read_begin(path);
+  const bool is_text = begin && (begin->find('\0') == std::string::npos || is_utf16(*begin));
+  if (is_text) *begin = in_plain_dialect(std::move(*begin));
+  return begin;
+}
+
 /// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
 Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
                                   Eigen::AlignedBox3d& box_m) {
-  const auto begin = read_begin(path);
+  const auto begin = read_plain_begin(path);
   if (!begin) return std::unexpected(begin.error());
   if (begins_keypoints(*begin))
     return fail(
@@ -92,6 +101,19 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
 }
 
 }  // namespace
+
+bool begins_as_markers(const std::filesystem::path& path) {
+  const auto begin = read_plain_begin(path);
+  return begin && std::ranges::any_of(marker_formats(), [&](const MarkerFormat& f) {
+           return f.begins != nullptr && f.begins(*begin);
+         });
+}
+
+bool may_lack_unit(const std::filesystem::path& path) {
+  const auto begin = read_plain_begin(path);
+  const MarkerFormat* format = begin ? format_of(*begin, lower_extension(path)) : nullptr;
+  return format != nullptr && format->may_lack_unit;
+}
 
 bool needs_rate(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);

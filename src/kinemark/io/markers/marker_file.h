@@ -13,7 +13,8 @@ namespace kinemark::io {
 
 /// Options of read_markers().
 struct MarkerReadOptions {
-  double rate_hz = 0.0;  ///< of the frames, for files that store none (Visual3D text, AMC); 0: not given
+  double rate_hz = 0.0;   ///< of the frames, for files that store none (Visual3D text, AMC); 0: not given
+  std::string unit = {};  ///< of coordinates, for tables that state none: "mm"; empty: not given
   std::filesystem::path skeleton = {};  ///< .asf of an AMC; empty: the one beside it. Other formats have none
 };
 
@@ -31,6 +32,13 @@ struct MarkerReadOptions {
 
 /// True for a file format without a frame rate, by its extension: read_markers() then needs one.
 [[nodiscard]] bool needs_rate(const std::filesystem::path& path);
+
+/// True for a file whose content, whatever its ending, says that it holds markers.
+[[nodiscard]] bool begins_as_markers(const std::filesystem::path& path);
+
+/// True for a file whose format need not state the unit of its coordinates, by its content: read_markers()
+/// then heeds MarkerReadOptions::unit where the file states none.
+[[nodiscard]] bool may_lack_unit(const std::filesystem::path& path);
 
 /// Code::usage, naming what is supported, when write_markers() knows no format of that extension.
 [[nodiscard]] Status check_marker_format(const std::filesystem::path& path);

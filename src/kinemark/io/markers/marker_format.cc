@@ -14,6 +14,7 @@
 #include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/recording/mcap_markers.h"
+#include "kinemark/io/text/marker_table.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/io/text/v3d.h"
@@ -34,10 +35,11 @@ bool begins_c3d(std::string_view begin) {
   return begin.size() > 1 && begin[1] == '\x50' && begin.find('\0') != std::string_view::npos;
 }
 
-/// A text that begins with `word`, or with a byte-order mark before it.
+/// A text that begins with `word`, or with a byte-order mark or a quote before it.
 bool begins_with(std::string_view begin, std::string_view word) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
+  if (begin.starts_with('"')) begin.remove_prefix(1);
   return begin.starts_with(word);
 }
 
@@ -97,8 +99,8 @@ Result<data::Trial> read_v3d_trial(const fs::path& path, ReadOptions options, Bo
 }
 
 template <VendorExport which>
-Result<data::Trial> read_export(const fs::path& path, ReadOptions, Box) {
-  return read_vendor_export(path, which);
+Result<data::Trial> read_export(const fs::path& path, ReadOptions options, Box) {
+  return read_vendor_export(path, which, options.unit);
 }
 
 /// Several files: pipeline::write_motion_bids() lets them appear together.
@@ -191,6 +193,11 @@ constexpr std::array kFormats = {
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::phasespace>,
                  .read = read_export<VendorExport::phasespace>},
+    MarkerFormat{.name = "table of coordinates",
+                 .extension = ".csv",
+                 .begins = begins_export<VendorExport::coordinates>,
+                 .read = read_export<VendorExport::coordinates>,
+                 .may_lack_unit = true},
     MarkerFormat{.name = "CSV",
                  .extension = ".csv",
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_trajectories_csv(path); },
@@ -198,6 +205,11 @@ constexpr std::array kFormats = {
                              WriteOptions o) { return write_trajectories_csv(path, trial, o.force); },
                  .kept = kOfCsv,
                  .precision = "double, m"},
+    MarkerFormat{.name = "OpenSim table of markers",
+                 .extension = ".sto",
+                 .begins = begins_marker_table,
+                 .read = [](const fs::path& path, ReadOptions, Box) { return read_marker_table(path); },
+                 .mostly_others = true},
     MarkerFormat{.name = "Visual3D text", .extension = ".v3d", .read = read_v3d_trial, .stores_rate = false},
     MarkerFormat{.name = "BVH",
                  .extension = ".bvh",
@@ -221,7 +233,7 @@ constexpr std::array kFormats = {
 std::vector<std::string> extensions(bool written) {
   std::vector<std::string> out;
   for (const MarkerFormat& f : kFormats)
-    if ((written ? f.write != nullptr && f.one_file : f.read != nullptr) &&
+    if ((written ? f.write != nullptr && f.one_file : f.read != nullptr && !f.mostly_others) &&
         std::ranges::find(out, f.extension) == out.end())
       out.emplace_back(f.extension);
   return out;

@@ -38,7 +38,7 @@ enum class Kept : std::uint8_t { none, in_part, whole };
 
 /// One format of marker files: a row of the table that messages, help and documentation are made from.
 struct MarkerFormat {
-  /// True for the beginning of such a file, its first 512 bytes.
+  /// True for the beginning of such a file, as read_begin() gives it.
   using Recognise = bool (*)(std::string_view begin);
   /// Reads a file; `box_m` around the samples, where the reader knows it.
   using Read = Result<data::Trial> (*)(const std::filesystem::path& path, const MarkerReadOptions& options,
@@ -49,11 +49,14 @@ struct MarkerFormat {
 
   std::string_view name;       ///< "C3D"
   std::string_view extension;  ///< ".c3d", in small letters
-  Recognise begins = nullptr;  ///< true for the first 512 bytes of such a file; null: the extension tells
+  Recognise begins = nullptr;  ///< true for the beginning of such a file; null: the extension tells
   Read read = nullptr;         ///< null: not read. `box_m` around the samples, where the reader knows it
   Write write = nullptr;       ///< null: not written
   bool stores_rate = true;     ///< false: a rate must be given to read it
-  bool one_file = true;        ///< false: several files, which `convert` alone writes; `write` refuses them
+  bool may_lack_unit = false;  ///< true: the unit of its coordinates may be given to read it
+  bool mostly_others =
+      false;             ///< true: most files of this ending hold something else; looked for in no folder
+  bool one_file = true;  ///< false: several files, which `convert` alone writes; `write` refuses them
   std::array<Kept, kParts> kept{};  ///< of each part, by the writer
   std::string_view precision;       ///< of coordinates in a file that is written, for the documentation
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
+#include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
@@ -31,7 +33,9 @@ class KeypointsParser {
   Status header(internal::Lines& lines) {
     if (auto s = next_header(lines, "scorer"); !s) return s;
     const std::size_t width = cells_.size();
-    if (auto s = next_header(lines, "bodyparts"); !s) return s;
+    std::vector<std::string> people;
+    if (auto s = next_header(lines, "bodyparts", &people); !s) return s;
+    if (auto s = choose(people, width, lines); !s) return s;
     const auto names = cells_;
     if (auto s = next_header(lines, "coords"); !s) return s;
     if (names.size() != width || cells_.size() != width)
@@ -41,6 +45,7 @@ class KeypointsParser {
     if (width < 2) return fail(Code::bad_input, "names no point");
     std::map<std::string, std::size_t, std::less<>> index;
     for (std::size_t c = 1; c < width; ++c) {
+      if (!people.empty() && people[c] != person_) continue;
       if (name_of_bytes(names[c]).empty())
         return wrong(lines, fmt::format("column {} belongs to no point", c + 1));
       const auto [at, is_new] = index.try_emplace(names[c], columns_.size());
@@ -97,16 +102,45 @@ class KeypointsParser {
     return fail(Code::bad_input, fmt::format("line {}: {}", lines.number(), what));
   }
 
-  /// Cells of the next line, which begins with this word.
-  Status next_header(internal::Lines& lines, std::string_view word) {
+  /// The person whose columns are read, of those whose names stand above the columns.
+  Status choose(const std::vector<std::string>& people, std::size_t width, const internal::Lines& lines) {
+    if (people.empty()) return {};
+    if (people.size() != width)
+      return wrong(
+          lines, fmt::format("the lines scorer and individuals have {} and {} cells", width, people.size()));
+    std::vector<std::string> names;
+    for (std::size_t c = 1; c < width; ++c)
+      if (std::ranges::find(names, people[c]) == names.end()) names.push_back(people[c]);
+    if (options_.person) {
+      if (*options_.person < 1 || std::cmp_greater(*options_.person, names.size()))
+        return fail(Code::bad_input,
+                    fmt::format("has no person {}; it has {}", *options_.person, names.size()));
+      person_ = names[static_cast<std::size_t>(*options_.person - 1)];
+      return {};
+    }
+    if (names.size() > 1) {
+      std::vector<std::string> shown;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        shown.push_back(fmt::format("{} ('{}')", i + 1, excerpt(names[i])));
+      return fail(Code::not_supported, fmt::format("shows {} people; choose one with --person: {}",
+                                                   names.size(), join_some(shown, 8)));
+    }
+    if (!names.empty()) person_ = names.front();
+    return {};
+  }
+
+  /// Cells of the next line, which begins with this word; a line of individuals before it goes to `people`.
+  Status next_header(internal::Lines& lines, std::string_view word,
+                     std::vector<std::string>* people = nullptr) {
     std::string_view line;
     if (!lines.next(line)) return fail(Code::bad_input, fmt::format("ends before a line '{}'", word));
     if (auto s = internal::check_header_line(line, lines.number()); !s) return s;
     if (!internal::split_csv(line, cells_)) return wrong(lines, "a quote is not closed");
     if (cells_[0] == word) return {};
-    if (cells_[0] == "individuals")
-      return fail(Code::not_supported,
-                  fmt::format("line {}: holds several individuals; need a file of one", lines.number()));
+    if (people != nullptr && cells_[0] == "individuals") {
+      *people = cells_;
+      return next_header(lines, word);
+    }
     return wrong(lines, fmt::format("begins with '{}'; need '{}'", excerpt(cells_[0]), word));
   }
 
@@ -137,6 +171,7 @@ class KeypointsParser {
   Keypoints& out_;
   std::vector<std::string> cells_;
   std::vector<Columns> columns_;
+  std::string person_;
   std::size_t width_ = 0;
   std::int64_t frames_ = 0;
 };

@@ -105,10 +105,20 @@ TEST(KeypointsCsv, AHeaderThatIsNoneIsRefused) {
               HasSubstr("column 3 belongs to no point"));
 }
 
-TEST(KeypointsCsv, SeveralIndividualsAreNotSupported) {
-  const auto read = parse("scorer,a,a\nindividuals,m1,m1\nbodyparts,P,P\ncoords,x,y\n0,1,2\n");
-  EXPECT_EQ(read.error().code, Code::not_supported);
-  EXPECT_THAT(read.error().message, HasSubstr("several individuals"));
+TEST(KeypointsCsv, OfSeveralIndividualsOneIsChosen) {
+  const std::string text =
+      "scorer,a,a,a,a\nindividuals,m1,m1,m2,m2\nbodyparts,P,P,P,P\ncoords,x,y,x,y\n0,1,2,3,4\n";
+  const auto open = parse(text);
+  EXPECT_EQ(open.error().code, Code::not_supported);
+  EXPECT_THAT(open.error().message,
+              HasSubstr("shows 2 people; choose one with --person: 1 ('m1'), 2 ('m2')"));
+  EXPECT_EQ(parse(text, {.person = 1}).value().at(0, 0).x(), 1.0);
+  EXPECT_EQ(parse(text, {.person = 2}).value().at(0, 0).x(), 3.0);
+  EXPECT_THAT(parse(text, {.person = 3}).error().message, HasSubstr("has no person 3; it has 2"));
+  EXPECT_EQ(parse("scorer,a,a\nindividuals,m1,m1\nbodyparts,P,P\ncoords,x,y\n0,1,2\n").value().at(0, 0).y(),
+            2.0);
+  EXPECT_THAT(parse("scorer,a,a\nindividuals,m1\nbodyparts,P,P\ncoords,x,y\n0,1,2\n").error().message,
+              HasSubstr("scorer and individuals have 3 and 2 cells"));
 }
 
 TEST(KeypointsCsv, ALikelihoodThatCannotBeIsUsage) {

@@ -97,10 +97,9 @@ Result<data::Table> parse_table(std::string_view text) {
   std::string_view line;
   for (std::size_t row = 0; row < rows; ++row) {
     lines.next(line);
-    // Files edited by hand hold rows in blanks under labels in tabs.
-    const bool no_tab =
-        header->separator == Separator::tab && columns > 0 && line.find('\t') == std::string_view::npos;
-    Cells cells(line, no_tab ? Separator::blanks : header->separator);
+    // Files edited by hand hold rows in blanks under labels in tabs. A vector may hold blanks: "1, 2, 3".
+    const bool mixed = header->width == 1 && columns > 0;
+    Cells cells(line, mixed ? internal::separator_of_row(line, header->separator) : header->separator);
     double time_s = 0.0;
     if (cells.next(time_s) != Cell::number || !std::isfinite(time_s))
       return bad_cell(lines.number(), 1, "time", cells.text(), "a number");

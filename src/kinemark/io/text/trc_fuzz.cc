@@ -3,13 +3,17 @@
 // Any bytes: a valid trial or one sentence, never a crash, a hang or memory without bound.
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "kinemark/io/text/trc.h"
+#include "kinemark/io/text_dialect.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto trial = kinemark::io::parse_trc({reinterpret_cast<const char*>(data), size}, "fuzz.trc");
+  const std::string text =
+      kinemark::io::in_plain_dialect(std::string(reinterpret_cast<const char*>(data), size));
+  const auto trial = kinemark::io::parse_trc(text, "fuzz.trc");
   if (trial ? !trial->validate() : trial.error().message.find('\n') != std::string::npos) std::abort();
-  if (trial && trial->markers.x_in_world.size() > 3 * (size / 2 + 1'000'000)) std::abort();
+  if (trial && trial->markers.x_in_world.size() > 3 * (text.size() / 2 + 1'000'000)) std::abort();
   return 0;
 }

@@ -71,6 +71,22 @@ Status read_row_start(Cells& cells, std::int64_t line, data::Trial& trial, Tally
   return {};
 }
 
+/// Where blanks separate cells, one that is not there moves all others.
+Status check_cells_in_blanks(std::string_view line, std::int64_t number, internal::Separator separator,
+                             const TrcHeader& header) {
+  if (separator != internal::Separator::blanks) return {};
+  std::size_t found = 0;
+  Cells cells(line, separator);
+  for (std::string_view cell; cells.next_text(cell);) ++found;
+  const std::size_t expected = 2 + 3 * header.marker.size();
+  if (found >= expected) return {};
+  return fail(
+      Code::bad_input,
+      fmt::format("line {}: holds {} cells between blanks; expected frame, time and {} coordinates. A "
+                  "marker that is not seen needs tabs around its empty cells, or NaN",
+                  number, found, expected - 2));
+}
+
 /// The coordinates of one row; `x` and `state` point at the row's first sample.
 Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header, double* x,
                         data::SampleState* state, Tally& tally) {
@@ -254,7 +270,10 @@ Result<data::Trial> parse(std::string_view text) {
   std::string_view line;
   for (std::size_t row = 0; row < rows; ++row) {
     lines.next(line);
-    Cells cells(line, header->separator);
+    const auto separator = internal::separator_of_row(line, header->separator);
+    if (auto status = check_cells_in_blanks(line, lines.number(), separator, *header); !status)
+      return std::unexpected(status.error());
+    Cells cells(line, separator);
     if (auto status = read_row_start(cells, lines.number(), trial, tally, frame_number); !status)
       return std::unexpected(status.error());
     if (auto status = read_row_samples(cells, lines.number(), *header,

@@ -109,6 +109,38 @@ TEST(ParseTrc, BlanksSeparateWhereThereIsNoTab) {
   EXPECT_EQ(good(text).markers.x_in_world, good(text_with(kRows)).markers.x_in_world);
 }
 
+TEST(ParseTrc, SeparatorsAreJudgedLineByLine) {
+  const auto whole = good(text_with(kRows));
+  std::string text = text_with(kRows);
+  const auto with = [&](const std::string& what, const std::string& instead) {
+    std::string out = text;
+    return out.replace(out.find(what), what.size(), instead);
+  };
+  for (const auto& other : {
+           with("PathFileType\t4\t", "PathFileType  4\t"),
+           with("PathFileType\t4\t(X/Y/Z)\t", "PathFileType 4 (X/Y/Z) "),
+           with("DataRate\tCameraRate\t", "DataRate CameraRate "),
+           with("100\t100\t2\t2\tmm\t100\t1\t2", "100 100 2 2 mm 100 1 2"),
+           with("Frame#\tTime\tA", "Frame#  Time\tA"),
+           with("1\t0.00\t1", "1 0.00\t1"),
+           with("1\t0.00\t1\t2\t3\t4\t5\t6", "1 0.00  1 2 3  4 5 6"),
+           with("5\t6\n", "5\t6\t \n"),
+       }) {
+    const auto read = good(other);
+    EXPECT_EQ(read.markers.names, whole.markers.names) << other;
+    EXPECT_EQ(read.markers.x_in_world, whole.markers.x_in_world) << other;
+    EXPECT_EQ(read.markers.time, whole.markers.time) << other;
+    EXPECT_EQ(read.warnings, whole.warnings) << other;
+  }
+}
+
+TEST(ParseTrc, AGapBetweenBlanksCannotBePlaced) {
+  const auto read = parse_trc(text_with("1 0.00 1 2 3 4 5 6\n2 0.01 7 8 9\n"), "t.trc");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message,
+              AllOf(HasSubstr("line 8: holds 5 cells between blanks"), HasSubstr("6 coordinates")));
+}
+
 TEST(ParseTrc, ConvertsEveryUnitToMetres) {
   const auto first = [](const std::string& unit) {
     return good(text_with(kRows, "A\t\t\tB", "100\t100\t2\t2\t" + unit + "\t100\t1\t2")).markers.x(0, 0)[0];

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <string>
 
+#include "kinemark/core/length_unit.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
@@ -31,11 +33,14 @@ std::string_view format_name(VendorExport which) {
       return "Vicon CSV";
     case VendorExport::phasespace:
       return "PhaseSpace CSV";
+    case VendorExport::coordinates:
+      return "table of coordinates";
   }
   return "";
 }
 
-Result<VendorHeader> parse_header(Lines& lines, VendorExport which, data::Trial& trial) {
+Result<VendorHeader> parse_header(Lines& lines, VendorExport which, std::string_view unit,
+                                  data::Trial& trial) {
   switch (which) {
     case VendorExport::qtm:
       return internal::parse_qtm_header(lines, trial);
@@ -45,6 +50,8 @@ Result<VendorHeader> parse_header(Lines& lines, VendorExport which, data::Trial&
       return internal::parse_vicon_header(lines, trial);
     case VendorExport::phasespace:
       return internal::parse_phasespace_header(lines, trial);
+    case VendorExport::coordinates:
+      return internal::parse_coordinates_header(lines, trial, unit);
   }
   return fail(Code::usage, "no such text");
 }
@@ -56,15 +63,45 @@ void note_rest(Lines& lines, VendorExport which, data::Trial& trial) {
                                          which == VendorExport::vicon ? "trajectories" : "data", line));
 }
 
-Result<data::Trial> parse(std::string_view text, VendorExport which) {
+/// Coordinates are as the file has them: of m, cm and mm the one that makes the recording as large as a body.
+Status settle_unit_by_size(data::Trial& trial) {
+  double extent = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = kNaN, most = kNaN;
+    for (std::size_t i = axis; i < trial.markers.x_in_world.size(); i += 3) {
+      least = std::fmin(least, trial.markers.x_in_world[i]);
+      most = std::fmax(most, trial.markers.x_in_world[i]);
+    }
+    extent = std::fmax(extent, most - least);
+  }
+  static const std::array<LengthUnitName, 3> kUnits{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}}};
+  const auto unit = unit_of_body_size(kUnits, extent);
+  if (!unit)
+    return fail(
+        Code::bad_input,
+        fmt::format(
+            "states no unit of length, and its coordinates, which reach over {:.4g}, may be of several; give "
+            "it with --unit mm, cm or m",
+            extent));
+  for (double& coordinate : trial.markers.x_in_world) coordinate /= 1.0 / unit->metres;
+  trial.units_in_file = unit->name;
+  trial.warnings.push_back(
+      fmt::format("no unit of length is stated; taken for {}, as the markers reach over {:.3g} m then",
+                  unit->name, extent * unit->metres));
+  return {};
+}
+
+Result<data::Trial> parse(std::string_view text, VendorExport which, std::string_view unit) {
   Lines lines(text);
   data::Trial trial;
   trial.format = format_name(which);
-  const auto header = parse_header(lines, which, trial);
+  const auto header = parse_header(lines, which, unit, trial);
   if (!header) return std::unexpected(header.error());
   if (auto s = internal::read_marker_rows(lines, header->columns, text.size(), trial); !s)
     return std::unexpected(s.error());
   note_rest(lines, which, trial);
+  if (header->is_unit_open)
+    if (auto s = settle_unit_by_size(trial); !s) return std::unexpected(s.error());
   for (std::int64_t m = 0; m < std::ssize(header->state); ++m) {
     if (header->state[static_cast<std::size_t>(m)] == data::SampleState::measured) continue;
     for (std::int64_t f = 0; f < trial.markers.frames(); ++f)
@@ -107,20 +144,23 @@ std::optional<VendorExport> vendor_export_of(std::string_view begin) {
                                                    "segments",     "events",  "title"};
   if (std::ranges::find(kVicon, first) != kVicon.end()) return VendorExport::vicon;
   if (begins_phasespace(begin)) return VendorExport::phasespace;
+  if (internal::begins_coordinates(begin)) return VendorExport::coordinates;
   return std::nullopt;
 }
 
-Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name, VendorExport which) {
-  auto trial = parse(text, which);
+Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name, VendorExport which,
+                                        std::string_view unit) {
+  auto trial = parse(text, which, unit);
   if (!trial) return fail_at(name, trial.error());
   trial->source = name;
   return trial;
 }
 
-Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which) {
+Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which,
+                                       std::string_view unit) {
   const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
-  return parse_vendor_export(*text, path.string(), which);
+  return parse_vendor_export(*text, path.string(), which, unit);
 }
 
 }  // namespace kinemark::io

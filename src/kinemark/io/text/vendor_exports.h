@@ -14,13 +14,14 @@ namespace kinemark::io {
 
 /// A text export that read_vendor_export() knows.
 enum class VendorExport : std::uint8_t {
-  qtm,         ///< Qualisys Track Manager, TSV: 3D data with header
-  motive,      ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
-  vicon,       ///< Vicon Nexus or Workstation, CSV with a section of trajectories
-  phasespace,  ///< PhaseSpace, CSV without a header: a time, then condition, x, y, z of each marker
+  qtm,          ///< Qualisys Track Manager, TSV: 3D data with header
+  motive,       ///< OptiTrack Motive, CSV, format versions 1.0 to 1.25
+  vicon,        ///< Vicon Nexus or Workstation, CSV with a section of trajectories
+  phasespace,   ///< PhaseSpace, CSV without a header: a time, then condition, x, y, z of each marker
+  coordinates,  ///< a table that somebody wrote: a time, then columns such as "LASI_X", "LASI_Y", "LASI_Z"
 };
 
-/// Which of them a text is that begins like this (512 bytes are enough); none: another text.
+/// Which of them a text is that begins like this (the labels of a table are in it); none: another text.
 [[nodiscard]] std::optional<VendorExport> vendor_export_of(std::string_view begin);
 
 /// Read the markers of such an export, in metres.
@@ -41,14 +42,22 @@ enum class VendorExport : std::uint8_t {
 /// missing. The
 ///   text names no markers: M000, M001 and so on, in the order of its columns (warning).
 ///
+/// - Tables of coordinates: labels in one line ("LASI_X", "LASI.x", "LASI X (mm)"), or names above a line of
+/// X, Y, Z;
+///   commas, tabs or semicolons between cells. A column of time is needed, in seconds unless it says ms. The
+///   unit of length is that of the labels, of a line of units below them, or `unit`; without any it is the
+///   one of m, cm and mm that makes the recording as large as a body, with a warning, and Code::bad_input
+///   where several do. Other columns are not read (warning).
+///
 /// Blank cells and what is no finite number are missing samples. Names that stand twice get a number. Frame
 /// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.
 /// Axes stay as they are. Code::bad_input, with line and column, for what does not fit; Code::io when it
 /// cannot be read. O(bytes); memory at most 16 times the text + 125 MB.
-[[nodiscard]] Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which);
+[[nodiscard]] Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which,
+                                                     std::string_view unit = {});
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
 [[nodiscard]] Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name,
-                                                      VendorExport which);
+                                                      VendorExport which, std::string_view unit = {});
 
 }  // namespace kinemark::io

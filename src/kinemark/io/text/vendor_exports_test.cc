@@ -270,5 +270,67 @@ TEST(VendorExport, OthersAreNotTakenForOne) {
     EXPECT_FALSE(vendor_export_of(begin)) << begin;
 }
 
+const std::string kCoordinates =
+    "Time,LASI_X,LASI_Y,LASI_Z,RASI_X,RASI_Y,RASI_Z\n0.00,0,0.25,0.9,0.4,0.3,1.0\n0.01,0.01,0.25,0.9,,,\n";
+
+TEST(CoordinateTables, LabelsOfEveryHand) {
+  const std::string rows = "0.00,0,0.25,0.9,0.4,0.3,1.0\n0.01,0.01,0.25,0.9,,,\n";
+  const auto expected = good_export(kCoordinates, VendorExport::coordinates);
+  EXPECT_THAT(expected.markers.names, ElementsAre("LASI", "RASI"));
+  EXPECT_EQ(expected.markers.time.rate_hz, 100.0);
+  EXPECT_FALSE(expected.markers.present(1, 1));
+  EXPECT_THAT(
+      expected.warnings,
+      Contains(HasSubstr("no unit of length is stated; taken for m, as the markers reach over 0.4 m")));
+  for (const std::string labels : {
+           "time,LASI.x,LASI.y,LASI.z,RASI.x,RASI.y,RASI.z",
+           "t,LASI X,LASI Y,LASI Z,RASI X,RASI Y,RASI Z",
+           "Time (s),LASI:X,LASI:Y,LASI:Z,RASI:X,RASI:Y,RASI:Z",
+           "\"Time [s]\",\"LASI-x\",\"LASI-y\",\"LASI-z\",\"RASI-x\",\"RASI-y\",\"RASI-z\"",
+           ",LASI,,,RASI,,\ntime,X,Y,Z,X,Y,Z",
+           "Time,LASI,,,RASI,,\n,X1,Y1,Z1,X2,Y2,Z2",
+           "Time,LASI,LASI,LASI,RASI,RASI,RASI\n,x,y,z,x,y,z",
+       }) {
+    const auto trial = good_export(labels + "\n" + rows, VendorExport::coordinates);
+    EXPECT_EQ(trial.markers.names, expected.markers.names) << labels;
+    EXPECT_EQ(trial.markers.state, expected.markers.state) << labels;
+    EXPECT_TRUE(trial.markers.x(0, 1).isApprox(expected.markers.x(0, 1))) << labels;
+  }
+}
+
+TEST(CoordinateTables, TheUnitIsTheLabelsTheLinesTheUsersOrTheBodys) {
+  const auto x_of = [](const std::string& text, std::string_view unit = {}) {
+    const auto trial = parse_vendor_export(text, "t", VendorExport::coordinates, unit).value();
+    EXPECT_EQ(trial.warnings.size(), 1U) << "the rate alone";
+    return trial.markers.x(0, 0).x();
+  };
+  const std::string rows = "0,250,1,2\n0.01,250,1,2\n";
+  EXPECT_DOUBLE_EQ(x_of("time,A_X (mm),A_Y (mm),A_Z (mm)\n" + rows), 0.25);
+  EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\ns,cm,cm,cm\n" + rows), 2.5);
+  EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\n[s],[mm],[mm],[mm]\n" + rows), 0.25);
+  EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\n" + rows, "m"), 250.0);
+  EXPECT_DOUBLE_EQ(x_of("time,A_X (mm),A_Y,A_Z\n" + rows, "m"), 0.25) << "what the file states wins";
+  const auto open = bad_export("time,A_X,A_Y,A_Z\n0,0,1,2\n0.01,700,1,2\n", VendorExport::coordinates);
+  EXPECT_THAT(open, HasSubstr("reach over 700, may be of several; give it with --unit mm, cm or m"));
+}
+
+TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
+  const auto trial = good_export("frame,time,A_x,A_y,A_z,A_error,mood\n5,0,1,0,0,9,1\n6,0.01,1.5,0,0,9,1\n",
+                                 VendorExport::coordinates);
+  EXPECT_EQ(trial.first_frame, 5);
+  EXPECT_THAT(trial.warnings,
+              Contains(HasSubstr(
+                  "2 of 7 columns are no coordinates of markers and are not read: 'A_error', 'mood'")));
+  EXPECT_THAT(bad_export("frame,A_x,A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
+              HasSubstr("without a column of times"));
+  EXPECT_THAT(bad_export("time_ms,A_x,A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
+              HasSubstr("times are in milliseconds"));
+  EXPECT_THAT(bad_export("time,A_x (furlong),A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
+              HasSubstr("'furlong' is unknown"));
+  for (const char* other : {"frame,time_s,marker,x_m,y_m,z_m\n", "measure,subject,value\n",
+                            "time,A_x,B_y,A_z\n0,1,2,3\n", "time,angle\n0,1\n", "", "x,y,z\n1,2,3\n"})
+    EXPECT_NE(vendor_export_of(other), VendorExport::coordinates) << other;
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -9,7 +9,9 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
+#include "kinemark/core/units.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 
@@ -103,12 +105,58 @@ void note_couplings(const model::Model& model, const data::Table& table, Coordin
   }
 }
 
+/// How far a coordinate turns.
+struct Turned {
+  std::string name;
+  double farthest = 0.0;    ///< rad
+  bool is_limited = false;  ///< the model says how far it turns, less than once
+};
+
+/// Coordinates that turn a turn and more beyond what the model lets them, or beyond one turn where it does
+/// not say, and would not if their radians were degrees.
+std::vector<Turned> turned_too_far(const model::Model& model, const data::Table& table) {
+  constexpr double kTurn = 2.0 * M_PI;
+  constexpr double kSlack = 0.5;  // rad; people pass the limits of their models
+  std::vector<Turned> out;
+  for (const auto& coordinate : model.description().coordinates) {
+    const auto column = table.find(coordinate.name);
+    if (column < 0 || !coordinate.is_rotation) continue;
+    double least = kNaN, most = kNaN;
+    for (std::int64_t r = 0; r < table.rows(); ++r) {
+      least = std::fmin(least, table(r, column));
+      most = std::fmax(most, table(r, column));
+    }
+    const bool is_limited = coordinate.range_max - coordinate.range_min <= kTurn;
+    const double low = is_limited ? coordinate.range_min : -0.5 * kTurn;
+    const double high = is_limited ? coordinate.range_max : 0.5 * kTurn;
+    const double beyond = is_limited ? kTurn : 0.5 * kTurn;
+    if (least > low - beyond && most < high + beyond) continue;
+    if (kRadPerDeg * least > low - kSlack && kRadPerDeg * most < high + kSlack)
+      out.push_back({coordinate.name, std::abs(least) > std::abs(most) ? least : most, is_limited});
+  }
+  return out;
+}
+
+/// A body may turn round and round about three axes; two joints that do so are no body's.
+Status refuse_degrees_called_radians(const model::Model& model, const data::Table& table) {
+  if (!table.degrees_stated || table.in_degrees) return {};
+  const auto turned = turned_too_far(model, table);
+  if (turned.size() < 4 && std::ranges::count(turned, true, &Turned::is_limited) < 2) return {};
+  return fail(
+      Code::bad_input,
+      fmt::format("says inDegrees=no, but {} coordinates turn further than a body can, '{}' to {:.4g} rad; "
+                  "as degrees all of them are within reach. If they are degrees, write inDegrees=yes "
+                  "above endheader",
+                  turned.size(), turned.front().name, turned.front().farthest));
+}
+
 }  // namespace
 
 Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Table& table) {
   const auto time = even_time(table);
   if (!time) return std::unexpected(time.error());
   const auto& description = model.description();
+  if (auto s = refuse_degrees_called_radians(model, table); !s) return std::unexpected(s.error());
   CoordinateRows out{.time = *time};
   out.is_filled.assign(at(table.rows() * model.coordinate_count()), 0);
   Eigen::VectorXd q(model.coordinate_count());

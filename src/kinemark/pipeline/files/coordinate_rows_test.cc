@@ -142,6 +142,45 @@ TEST(CoordinateRows, DegreesThatAreNotSaidAreNoticed) {
   EXPECT_THAT(coordinate_rows(chain(), table).value().notes, IsEmpty()) << "the file says radians";
 }
 
+/// A chain of hinges; `range_rad` each way, or without limits.
+model::Model hinges(int count, double range_rad) {
+  data::ModelDescription m{.name = "hinges"};
+  for (int i = 0; i < count; ++i) {
+    const auto number = std::to_string(i);
+    m.bodies.push_back({.name = "b" + number, .mass = 1.0});
+    m.coordinates.push_back({.name = "q" + number});
+    if (std::isfinite(range_rad))
+      m.coordinates.back().range_min = -range_rad, m.coordinates.back().range_max = range_rad;
+    m.joints.push_back({.name = "j" + number,
+                        .parent_body_idx = i - 1,
+                        .child_body_idx = i,
+                        .axes = {{.axis = Eigen::Vector3d::UnitX(), .coordinate_idx = i}}});
+  }
+  return model::Model::compile(m).value();
+}
+
+TEST(CoordinateRows, DegreesCalledRadiansAreRefused) {
+  const auto message = [](const model::Model& model, std::vector<double> last, bool in_degrees) {
+    std::vector<std::string> names;
+    std::vector<double> values(last.size(), 0.0);
+    for (std::size_t i = 0; i < last.size(); ++i) names.push_back("q" + std::to_string(i));
+    values.insert(values.end(), last.begin(), last.end());
+    auto table = rows(names, values);
+    table.in_degrees = in_degrees;
+    const auto read = coordinate_rows(model, table);
+    return read ? std::string() : read.error().message;
+  };
+  const auto limited = hinges(4, 2.0), open = hinges(4, kBlank);
+  EXPECT_THAT(message(limited, {30, -60, 1, 1}, false),
+              HasSubstr("says inDegrees=no, but 2 coordinates turn further than a body can, 'q0' to 30 rad"));
+  EXPECT_THAT(message(open, {30, -60, 45, 20}, false), HasSubstr("4 coordinates turn further"));
+  EXPECT_EQ(message(limited, {30, -60, 1, 1}, true), "");
+  EXPECT_EQ(message(limited, {30, 1, 1, 1}, false), "") << "one may turn round and round";
+  EXPECT_EQ(message(open, {30, -60, 45, 1}, false), "") << "so may a body about three axes";
+  EXPECT_EQ(message(limited, {500, -600, 1, 1}, false), "") << "too far as degrees too";
+  EXPECT_EQ(message(limited, {1.9, -1.9, 1, 1}, false), "");
+}
+
 TEST(CoordinateRows, WhatIsWrongIsOneSentence) {
   const auto refused = [](const data::Table& table) {
     const auto read = coordinate_rows(chain(), table);

@@ -21,7 +21,17 @@ Result<MarkerInput> read_marker_input(const MarkerSource& source) {
   const double rate_hz = unknown                                                ? 1.0
                          : source.rate == RateRule::where_needed && !tells_none ? 0.0
                                                                                 : source.rate_hz;
-  auto trial = io::read_markers(source.path, {.rate_hz = rate_hz, .skeleton = source.skeleton});
+  std::string unit = source.unit;
+  if (!unit.empty() && !io::may_lack_unit(source.path)) {
+    if (source.rate != RateRule::where_needed)
+      return fail(
+          Code::usage,
+          fmt::format("{}: the file states the unit of its coordinates; one (--unit) is given only for "
+                      "tables of coordinates that state none",
+                      source.path.string()));
+    unit.clear();
+  }
+  auto trial = io::read_markers(source.path, {.rate_hz = rate_hz, .unit = unit, .skeleton = source.skeleton});
   if (!trial) return std::unexpected(trial.error());
   MarkerInput input{.trial = std::move(*trial), .file = {}, .rate_known = !unknown};
   const auto& markers = input.trial.markers;

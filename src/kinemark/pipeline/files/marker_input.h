@@ -29,7 +29,8 @@ enum class RateRule : std::uint8_t {
 struct MarkerSource {
   std::filesystem::path path;           ///< file to read
   double rate_hz = 0.0;                 ///< of a file that tells none (.v3d, .amc); 0: not given
-  RateRule rate = RateRule::given;      ///< what becomes of rate_hz
+  RateRule rate = RateRule::given;      ///< what becomes of rate_hz, and likewise of unit
+  std::string unit = {};                ///< of a table that states none: "mm"; empty: not given
   std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
   bool needs_samples = false;           ///< refuse a file without markers or without frames
   bool record = false;                  ///< size and checksum, which reads the file once more

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/core/length_unit.h"
 #include "kinemark/io/animation/amc.h"
 #include "kinemark/io/bids/motion_name.h"
 #include "kinemark/io/plates/plate_forces.h"
@@ -82,13 +83,15 @@ Result<Doubtful> parse_doubtful(std::string_view name) {
 }
 
 bool RecordingOptions::empty() const {
-  return rate_hz == 0.0 && names_no_journal(edits) && selection.empty() && axes.up.empty() &&
+  return rate_hz == 0.0 && unit.empty() && names_no_journal(edits) && selection.empty() && axes.up.empty() &&
          axes.rotate.empty() && !doubtful;
 }
 
 Status RecordingOptions::check() const {
   if (!(rate_hz >= 0.0) || !std::isfinite(rate_hz))
     return fail(Code::usage, fmt::format("--rate is {} Hz; need a number above 0", rate_hz));
+  if (!unit.empty() && !metres_per_unit(unit))
+    return fail(Code::usage, fmt::format("--unit: '{}' is no unit of length; need mm, cm or m", unit));
   if (auto s = selection.check(); !s) return s;
   return axes.check();
 }
@@ -98,6 +101,7 @@ Result<Recording> read_recording(const RecordingSource& source, const RecordingO
   auto input = read_marker_input({.path = source.path,
                                   .rate_hz = options.rate_hz,
                                   .rate = source.rate,
+                                  .unit = options.unit,
                                   .skeleton = source.skeleton,
                                   .needs_samples = source.needs_samples,
                                   .record = source.record});

@@ -35,6 +35,7 @@ enum class Doubtful : std::uint8_t {
 /// How a recording is to be used, asked alike of every job that reads one.
 struct RecordingOptions {
   double rate_hz = 0.0;  ///< of a file that tells none; any other refuses it; 0: not given
+  std::string unit;  ///< of coordinates, of a table that states none; any other refuses it; empty: not given
   std::filesystem::path edits = kEditsBeside;  ///< journal applied first; "beside": the recording's own,
                                                ///< where there is one; "none" or empty: none
   workflow::Selection selection;               ///< markers, names, frames

@@ -36,6 +36,7 @@ struct Files {
 RecordingOptions beside_options(const SegmentsJob& job) {
   RecordingOptions out;
   out.rate_hz = job.rate_hz;
+  out.unit = job.unit;
   if (job.edits.empty() || job.edits == kEditsNone) out.edits = kEditsNone;
   out.axes = job.axes;
   return out;

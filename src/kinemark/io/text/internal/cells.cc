@@ -76,6 +76,17 @@ std::string excerpt(std::string_view cell) {
   return cell.size() > kMost ? out + "..." : out;
 }
 
+Separator separator_of_row(std::string_view row, Separator usual) {
+  if (usual == Separator::blanks || row.find('\t') == std::string_view::npos) return Separator::blanks;
+  const auto is_gap = [](char c) { return is_space(c) || c == '\t'; };
+  for (auto at = row.find(' '); at != std::string_view::npos; at = row.find(' ', at)) {
+    const bool after_cell = at > 0 && !is_gap(row[at - 1]);
+    while (at < row.size() && row[at] == ' ') ++at;
+    if (after_cell && at < row.size() && !is_gap(row[at])) return Separator::blanks;
+  }
+  return usual;
+}
+
 bool Cells::next_text(std::string_view& text) {
   if (!begin_cell()) return false;
   const char* first = p_;

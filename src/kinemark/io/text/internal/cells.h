@@ -79,6 +79,10 @@ enum class Cell : std::uint8_t {
 /// The first 40 characters of a cell for a message, whatever is not printable ASCII shown as '?'.
 [[nodiscard]] std::string excerpt(std::string_view cell);
 
+/// How one row is separated whose file usually separates cells as `usual`: people and programs mix both. In
+/// blanks where it holds no tab, or a blank between two cells that are no blanks.
+[[nodiscard]] Separator separator_of_row(std::string_view row, Separator usual);
+
 /// Walks over the cells of one line.
 class Cells {
  public:

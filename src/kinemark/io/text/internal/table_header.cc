@@ -134,6 +134,33 @@ Status read_pairs(Lines& lines, TableHeader& header, std::string_view& labels) {
       fmt::format("there is no line 'endheader' in {} lines; expected a MOT or STO table", lines.number()));
 }
 
+/// "hip_flexion" of "/jointset/hip/hip_flexion/value", as OpenSim 4 writes states; empty: no such label.
+std::string_view coordinate_in_path(std::string_view label) {
+  constexpr std::string_view kJoints = "/jointset/", kValue = "/value";
+  if (!label.starts_with(kJoints) || !label.ends_with(kValue)) return {};
+  label.remove_prefix(kJoints.size());
+  label.remove_suffix(std::min(kValue.size(), label.size()));
+  const auto slash = label.find('/');
+  if (slash == std::string_view::npos) return {};
+  const auto name = label.substr(slash + 1);
+  return name.find('/') == std::string_view::npos ? name : std::string_view();
+}
+
+/// Values of states get the names of their coordinates, as motions have them.
+void name_coordinates(std::vector<std::string>& labels, TableHeader& header) {
+  std::size_t named = 0;
+  std::string example;
+  for (auto& label : labels) {
+    const std::string name(coordinate_in_path(label));
+    if (name.empty() || std::ranges::find(labels, name) != labels.end()) continue;
+    if (named++ == 0) example = fmt::format("'{}' as '{}'", excerpt(label), excerpt(name));
+    label = name;
+  }
+  if (named > 0)
+    header.warnings.push_back(fmt::format("{} labels are paths of an OpenSim state file; read is {}{}", named,
+                                          example, named > 1 ? ", the others likewise" : ""));
+}
+
 Status read_labels(std::string_view line, std::int64_t number, TableHeader& header) {
   if (auto status = check_header_line(line, number); !status) return status;
   if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
@@ -144,6 +171,7 @@ Status read_labels(std::string_view line, std::int64_t number, TableHeader& head
   if (labels.empty() || lower(labels[0]) != "time")
     return fail(Code::bad_input, fmt::format("line {}: the first column is '{}'; expected 'time'", number,
                                              labels.empty() ? "" : excerpt(labels[0])));
+  name_coordinates(labels, header);
   std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 1; i < labels.size(); ++i) {
     if (labels[i].empty())

@@ -46,6 +46,21 @@ TEST(TableHeader, KeysValuesAndFreeTextAreKept) {
   EXPECT_THAT(h.warnings, IsEmpty());
 }
 
+TEST(TableHeader, PathsOfStatesGetTheNamesOfTheirCoordinates) {
+  const auto h = header_of(
+      "endheader\ntime\t/jointset/hip/hip_flexion/value\t/jointset/hip/hip_flexion/speed\t/forceset/"
+      "soleus\n");
+  EXPECT_THAT(h.columns_named,
+              ElementsAre("hip_flexion", "/jointset/hip/hip_flexion/speed", "/forceset/soleus"));
+  EXPECT_THAT(h.warnings, ElementsAre("1 labels are paths of an OpenSim state file; read is "
+                                      "'/jointset/hip/hip_flexion/value' as 'hip_flexion'"));
+  const auto both =
+      header_of("endheader\ntime\tknee\t/jointset/k/knee/value\t/jointset/value\t/jointset/a/b/c/value\n");
+  EXPECT_THAT(both.columns_named,
+              ElementsAre("knee", "/jointset/k/knee/value", "/jointset/value", "/jointset/a/b/c/value"));
+  EXPECT_THAT(both.warnings, IsEmpty());
+}
+
 TEST(TableHeader, SimmsKeysStandBeforeABlank) {
   const auto h = header_of("name walk 1\ndatacolumns 2\ndatarows 73\nrange 0 1.5\nendheader\ntime q\n");
   EXPECT_EQ(h.name, "walk 1");

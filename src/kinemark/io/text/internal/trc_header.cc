@@ -16,12 +16,45 @@
 namespace kinemark::io::internal {
 namespace {
 
-/// Header lines are tab-separated like the rows, unless they hold no tab at all.
-std::vector<std::string_view> split(std::string_view line) {
-  Cells cells(line, line.find('\t') == std::string_view::npos ? Separator::blanks : Separator::tab);
+std::vector<std::string_view> split_by(Separator separator, std::string_view line) {
+  Cells cells(line, separator);
   std::vector<std::string_view> out;
   for (std::string_view cell; cells.next_text(cell);) out.push_back(cell);
   return out;
+}
+
+/// Header lines are tab-separated like the rows, unless they hold no tab at all.
+std::vector<std::string_view> split(std::string_view line) {
+  return split_by(line.find('\t') == std::string_view::npos ? Separator::blanks : Separator::tab, line);
+}
+
+bool holds_blank(std::string_view cell) { return cell.find(' ') != std::string_view::npos; }
+
+/// Keys hold no blanks: where one does, blanks stand between them too.
+std::vector<std::string_view> split_keys(std::string_view line) {
+  auto keys = split(line);
+  return std::ranges::any_of(keys, holds_blank) ? split_by(Separator::blanks, line) : keys;
+}
+
+/// As many values as keys, by tabs where these give so many.
+std::vector<std::string_view> split_values(std::string_view line, std::size_t keys) {
+  auto values = split(line);
+  if (values.size() >= keys) return values;
+  auto by_blanks = split_by(Separator::blanks, line);
+  return by_blanks.size() == keys ? by_blanks : values;
+}
+
+/// The line of names; marker names may hold blanks, "Frame#" and "Time" before them do not.
+std::vector<std::string_view> split_names(std::string_view line) {
+  auto cells = split(line);
+  for (std::size_t c = 0; c < 2 && c < cells.size(); ++c) {
+    const auto blank = cells[c].find(' ');
+    if (blank == std::string_view::npos) continue;
+    const auto rest = trim(cells[c].substr(blank));
+    cells[c] = cells[c].substr(0, blank);
+    cells.insert(cells.begin() + static_cast<std::ptrdiff_t>(c) + 1, rest);
+  }
+  return cells;
 }
 
 /// Lines 2 and 3: keys above their values.
@@ -31,7 +64,7 @@ Status read_values(Lines& lines, TrcHeader& header) {
     return fail(Code::bad_input, fmt::format("line {}: the file ends where the header's keys (DataRate, "
                                              "CameraRate, NumFrames, ...) were expected",
                                              lines.number() + 1));
-  const auto keys = split(line);
+  const auto keys = split_keys(line);
   if (std::ranges::none_of(keys, [](auto key) { return lower(key) == "datarate"; }))
     return fail(Code::bad_input, fmt::format("line {}: found '{}'; expected the header's keys (DataRate, "
                                              "CameraRate, NumFrames, ...)",
@@ -40,7 +73,7 @@ Status read_values(Lines& lines, TrcHeader& header) {
     return fail(Code::bad_input,
                 fmt::format("line {}: the file ends where the values of the header were expected",
                             std::max<std::int64_t>(lines.number(), 3)));
-  const auto values = split(line);
+  const auto values = split_values(line, keys.size());
   std::array<std::optional<double>, 3> rates;
   for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
     const std::string key = lower(keys[i]);
@@ -93,7 +126,7 @@ Status read_names(Lines& lines, TrcHeader& header) {
                 fmt::format("line {}: the file ends where the line with Frame#, Time and the "
                             "marker names was expected",
                             lines.number() + 1));
-  const auto cells = split(line);
+  const auto cells = split_names(line);
   if (cells.size() < 2 || !lower(cells[0]).starts_with("frame") || !lower(cells[1]).starts_with("time"))
     return fail(Code::bad_input,
                 fmt::format("line {}: found '{}'; expected the line with Frame#, Time and the marker names",
@@ -150,7 +183,7 @@ Result<TrcHeader> parse_trc_header(Lines& lines) {
     if (auto status = check_header_line(line, ahead.number()); !status)
       return std::unexpected(status.error());
   if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a TRC file");
-  const auto first = split(line);
+  const auto first = split_by(Separator::blanks, line);
   if (first.empty() || lower(first[0]) != "pathfiletype")
     return fail(Code::bad_input, "line 1: is no head of a TRC file; a TRC file begins with PathFileType");
   if (auto status = read_values(lines, header); !status) return std::unexpected(status.error());

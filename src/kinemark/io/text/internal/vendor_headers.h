@@ -17,6 +17,7 @@ struct VendorHeader {
   MarkerColumns columns;
   /// State of each marker's samples; empty: all measured.
   std::vector<data::SampleState> state;
+  bool is_unit_open = false;  ///< coordinates are left as they stand: no unit is known
 };
 
 /// Each reads up to the last line before the rows. Errors carry the line, not the file.
@@ -24,6 +25,13 @@ struct VendorHeader {
 [[nodiscard]] Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_phasespace_header(Lines& lines, data::Trial& trial);
+
+/// A table of coordinates; `unit` is the one that the user gives, or empty.
+[[nodiscard]] Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial,
+                                                            std::string_view unit);
+/// Whether a text begins as one: x, y and z of a marker are the first columns that are neither time nor
+/// frame.
+[[nodiscard]] bool begins_coordinates(std::string_view begin);
 
 /// 1000 for "mm" or "Millimeters". Code::bad_input, naming
 /// the line, for any other word.

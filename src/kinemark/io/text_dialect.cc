@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text_dialect.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "kinemark/core/number.h"
+
+namespace kinemark::io {
+namespace {
+
+constexpr std::size_t kLookedAt = 64UL << 10;
+
+/// Which byte of a pair is the low one; none: no UTF-16.
+enum class Utf16 : std::uint8_t { none, low_first, high_first };
+
+Utf16 utf16_of(std::string_view text) {
+  if (text.starts_with("\xFF\xFE")) return Utf16::low_first;
+  if (text.starts_with("\xFE\xFF")) return Utf16::high_first;
+  const auto begin = text.substr(0, 64);
+  if (begin.size() < 8) return Utf16::none;
+  for (std::size_t i = 0; i + 1 < begin.size(); i += 2)
+    if (begin[i] == '\0' || begin[i + 1] != '\0') return Utf16::none;
+  return Utf16::low_first;
+}
+
+void append_utf8(std::string& out, std::uint32_t code) {
+  const auto put = [&](std::uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | (code >> 6));
+    put(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    put(0xE0 | (code >> 12));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  } else {
+    put(0xF0 | (code >> 18));
+    put(0x80 | ((code >> 12) & 0x3F));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  }
+}
+
+std::string utf8_of(std::string_view text, Utf16 order) {
+  const auto unit = [&](std::size_t i) {
+    const auto first = static_cast<unsigned char>(text[i]), second = static_cast<unsigned char>(text[i + 1]);
+    return order == Utf16::low_first ? static_cast<std::uint32_t>(first | (second << 8))
+                                     : static_cast<std::uint32_t>((first << 8) | second);
+  };
+  constexpr std::uint32_t kByteOrderMark = 0xFEFF, kReplacement = 0xFFFD;
+  std::string out;
+  out.reserve(text.size() / 2 + 16);
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    const std::uint32_t code = unit(i);
+    if (i == 0 && code == kByteOrderMark) continue;
+    const bool is_high = code >= 0xD800 && code < 0xDC00;
+    if (is_high && i + 3 < text.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
+      append_utf8(out, 0x10000 + ((code - 0xD800) << 10) + (unit(i + 2) - 0xDC00));
+      i += 2;
+    } else {
+      append_utf8(out, code >= 0xD800 && code < 0xE000 ? kReplacement : code);
+    }
+  }
+  return out;
+}
+
+/// Calls `use(line, end)` for each line and what ends it.
+template <class Use>
+void for_lines(std::string_view text, const Use& use) {
+  while (!text.empty()) {
+    const auto end = std::min(text.find_first_of("\r\n"), text.size());
+    auto after = end;
+    while (after < text.size() && (text[after] == '\r' || text[after] == '\n')) ++after;
+    use(text.substr(0, end), text.substr(end, after - end));
+    text.remove_prefix(after);
+  }
+}
+
+/// How cells of a text are separated: by one of these, or by runs of blanks and tabs.
+enum class Between : std::uint8_t { semicolons, tabs, commas, blanks };
+
+/// Calls `use(cell)` for each cell of a line, with its quotes and blanks; quotes hold separators.
+template <class Use>
+void for_cells(std::string_view line, Between between, const Use& use) {
+  const auto separates = [&](char c) {
+    switch (between) {
+      case Between::semicolons:
+        return c == ';';
+      case Between::tabs:
+        return c == '\t';
+      case Between::commas:
+        return c == ',';
+      case Between::blanks:
+        return c == ' ' || c == '\t';
+    }
+    return false;
+  };
+  bool quoted = false;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (quoted || !separates(line[i]))) continue;
+    if (between != Between::blanks || i > first) use(line.substr(first, i - first));
+    first = i + 1;
+  }
+}
+
+/// A cell without blanks and quotes around it.
+std::string_view bare(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+    cell = trim(cell.substr(1, cell.size() - 2));
+  return cell;
+}
+
+enum class Number : std::uint8_t { none, whole, with_point, with_comma };
+
+Number number_in(std::string_view cell) {
+  const auto comma = cell.find(',');
+  if (comma == std::string_view::npos) {
+    if (!parse_number(cell)) return Number::none;
+    return cell.find('.') == std::string_view::npos ? Number::whole : Number::with_point;
+  }
+  const auto is_digit = [&](std::size_t i) { return i < cell.size() && cell[i] >= '0' && cell[i] <= '9'; };
+  if (!is_digit(comma + 1) || cell.size() > 64) return Number::none;
+  std::string pointed(cell);
+  pointed[comma] = '.';
+  return pointed.find(',') == std::string::npos && parse_number(pointed) ? Number::with_comma : Number::none;
+}
+
+/// What is special about a text.
+struct Dialect {
+  Between between = Between::commas;
+  bool decimal_commas = false;
+  bool quoted_numbers = false;
+};
+
+std::size_t count_outside_quotes(std::string_view line, char wanted) {
+  std::size_t count = 0;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    count += !quoted && c == wanted ? 1 : 0;
+  }
+  return count;
+}
+
+bool has_semicolons(std::string_view sample) {
+  std::size_t lines = 0, with = 0;
+  bool settled = false, more = false;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    if (trim(line).empty()) return;
+    ++lines;
+    const auto count = count_outside_quotes(line, ';');
+    with += count > 0 ? 1 : 0;
+    if (const auto commas = count_outside_quotes(line, ','); !settled && count != commas) {
+      settled = true;
+      more = count > commas;
+    }
+  });
+  return more && with > 1 && 2 * with >= lines;
+}
+
+bool has_tabs(std::string_view sample) {
+  std::size_t lines = 0, with = 0;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    if (trim(line).empty()) return;
+    ++lines;
+    with += line.find('\t') == std::string_view::npos ? 0 : 1;
+  });
+  return 2 * with >= lines && with > 0;
+}
+
+/// Of rows that hold two cells or more and nothing but numbers.
+void judge_rows(std::string_view sample, Dialect& dialect) {
+  std::size_t commas = 0, points = 0;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    std::size_t cells = 0, with_comma = 0, with_point = 0, quoted = 0;
+    bool all = true;
+    for_cells(line, dialect.between, [&](std::string_view cell) {
+      const auto inside = bare(cell);
+      ++cells;
+      if (inside.empty()) return;
+      const auto number = number_in(inside);
+      all = all && number != Number::none;
+      with_comma += number == Number::with_comma ? 1 : 0;
+      with_point += number == Number::with_point ? 1 : 0;
+      quoted += inside.size() < trim(cell).size() ? 1 : 0;
+    });
+    if (!all || cells < 2) return;
+    commas += with_comma;
+    points += with_point;
+    dialect.quoted_numbers = dialect.quoted_numbers || quoted > 0;
+  });
+  dialect.decimal_commas = commas > 0 && points == 0;
+}
+
+Dialect dialect_of(std::string_view text) {
+  auto sample = text.substr(0, kLookedAt);
+  // A row that is cut may end in half a number.
+  if (sample.size() < text.size())
+    sample = sample.substr(0, std::min(sample.find_last_of("\r\n"), sample.size()));
+  Dialect out;
+  if (has_semicolons(sample))
+    out.between = Between::semicolons;
+  else if (has_tabs(sample))
+    out.between = Between::tabs;
+  else if (sample.find(',') == std::string_view::npos || sample.find("endheader") != std::string_view::npos ||
+           sample.starts_with("PathFileType"))
+    out.between = Between::blanks;
+  judge_rows(sample, out);
+  // Rows of pairs: "1,2" is no number there.
+  if (sample.find("DataType=Vec") != std::string_view::npos) out.decimal_commas = false;
+  return out;
+}
+
+/// What stands between the cells of its format; nothing: either may.
+std::optional<char> separator_of(std::string_view text) {
+  for (const std::string_view before : {"\xEF\xBB\xBF", "\""})
+    if (text.starts_with(before)) text.remove_prefix(before.size());
+  constexpr std::array<std::string_view, 4> kTabs{"PathFileType", "NO_OF_FRAMES", "NO_OF_CAMERAS",
+                                                  "FILE_VERSION"};
+  constexpr std::array<std::string_view, 7> kCommas{
+      "Format Version", "Trajectories", "Devices", "Model Outputs", "Joints", "Segments", "Events"};
+  const auto begins = [&](std::string_view word) { return text.starts_with(word); };
+  if (std::ranges::any_of(kTabs, begins) ||
+      text.substr(0, kLookedAt).find("endheader") != std::string_view::npos)
+    return '\t';
+  if (std::ranges::any_of(kCommas, begins)) return ',';
+  return std::nullopt;
+}
+
+/// One cell as it is written again.
+void append_cell(std::string& out, std::string_view cell, const Dialect& dialect, char separator) {
+  const auto inside = bare(cell);
+  const auto number = number_in(inside);
+  if (number == Number::with_comma && dialect.decimal_commas) {
+    const auto begin = out.size();
+    out += inside;
+    out[begin + inside.find(',')] = '.';
+  } else if (number != Number::none && dialect.quoted_numbers) {
+    out += inside;
+  } else if (inside.find(separator) != std::string_view::npos) {
+    out += '"';
+    out += inside;
+    out += '"';
+  } else {
+    out += inside;
+  }
+}
+
+std::string rewritten(std::string_view text, const Dialect& dialect) {
+  const char separator = separator_of(text).value_or(
+      dialect.between == Between::semicolons || dialect.between == Between::commas ? ',' : '\t');
+  std::string out;
+  out.reserve(text.size() + 16);
+  for_lines(text, [&](std::string_view line, std::string_view end) {
+    bool first = true;
+    for_cells(line, dialect.between, [&](std::string_view cell) {
+      if (!first) out += separator;
+      first = false;
+      append_cell(out, cell, dialect, separator);
+    });
+    out += end;
+  });
+  return out;
+}
+
+}  // namespace
+
+bool is_utf16(std::string_view begin) { return utf16_of(begin) != Utf16::none; }
+
+std::string in_plain_dialect(std::string text) {
+  if (const auto order = utf16_of(text); order != Utf16::none) text = utf8_of(text, order);
+  const auto dialect = dialect_of(text);
+  if (text.starts_with("\xEF\xBB\xBF") && text.find('"') == 3)
+    text.erase(0, 3);  // else it is no quote that begins the cell
+  const bool moved = dialect.between == Between::semicolons ||
+                     (dialect.between == Between::tabs && separator_of(text) == ',');
+  if (!moved && !dialect.decimal_commas && !dialect.quoted_numbers) return text;
+  return rewritten(text, dialect);
+}
+
+}  // namespace kinemark::io

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/text_dialect.h"
+
+#include <gmock/gmock.h>
+
+#include <string_view>
+
+namespace kinemark::io {
+namespace {
+
+std::string utf16(std::string_view ascii, bool low_first, bool mark) {
+  std::string out = !mark ? "" : low_first ? "\xFF\xFE" : "\xFE\xFF";
+  for (const char c : ascii) {
+    out += low_first ? c : '\0';
+    out += low_first ? '\0' : c;
+  }
+  return out;
+}
+
+TEST(TextDialect, WhatIsPlainComesBackAsItIs) {
+  for (const std::string text : {
+           "",
+           "time\tA\n0.0\t1.5\n",
+           "frame,time_s,marker,x_m\n1,0,RASI,0.1\n",
+           "a,b\n1,2\n3,4\n",                                      // whole numbers between commas
+           "frame,method\n1,\"a; b\"\n2,c; d\n",                   // semicolons inside of cells
+           "DataType=Vec2\nendheader\ntime\tA\n0\t1,2\n1\t3,4\n",  // pairs
+           "DataType=Vec3\nendheader\ntime\tA\n0\t1,2,3\n",        // vectors
+           "name, note\n1.5, 1,5\n",                               // points and commas
+           "one line without an end; and a semicolon",
+       })
+    EXPECT_EQ(in_plain_dialect(text), text);
+}
+
+TEST(TextDialect, SemicolonsBecomeCommasOrTabs) {
+  EXPECT_EQ(in_plain_dialect("t;A_X;A_Y\r\n0;1.5;2\r\n"), "t,A_X,A_Y\r\n0,1.5,2\r\n");
+  EXPECT_EQ(in_plain_dialect("PathFileType;4;(X/Y/Z);a.trc\nDataRate;Units\n100;mm\n"),
+            "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tUnits\n100\tmm\n");
+  EXPECT_EQ(in_plain_dialect("nRows=2\nendheader\ntime;a;b\n0;1;2\n1;3;4\n"),
+            "nRows=2\nendheader\ntime\ta\tb\n0\t1\t2\n1\t3\t4\n");
+}
+
+TEST(TextDialect, TextWithACommaIsQuotedWhereCommasSeparate) {
+  EXPECT_EQ(in_plain_dialect("t;name;x\n0;knee, left;1\n"), "t,name,x\n0,\"knee, left\",1\n");
+  EXPECT_EQ(in_plain_dialect("t;name;x\n0;\"knee; left\";1\n"), "t,name,x\n0,knee; left,1\n");
+}
+
+TEST(TextDialect, TabsBecomeCommasInExportsThatHaveCommas) {
+  EXPECT_EQ(in_plain_dialect("Trajectories\n100\n\t\tLASI\nFrame\tSub Frame\tX\n1\t0\t2.5\n"),
+            "Trajectories\n100\n,,LASI\nFrame,Sub Frame,X\n1,0,2.5\n");
+}
+
+TEST(TextDialect, DecimalCommasBecomePoints) {
+  EXPECT_EQ(in_plain_dialect("t;x\n0,00;-1,25\n0,01;1e-3\n"), "t,x\n0.00,-1.25\n0.01,1e-3\n");
+  EXPECT_EQ(in_plain_dialect("time\tx\n0,00\t,5\n0,01\t\n"), "time\tx\n0.00\t.5\n0.01\t\n");
+  EXPECT_EQ(in_plain_dialect("nRows=1\nendheader\ntime x\n0,00 1,5\n"),
+            "nRows=1\nendheader\ntime\tx\n0.00\t1.5\n");
+}
+
+TEST(TextDialect, NumbersInQuotesLoseThem) {
+  EXPECT_EQ(in_plain_dialect("\"t\",\"x\"\n\"0,00\",\"1,5\"\n"), "t,x\n0.00,1.5\n");
+  EXPECT_EQ(in_plain_dialect("t,x\n\"0.5\",\"1\"\n"), "t,x\n0.5,1\n");
+}
+
+TEST(TextDialect, NumbersWithBothAreLeftForTheReaderToRefuse) {
+  EXPECT_EQ(in_plain_dialect("t;x\n0,5;1.234,5\n"), "t,x\n\"0,5\",\"1.234,5\"\n");
+  // Points elsewhere say that a comma is none.
+  EXPECT_EQ(in_plain_dialect("t\tx\n0.5\t1,5\n"), "t\tx\n0.5\t1,5\n");
+}
+
+TEST(TextDialect, Utf16BecomesUtf8) {
+  for (const bool low_first : {true, false})
+    EXPECT_EQ(in_plain_dialect(utf16("time\tx\n0\t1.5\n", low_first, true)), "time\tx\n0\t1.5\n");
+  EXPECT_EQ(in_plain_dialect(utf16("time;x\n0;1,5\n0;2\n", true, false)), "time,x\n0,1.5\n0,2\n");
+  using namespace std::string_view_literals;
+  // E acute, a letter beyond the first plane, half of one.
+  EXPECT_EQ(in_plain_dialect(std::string("\xFF\xFE\xE9\x00\x3D\xD8\x00\xDE\x3D\xD8\x41\x00"sv)),
+            "\xC3\xA9\xF0\x9F\x98\x80\xEF\xBF\xBD\x41");
+  EXPECT_EQ(in_plain_dialect(std::string("\xFF\xFE\x41"sv)), "");
+}
+
+TEST(TextDialect, ARowThatTheLookCutsIsNotJudged) {
+  std::string text = "time\tx\n";
+  while (text.size() < (64UL << 10) - 3) text += "0.25\t1.5\n";
+  text += "7,5\t1\n";
+  EXPECT_EQ(in_plain_dialect(text), text);
+}
+
+}  // namespace
+}  // namespace kinemark::io
