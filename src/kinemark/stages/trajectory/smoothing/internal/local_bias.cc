@@ -14,11 +14,11 @@
 namespace kinemark::trajectory::smoothing {
 namespace {
 
-constexpr double kTail = 0.02;       // of the largest value, below which the pattern ends
-constexpr double kSurely = 5.0;      // natural logarithm of how much likelier jumps are than none
-constexpr double kLeastJump = 4.0;   // variance of jumps over that of noise
-constexpr double kMostJumps = 0.1;   // of the frames
-constexpr int kTurns = 30;           // of EM
+constexpr double kTail = 0.02;      // of the largest value, below which the pattern ends
+constexpr double kSurely = 5.0;     // natural logarithm of how much likelier jumps are than none
+constexpr double kLeastJump = 4.0;  // variance of jumps over that of noise
+constexpr double kMostJumps = 0.1;  // of the frames
+constexpr int kTurns = 30;          // of EM
 
 /// What the filter takes from a ramp that begins at a frame.
 struct RampLoss {
@@ -65,7 +65,8 @@ struct Jump {
   double square = -1.0;  // chi-square; below 0: not seen
 };
 
-std::vector<Jump> jumps_of(const MarkerSamples& samples, const MarkerResult& result, const RampLoss& pattern) {
+std::vector<Jump> jumps_of(const MarkerSamples& samples, const MarkerResult& result,
+                           const RampLoss& pattern) {
   const double noise = result.account.used.noise_sd_m;
   std::vector<Jump> out(at(samples.frames));
   for (std::int64_t f = 0; f < samples.frames; ++f) {
