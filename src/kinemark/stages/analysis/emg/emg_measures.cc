@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <iterator>
-#include <numbers>
 #include <optional>
-#include <unsupported/Eigen/FFT>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/emg/internal/activity.h"
+#include "kinemark/stages/analysis/emg/internal/spectral_noise.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 
 namespace kinemark::analysis {
@@ -25,11 +24,9 @@ using data::Quantity;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kSmooth_hz = 4.0;          // of the spectrum, to both sides
-constexpr double kOnsetEnvelope_hz = 50.0;  // fast enough for an onset (Hodges & Bui 1996)
-constexpr double kInstant = 0.25;           // of the stretch, the widest interval of an instant
+constexpr double kInstant = 0.25;    // of the stretch, the widest interval of an instant
+constexpr std::int64_t kDraws = 99;  // of the edges of bursts, where no refits are asked for
 constexpr std::string_view kEmg = "emg", kDefinition = "definition";
-constexpr std::string_view kHodges = "Hodges & Bui 1996";
 
 enum Which : std::uint8_t { kMean, kPeak, kPeakTime, kRms, kMedian, kOnset, kEnd, kActive, kRest, kCount };
 
@@ -44,87 +41,30 @@ constexpr std::array<data::MeasureDefinition, kCount> kDefinitions{{
     {"emg_median_frequency", kEmg, Quantity::frequency, "Median frequency", "halves the power of the band",
      "De Luca 1984"},
     {"emg_onset", kEmg, Quantity::time, "Onset of the first burst",
-     "envelope of 50 Hz over rest + 3 SD for 50 ms, from the beginning of the span", kHodges},
-    {"emg_end", kEmg, Quantity::time, "End of the last burst", "likewise", kHodges},
+     "at least as strong as rest for 50 ms, from the beginning of the span", kDefinition},
+    {"emg_end", kEmg, Quantity::time, "End of the last burst", "likewise", kDefinition},
     {"emg_active", kEmg, Quantity::share, "Share of the time active", "of the samples within bursts",
-     kHodges},
-    {"emg_rest", kEmg, Quantity::voltage, "Envelope at rest", "mean of the quietest span", kDefinition},
+     kDefinition},
+    {"emg_rest", kEmg, Quantity::voltage, "Envelope at rest", "mean outside bursts", kDefinition},
 }};
 
 /// A channel, prepared.
 struct Prepared {
-  VectorXd band, envelope, quick;  // `quick` for instants
-  RestLevel rest, quick_rest;
+  VectorXd band, envelope;
+  RestLevel rest;
 };
 
+/// What is known of when the muscle is active.
+struct Known {
+  Quiet::Found found;
+  bool silent;  // no burst reaches into the stretch
+};
+
+// All of it where rest is not known.
 double root_of_difference(double value, double rest) {
+  if (std::isnan(rest)) return value;
   return std::sqrt(std::max(0.0, value * value - rest * rest));
 }
-
-/// Noise of the spectrum that a series has, of its length and unit variance. The spectrum is that of the
-/// series as it is, phases are drawn; a longer transform is cut to length.
-class SpectralNoise {
- public:
-  SpectralNoise(const VectorXd& series, double rate_hz) : samples_(series.size()) {
-    length_ = 8;
-    while (length_ < samples_) length_ *= 2;
-    std::vector<std::complex<double>> padded(at(length_)), spectrum;
-    for (Index i = 0; i < samples_; ++i) padded[at(i)] = series[i];
-    transform_.fwd(spectrum, padded);
-    for (Index k = 0; k <= length_ / 2; ++k) amplitude_.push_back(std::abs(spectrum[at(k)]));
-    // Power over neighbouring frequencies: that of one is a draw itself.
-    const auto half =
-        std::max<Index>(8, static_cast<Index>(kSmooth_hz * static_cast<double>(length_) / rate_hz));
-    std::vector<double> smooth(amplitude_.size());
-    for (Index k = 0; k <= length_ / 2; ++k) {
-      double sum = 0.0, count = 0.0;
-      for (Index j = std::max<Index>(0, k - half); j <= std::min(length_ / 2, k + half); ++j)
-        sum += amplitude_[at(j)] * amplitude_[at(j)], count += 1.0;
-      smooth[at(k)] = std::sqrt(sum / count);
-    }
-    amplitude_ = std::move(smooth);
-    double power = 0.0;
-    for (Index k = 0; k <= length_ / 2; ++k)
-      power += (k == 0 || 2 * k == length_ ? 1.0 : 2.0) * amplitude_[at(k)] * amplitude_[at(k)];
-    for (double& a : amplitude_) a *= power > 0.0 ? static_cast<double>(length_) / std::sqrt(power) : 0.0;
-  }
-
-  /// The frequency that halves its power: what draws have on average.
-  [[nodiscard]] double median_hz(double rate_hz) const {
-    double whole = 0.0, sum = 0.0;
-    for (const double a : amplitude_) whole += a * a;
-    for (std::size_t k = 0; k < amplitude_.size(); ++k) {
-      const double power = amplitude_[k] * amplitude_[k];
-      sum += power;
-      if (sum >= 0.5 * whole && power > 0.0)
-        return (static_cast<double>(k) + 0.5 - (sum - 0.5 * whole) / power) * rate_hz /
-               static_cast<double>(length_);
-    }
-    return kNaN;
-  }
-
-  [[nodiscard]] VectorXd draw(std::uint64_t seed, std::uint64_t stream, std::int64_t k) {
-    Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(k));
-    std::vector<std::complex<double>> spectrum(at(length_)), series;
-    for (Index i = 0; i <= length_ / 2; ++i) {
-      const double re = random.gaussian(), im = random.gaussian();
-      const bool real = i == 0 || 2 * i == length_;
-      const std::complex<double> value =
-          real ? std::complex<double>(re, 0.0) : std::complex<double>(re, im) / std::numbers::sqrt2;
-      spectrum[at(i)] = amplitude_[at(i)] * value;
-      if (!real) spectrum[at(length_ - i)] = std::conj(spectrum[at(i)]);
-    }
-    transform_.inv(series, spectrum);
-    VectorXd out(samples_);
-    for (Index i = 0; i < samples_; ++i) out[i] = series[at(i)].real();
-    return out;
-  }
-
- private:
-  Index samples_, length_ = 0;
-  std::vector<double> amplitude_;
-  Eigen::FFT<double> transform_;
-};
 
 class EmgMeasurement {
  public:
@@ -132,7 +72,7 @@ class EmgMeasurement {
       : rate_hz_(rate_hz), t0_s_(t0_s), options_(options), stretches_(std::move(stretches)) {}
 
   void measure(const EmgChannel& channel, std::uint64_t stream, EmgMeasures& out) const {
-    const auto found = prepare(channel.volts);
+    auto found = prepare(channel.volts);
     const double most = options_.to_maximum ? found.envelope.maxCoeff() : channel.most_volts;
     out.names.push_back(channel.name);
     out.envelopes.push_back(std::isnan(most) ? found.envelope : VectorXd(found.envelope / most));
@@ -140,16 +80,24 @@ class EmgMeasurement {
       out.notes.push_back(fmt::format("{} holds no signal", channel.name));
       return;
     }
-    const auto values = values_of(found);
+    const auto activity = find_activity(found.band, rate_hz_,
+                                        {.band = options_.envelope,
+                                         .rest_s = options_.rest_s,
+                                         .burst_s = options_.burst_s,
+                                         .draws = options_.refits > 0 ? options_.refits : kDraws,
+                                         .seed = mix64(options_.seed) ^ stream});
+    put_rest(activity, found);
+    const auto values = values_of(found, activity.bursts);
     std::vector<std::vector<double>> deviations(values.size(),
                                                 std::vector<double>(at(options_.refits), kNaN));
     if (options_.refits > 0) {
       // The signal over its own envelope is noise without muscle; beside a burst the filter's envelope
       // undershoots rest.
-      const VectorXd strength =
-          found.envelope.cwiseMax(std::max(found.rest.mean, 1e-6 * found.envelope.maxCoeff()));
+      const double least = 1e-6 * found.envelope.maxCoeff();
+      const VectorXd strength = found.envelope.cwiseMax(found.rest.mean > least ? found.rest.mean : least);
       SpectralNoise noise(found.band.cwiseQuotient(strength), rate_hz_);
-      const double gain = std::sqrt(found.band.cwiseQuotient(strength).array().square().mean());
+      const double gain =
+          found.band.norm() / strength.norm();  // drawn channels have the power of the channel
       // What the drawn channels are made of. The frequency is the spectrum's, which all of the channel tells:
       // that of the stretch holds the stretch's own chance, which would count twice.
       auto truth = values;
@@ -158,17 +106,21 @@ class EmgMeasurement {
       for (std::int64_t k = 0; k < options_.refits; ++k) {
         const VectorXd drawn = gain * strength.cwiseProduct(noise.draw(options_.seed, stream, k));
         auto version = prepare_band(drawn);
-        version.rest = found.rest, version.quick_rest = found.quick_rest;
-        const auto again = values_of(version);
-        for (std::size_t i = 0; i < again.size(); ++i) deviations[i][at(k)] = again[i] - truth[i];
+        put_rest(activity, version);
+        const auto again =
+            values_of(version, activity.draws.empty() ? activity.bursts : activity.draws[at(k)]);
+        // Draws of instants are where the truth may lie, and not estimates of it.
+        for (std::size_t i = 0; i < again.size(); ++i)
+          deviations[i][at(k)] = is_of_bursts(i % kCount) ? truth[i] - again[i] : again[i] - truth[i];
       }
     }
     for (std::size_t s = 0; s < stretches_.size(); ++s)
       for (int which = 0; which < kCount; ++which) {
         const std::size_t i = s * kCount + static_cast<std::size_t>(which);
-        const bool active = values[s * kCount + kActive] > 0.0;
+        const bool silent = values[s * kCount + kActive] == 0.0;
         if (is_asked(which))
-          state(which, channel.name, stretches_[s], active, values[i], deviations[i], most, out);
+          state(which, channel.name, stretches_[s], {activity.found, silent}, values[i], deviations[i], most,
+                out);
       }
   }
 
@@ -180,26 +132,33 @@ class EmgMeasurement {
 
   [[nodiscard]] Prepared prepare(const VectorXd& volts) const {
     const VectorXd level = volts.array() - volts.mean();
-    Prepared out = prepare_band(band_passed(level, rate_hz_, options_.envelope));
-    out.rest = rest_level(out.band, out.envelope, rate_hz_, options_.rest_s);
-    out.quick_rest = rest_level(out.band, out.quick, rate_hz_, options_.rest_s);
-    return out;
+    return prepare_band(band_passed(level, rate_hz_, options_.envelope));
   }
   [[nodiscard]] Prepared prepare_band(VectorXd band) const {
     Prepared out{.band = std::move(band)};
     out.envelope = envelope_of(out.band, rate_hz_, options_.envelope);
-    out.quick = envelope_of(out.band, rate_hz_,
-                            {.envelope_hz = std::max(kOnsetEnvelope_hz, options_.envelope.envelope_hz)});
     return out;
+  }
+  // The envelope is not taken there, as that of a burst reaches beyond it.
+  void put_rest(const Activity& activity, Prepared& channel) const {
+    double sum = 0.0, squares = 0.0, count = 0.0;
+    for (Index i = 0; i < channel.band.size(); ++i)
+      if (activity.rest[at(i)] != 0)
+        sum += std::abs(channel.band[i]), squares += channel.band[i] * channel.band[i], count += 1.0;
+    if (!(count > 0.0)) return;
+    channel.rest.rms = std::sqrt(squares / count);
+    channel.rest.mean = options_.envelope.rms_window_s > 0.0 ? channel.rest.rms : sum / count;
+  }
+
+  [[nodiscard]] static bool is_of_bursts(std::size_t which) {
+    return which == kOnset || which == kEnd || which == kActive;
   }
 
   // Of all stretches, one after the other.
-  [[nodiscard]] std::vector<double> values_of(const Prepared& channel) const {
+  [[nodiscard]] std::vector<double> values_of(const Prepared& channel,
+                                              const std::vector<Burst>& bursts) const {
     std::vector<double> out;
     const auto& rest = channel.rest;
-    const auto bursts =
-        find_bursts(channel.quick, channel.quick_rest.mean + options_.onset_sd * channel.quick_rest.sd,
-                    rate_hz_, options_.burst_s);
     for (const auto& stretch : stretches_) {
       const auto envelope = channel.envelope.segment(stretch.first, stretch.count);
       const VectorXd band = channel.band.segment(stretch.first, stretch.count);
@@ -207,7 +166,7 @@ class EmgMeasurement {
       const double most = envelope.maxCoeff(&peak);
       const double begin = static_cast<double>(stretch.first),
                    end = static_cast<double>(stretch.first + stretch.count - 1);
-      double onset = kNaN, last = kNaN, active = 0.0;
+      double onset = kNaN, last = kNaN, active = bursts.empty() ? kNaN : 0.0;
       for (const auto& burst : bursts) {
         if (burst.end <= begin || burst.onset >= end) continue;
         if (std::isnan(onset) && burst.onset > begin) onset = (burst.onset - begin) / rate_hz_;
@@ -230,7 +189,16 @@ class EmgMeasurement {
     return out;
   }
 
-  void state(int which, const std::string& name, const EmgStretch& stretch, bool active, double value,
+  [[nodiscard]] static std::string why_undetermined(int which, const Known& known) {
+    if (which == kMedian) return "no signal there";
+    if (known.found == Quiet::Found::steady)
+      return "not determined: its strength hardly changes, of a muscle at rest or of an active one";
+    if (known.found == Quiet::Found::no_rest)
+      return "not determined: no part of the channel is surely at rest";
+    return "no burst begins or ends in the span";
+  }
+
+  void state(int which, const std::string& name, const EmgStretch& stretch, const Known& known, double value,
              const std::vector<double>& deviations, double most, EmgMeasures& out) const {
     const auto& definition = kDefinitions[at(which)];
     data::Measure measure{.id = std::string(definition.id),
@@ -250,28 +218,26 @@ class EmgMeasurement {
     const double unit = in_volts && std::isfinite(most) ? 1.0 / most : 1.0;
     if (unit != 1.0) measure.quantity = Quantity::share;
     if (!std::isfinite(value)) {
-      measure.remark = which == kMedian ? "no signal there" : "no burst begins or ends in the span";
+      measure.remark = why_undetermined(which, known);
       out.measures.push_back(std::move(measure));
       return;
     }
     measure.value = measure.uncorrected = unit * value;
     if (options_.refits == 0) {
       measure.remark = "no interval was asked for";
-    } else if (which == kRest) {
-      measure.remark = "no interval: it is the least of many spans";
-    } else if (!active) {
+    } else if (known.silent && which != kRest) {
       // What is simulated then is rest, with the strength of chance: its bias is not that of a muscle.
       measure.remark = "no interval: no burst rises above rest";
     } else if (const auto found = pivot(value, deviations, options_.level); std::isfinite(found.value)) {
-      put_interval(which, stretch, value, unit, found, measure);
+      put_interval(which, stretch, known, value, unit, found, measure);
     } else {
       measure.remark = "no interval: more than a tenth of the simulated channels do not determine it";
     }
     out.measures.push_back(std::move(measure));
   }
 
-  void put_interval(int which, const EmgStretch& stretch, double value, double unit, const Pivoted& found,
-                    data::Measure& measure) const {
+  void put_interval(int which, const EmgStretch& stretch, const Known& known, double value, double unit,
+                    const Pivoted& found, data::Measure& measure) const {
     const bool instant = which == kPeakTime || which == kOnset || which == kEnd;
     const double last = static_cast<double>(stretch.count - 1) / rate_hz_;
     if (instant &&
@@ -290,10 +256,12 @@ class EmgMeasurement {
                         .level = options_.level,
                         .approximate = true};
     measure.method += fmt::format(", {} draws", options_.refits);
-    if (which != kPeak) return;
+    const bool with_rest = which == kRms && known.found != Quiet::Found::bursts;
+    if (which != kPeak && !with_rest) return;
     measure.interval.kind = data::IntervalKind::at_most;
     measure.interval.low = kNaN;
-    measure.remark = "chance can only raise it";
+    measure.remark =
+        with_rest ? "with what the channel has at rest, which is not known" : "chance can only raise it";
   }
 
   double rate_hz_, t0_s_;
@@ -320,13 +288,11 @@ Status check(const EmgOptions& options) {
     return fail(
         Code::usage,
         fmt::format("{} refits are too few for an interval; need 39 or more, or 0 for none", options.refits));
-  if (!(options.rest_s > 0.0) || !(options.onset_sd > 0.0) || !(options.burst_s >= 0.0))
-    return fail(
-        Code::usage,
-        fmt::format(
-            "rest of {:g} s, an onset at {:g} SD and bursts of {:g} s; need the first two above 0 and "
-            "the last not negative",
-            options.rest_s, options.onset_sd, options.burst_s));
+  if (!(options.rest_s > 0.0) || !(options.burst_s >= 0.0))
+    return fail(Code::usage,
+                fmt::format("rest of {:g} s and bursts of {:g} s; need the first above 0 and the second not "
+                            "negative",
+                            options.rest_s, options.burst_s));
   for (const auto& id : options.measures)
     if (find_emg_definition(id) == nullptr)
       return fail(Code::usage, fmt::format("there is no measure '{}' of an EMG", id));

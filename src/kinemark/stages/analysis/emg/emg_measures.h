@@ -37,8 +37,7 @@ struct EmgOptions {
   EnvelopeOptions envelope;           ///< how channels are prepared
   std::vector<std::string> measures;  ///< ids of emg_definitions(); empty: all
   std::vector<EmgStretch> stretches;  ///< empty: the whole recording
-  double rest_s = 0.5;                ///< length of the quietest stretch, which is taken for rest
-  double onset_sd = 3.0;              ///< an onset is this many SDs of rest above its mean
+  double rest_s = 0.5;                ///< the least time in all that a level is kept which is taken for rest
   double burst_s = 0.05;              ///< the shortest burst and interruption that count
   bool to_maximum = false;            ///< values to the largest envelope of the recording
   std::int64_t refits = 99;           ///< behind each interval: 0 (none) or at least 39
@@ -64,7 +63,8 @@ struct EmgMeasures {
 ///
 /// An electromyogram is noise whose strength the muscle sets. Intervals are those of chance: the channel's
 /// envelope times noise of its own spectrum, 99 times, prepared and measured likewise; they are marked
-/// approximate. RMS and peak are freed of what the channel shows at rest, in squares.
+/// approximate. RMS and peak are freed of what the channel shows at rest, in squares. Where no part of a
+/// channel is surely at rest, rest and what hangs on bursts are not determined, and RMS and peak are at most.
 ///
 /// @return  Code::usage for options out of range; Code::bad_input where no channel holds half a second of
 /// samples

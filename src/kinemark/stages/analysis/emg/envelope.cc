@@ -52,11 +52,6 @@ VectorXd moving_rms(const VectorXd& x, Index half) {
   return out;
 }
 
-// Between i - 1 and i.
-double crossing(const VectorXd& x, double level, Index i) {
-  return static_cast<double>(i) - (x[i] - level) / (x[i] - x[i - 1]);
-}
-
 }  // namespace
 
 Status EnvelopeOptions::check() const {
@@ -89,43 +84,6 @@ VectorXd envelope_of(const VectorXd& band, double rate_hz, const EnvelopeOptions
     filter(math::butterworth_lowpass(kOrder, options.envelope_hz / rate_hz), options.envelope_hz / rate_hz,
            values);
   return vector_of(values).cwiseMax(0.0);
-}
-
-RestLevel rest_level(const VectorXd& band, const VectorXd& envelope, double rate_hz, double length_s) {
-  const auto n = envelope.size();
-  RestLevel out;
-  if (n < 2) return out;
-  const Index count = std::clamp<Index>(std::llround(length_s * rate_hz), 1, std::max<Index>(1, n / 2));
-  double sum = envelope.head(count).sum(), least = sum;
-  for (Index i = count; i < n; ++i) {
-    sum += envelope[i] - envelope[i - count];
-    if (sum < least) least = sum, out.first = i - count + 1;
-  }
-  out.count = count;
-  const auto part = envelope.segment(out.first, count);
-  out.mean = part.mean();
-  out.sd = std::sqrt((part.array() - out.mean).square().mean());
-  out.rms = std::sqrt(band.segment(out.first, count).squaredNorm() / static_cast<double>(count));
-  return out;
-}
-
-std::vector<Burst> find_bursts(const VectorXd& envelope, double threshold, double rate_hz, double least_s) {
-  const double least = least_s * rate_hz;
-  std::vector<Burst> all;
-  const auto n = envelope.size();
-  for (Index i = 0; i < n; ++i) {
-    if (!(envelope[i] > threshold)) continue;
-    Burst burst{.onset = i > 0 ? crossing(envelope, threshold, i) : 0.0};
-    while (i < n && envelope[i] > threshold) ++i;
-    burst.end = i < n ? crossing(envelope, threshold, i) : static_cast<double>(n - 1);
-    if (burst.end - burst.onset < 0.5 * least) continue;  // a spike
-    if (!all.empty() && burst.onset - all.back().end < least)
-      all.back().end = burst.end;
-    else
-      all.push_back(burst);
-  }
-  std::erase_if(all, [least](const Burst& burst) { return burst.end - burst.onset < least; });
-  return all;
 }
 
 double median_frequency(const VectorXd& band, double rate_hz) {

@@ -32,28 +32,17 @@ struct EnvelopeOptions {
 [[nodiscard]] Eigen::VectorXd envelope_of(const Eigen::VectorXd& band, double rate_hz,
                                           const EnvelopeOptions& options);
 
-/// What the electrode sees of a muscle at rest.
+/// What the electrode sees of a muscle at rest; NaN where that is not known.
 struct RestLevel {
-  std::int64_t first = 0, count = 0;  ///< samples of the quietest stretch
-  double mean = kNaN;                 ///< of the envelope there
-  double sd = kNaN;                   ///< of the envelope there
-  double rms = kNaN;                  ///< of the band-passed signal there
+  double mean = kNaN;  ///< of the envelope there
+  double rms = kNaN;   ///< of the band-passed signal there
 };
-/// The stretch of that length (or half of the recording, where that is shorter) with the least mean envelope.
-[[nodiscard]] RestLevel rest_level(const Eigen::VectorXd& band, const Eigen::VectorXd& envelope,
-                                   double rate_hz, double length_s);
 
 /// One burst, samples; instants between them.
 struct Burst {
   double onset = 0.0;  ///< where it begins
   double end = 0.0;    ///< where it ends, > onset
 };
-/// Stretches above a threshold, linear between samples. Spikes shorter than half of `least_s` are left out,
-/// interruptions shorter than it closed, and bursts shorter than it left out (Hodges & Bui 1996; Bonato,
-/// D'Alessio & Knaflitz 1998).
-[[nodiscard]] std::vector<Burst> find_bursts(const Eigen::VectorXd& envelope, double threshold,
-                                             double rate_hz, double least_s);
-
 /// Frequency that halves the power of a band-passed signal, Hz: of Hann windows of half a second (or all),
 /// half overlapping (Welch 1967; De Luca 1984). NaN of a constant.
 [[nodiscard]] double median_frequency(const Eigen::VectorXd& band, double rate_hz);

@@ -55,34 +55,6 @@ TEST(Envelope, OfASinusoidItIsTheMeanOrTheRootMeanSquare) {
   EXPECT_GE(mean.minCoeff(), 0.0);
 }
 
-TEST(Envelope, RestIsTheQuietestStretch) {
-  VectorXd x = tone(100.0, 1.0);
-  x.segment(5000, 1000) *= 0.01;
-  const auto envelope = envelope_of(x, kSampled_hz, {.rms_window_s = 0.02});
-  const auto rest = rest_level(x, envelope, kSampled_hz, 0.25);
-  EXPECT_EQ(rest.count, 500);
-  EXPECT_GE(rest.first, 5000);
-  EXPECT_LE(rest.first + rest.count, 6000);
-  EXPECT_NEAR(rest.rms, 0.01 * std::sqrt(0.5), 1e-4);
-  EXPECT_NEAR(rest.mean, 0.01 * std::sqrt(0.5), 5e-4);
-  EXPECT_TRUE(std::isnan(rest_level(x.head(1), x.head(1), kSampled_hz, 0.25).mean));
-}
-
-TEST(Envelope, BurstsBeginBetweenSamplesAndShortOnesDoNotCount) {
-  VectorXd e = VectorXd::Zero(100);
-  e.segment(20, 30).setConstant(2.0);
-  e[19] = 0.5;                        // crosses 1 a third of the way from sample 19 to 20
-  e.segment(35, 2).setConstant(0.0);  // a short interruption
-  e[70] = 5.0;                        // a knock
-  e.tail(20).setConstant(3.0);
-  const auto bursts = find_bursts(e, 1.0, 100.0, 0.05);
-  ASSERT_EQ(bursts.size(), 2u);
-  EXPECT_NEAR(bursts[0].onset, 19.0 + 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(bursts[0].end, 49.5, 1e-12);
-  EXPECT_NEAR(bursts[1].end, 99.0, 1e-12);
-  EXPECT_TRUE(find_bursts(e, 9.0, 100.0, 0.05).empty());
-}
-
 TEST(Envelope, TheMedianFrequencyHalvesThePower) {
   EXPECT_NEAR(median_frequency(tone(120.0), kSampled_hz), 120.0, 1.0);
   EXPECT_NEAR(median_frequency(tone(80.0) + tone(200.0, 2.0), kSampled_hz), 200.0, 2.0);

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "kinemark/core/enum_names.h"
+#include "kinemark/stages/analysis/gait/event_labels.h"
 #include "kinemark/stages/analysis/gait/marker_events.h"
 
 namespace kinemark::analysis {
@@ -256,6 +258,7 @@ EventsFound find_gait_events(const MarkerEvents& of_markers, std::span<const Gai
     out.notes.emplace_back("events are those of the markers, as plates are out of step");
   if (choice == EventChoice::file || (best && out.events.empty()))
     put_file(of_markers, of_plates, of_file, out);
+  std::ranges::move(contradicted_labels(of_markers, of_file), std::back_inserter(out.notes));
   sort_by_time(out);
   return out;
 }

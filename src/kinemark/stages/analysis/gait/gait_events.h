@@ -57,7 +57,8 @@ struct EventsFound {
   std::array<PlateOffset, 2> offset;    ///< of strikes, of leavings
   std::vector<Agreement> agreement;     ///< between sources
   bool out_of_step = false;             ///< plates and markers do not run on one clock
-  std::vector<std::string> notes;       ///< on plates out of step, what was taken off, what the file's err by
+  std::vector<std::string> notes;  ///< on plates out of step, what was taken off, what the file's err by,
+                                   ///< labels that markers contradict
 };
 
 /// What a laboratory's stored events usually err by, standard deviations: all of a kind in a recording the

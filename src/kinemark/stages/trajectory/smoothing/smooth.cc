@@ -111,10 +111,10 @@ Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOpt
   account.bad_variances = samples->bad_variances;
   if (const auto status = run_filter(*samples, in, options, result); !status)
     return std::unexpected(status.error());
-  smoothing::add_local_bias(*samples, result);
+  const auto response = impulse_response(account.used, options, in.time.rate_hz);
+  smoothing::add_local_bias(*samples, response, result);
   keep_fill_errors(in, marker, result);
-  smoothing::judge_residuals(*samples, impulse_response(account.used, options, in.time.rate_hz),
-                             in.time.rate_hz, result);
+  smoothing::judge_residuals(*samples, response, in.time.rate_hz, result);
   return result;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 
@@ -9,12 +11,16 @@ namespace kinemark::trajectory::smoothing {
 
 /// Put into the covariance and the SDs of derivatives what the filter took from the movement at an impact.
 ///
-/// A cut-off that suits the movement as a whole rounds a sudden stop off, and the residual has one sign
-/// there. Where its mean over a quarter of a period of the cut-off is beyond what noise of the account's size
-/// gives (chi-square of three axes, p < 1e-5), the square of that mean, less what noise adds, is added to the
-/// variance within a quarter of a period on either side; to that of derivatives with a factor (2 pi
-/// cut-off)^2 for each order. Needs the account's noise and cut-off; without them nothing changes. O(frames x
-/// frames in a period).
-void add_local_bias(const MarkerSamples& samples, MarkerResult& result);
+/// A velocity that jumps (a heel that strikes) is rounded off by any filter, in a pattern that follows from
+/// its response alone. The size of that pattern in the residual is estimated about each frame. Sizes of all
+/// frames are noise, or noise and jumps for a share of the frames: share and variance of jumps are the
+/// likeliest ones of the marker (EM), and nothing is added where they are not e^5 times likelier than noise
+/// alone. The expected square of the size, times the pattern squared, is added to the variance; to that of
+/// derivatives with a factor (2 pi cut-off)^2 for each order. Needs the account's noise and cut-off; without
+/// them nothing changes. O(frames x frames in the pattern).
+/// @param response  of the filter to a 1 among zeros, in the middle of an odd number of frames; empty:
+/// nothing
+///                  changes
+void add_local_bias(const MarkerSamples& samples, std::span<const double> response, MarkerResult& result);
 
 }  // namespace kinemark::trajectory::smoothing

@@ -86,7 +86,44 @@ TEST(LocalBias, LeavesASmoothMovementAsItIs) {
   EXPECT_NEAR(z.elsewhere, 1.0, 0.4);
 }
 
-TEST(LocalBias, NeedsTheSizeOfTheNoise) {
+TEST(LocalBias, IsInTheErrorBarsOfTheFilterThatIsFound) {
+  // A narrow jump beside a wide filter: single frames err, in alternating directions.
+  double strikes = 0.0, elsewhere = 0.0;
+  for (std::uint64_t seed = 10; seed < 16; ++seed) {
+    const auto smoothed = smooth(recording(true, seed), {});
+    ASSERT_TRUE(smoothed.has_value());
+    const Ratio z = ratio(*smoothed, true);
+    strikes += z.strikes / 6.0, elsewhere += z.elsewhere / 6.0;
+  }
+  EXPECT_LT(strikes, 1.2);
+  EXPECT_GT(strikes, 0.5);
+  EXPECT_LT(elsewhere, 1.2);
+}
+
+TEST(LocalBias, IsWhatTheFilterTakesFromARamp) {
+  // A mean of three frames rounds the corner of a ramp off by a third of its slope, at the corner alone.
+  smoothing::MarkerSamples samples;
+  samples.frames = 200;
+  samples.interval_s = 0.01;
+  samples.present.assign(200, 1);
+  samples.judged = samples.present;
+  samples.x.assign(600, 0.0);
+  MarkerResult result;
+  result.x.assign(600, 0.0);
+  result.covariance.assign(1200, 1e-12);
+  Random random(1, 1);
+  for (double& x : samples.x) x = 1e-4 * random.gaussian();
+  samples.x[300] = -0.01;
+  result.account.used.cutoff_hz = 6.0;
+  result.account.used.noise_sd_m = 1e-4;
+  const std::vector<double> response{0.0, 0.0, 0.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0};
+  smoothing::add_local_bias(samples, response, result);
+  EXPECT_NEAR(std::sqrt(result.covariance[at(6 * 100)]), 0.01, 1e-3);
+  EXPECT_LT(std::sqrt(result.covariance[at(6 * 102)]), 2e-4);
+  EXPECT_LT(std::sqrt(result.covariance[at(6 * 40)]), 1e-4);
+}
+
+TEST(LocalBias, NeedsTheSizeOfTheNoiseAndAResponse) {
   smoothing::MarkerSamples samples;
   samples.frames = 1;
   samples.interval_s = 0.01;
@@ -98,11 +135,14 @@ TEST(LocalBias, NeedsTheSizeOfTheNoise) {
   result.covariance.assign(6, 1e-8);
   result.account.used.cutoff_hz = 6.0;
   result.account.used.noise_sd_m = std::nan("");
-  smoothing::add_local_bias(samples, result);
+  const std::vector<double> response{0.25, 0.5, 0.25};
+  smoothing::add_local_bias(samples, response, result);
   EXPECT_EQ(result.covariance[0], 1e-8);
   result.account.used.noise_sd_m = 1e-4;
-  smoothing::add_local_bias(samples, result);
-  EXPECT_NEAR(result.covariance[0], 1.0, 1e-6);
+  smoothing::add_local_bias(samples, {}, result);
+  EXPECT_EQ(result.covariance[0], 1e-8);
+  smoothing::add_local_bias(samples, response, result);
+  EXPECT_NEAR(result.covariance[0], 1.0, 1e-2);
 }
 
 }  // namespace
