@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -47,9 +48,19 @@ struct Group {
 
 std::string part_of(const std::string& marker) {
   constexpr const char* kParts[] = {"pelvis", "thigh", "shank",     "foot",   "trunk",
-                                    "head",   "upper arm", "forearm", "hand"};
+                                    "head",   "upper arm", "forearm", "hand", "shoulder"};
   const auto landmark = motion::landmark_of(marker);
   return landmark ? kParts[static_cast<int>(landmark->part)] : "no landmark";
+}
+
+void print_weak(const std::string& what, const StaticCase& c, const data::Trajectories& still) {
+  std::vector<const data::Trajectories*> movements;
+  if (c.movement) movements.push_back(&*c.movement);
+  const auto weak =
+      motion::judge_foundation(c.body, still, movements,
+                               {.least_score = 1.0, .least_score_alone = 1.0, .least_fall = 1.0, .most_findings = 2})
+          .value();
+  for (const auto& f : weak.findings) fmt::print("# {}, {}, {:.1f}\n", what, motion::describe(f, c.name), f.score);
 }
 
 void look_at(StaticCase& c, const Sweep& sweep, Group& group) {
@@ -60,6 +71,7 @@ void look_at(StaticCase& c, const Sweep& sweep, Group& group) {
     ++group.accused;
     group.accusations += "; " + motion::describe(c.clean.findings[0], c.name);
   }
+  if (sweep.list) print_weak("clean," + group.name, c, c.still);
   Random random(sweep.seed, std::hash<std::string>()(c.name));
   int count = 0;
   for (const auto& name : c.clean.judged)
@@ -74,6 +86,8 @@ void look_at(StaticCase& c, const Sweep& sweep, Group& group) {
         tally->named += named ? 1 : 0;
         tally->other += !named && !j.findings.empty() ? 1 : 0;
       }
+      if (sweep.list && !named)
+        print_weak("weak", c, testing_support::with_shift(c.still, c.still.find(name), size * way));
       if (sweep.list)
         fmt::print("# {},{},{},{},{:.0f},{:.2f} {:.2f} {:.2f},{},{}\n", group.name, c.name, name, part_of(name),
                    1e3 * size, way[0], way[1], way[2], named ? "named" : j.findings.empty() ? "none" : "other",
@@ -93,6 +107,36 @@ void print(const Group& g) {
                              fmt::format("{} of {}{}", g.accused, g.clean, g.accusations));
 }
 
+void calibrate(const std::filesystem::path& data) {
+  const std::vector<std::string> files{
+      "opensim-hamner-fullbody/subject02_running.trc", "bmc-rajagopal-run/ExpData/motion_capture_run.trc",
+      "btk-others/T.trc", "btk-others/ballet_reduced.trc", "btk-others/Gait.c3d", "btk-others/FunctionalWalk.c3d",
+      "btk-others/FunctionalLHip.c3d", "cmu-mocap/cmu_02_05.c3d", "opensim-core-formats/walking2.c3d",
+      "ezc3d-testFiles/FP_Type1.c3d", "ezc3d-testFiles/Qualisys.c3d", "c3d-parser-clinics/MH0222_BP15.c3d",
+      "c3d-parser-clinics/RBWH_bfnd_w1.c3d", "c3d-parser-clinics/S4-AMGait03.c3d", "btk-others/PiG_Motion3_FF.c3d",
+      "opensim-gait2354/subject01_walk1.trc", "c3d-parser-clinics/QCMAS.dynamic.c3d", "biobuddy/right_knee.c3d"};
+  for (const auto& file : files) {
+    auto c = testing_support::recorded_case(data / file, {});
+    const auto all = c.still;
+    const auto part = [&](std::int64_t a, std::int64_t b) {
+      data::Trajectories out = data::Trajectories::all_missing(all.names, {.rate_hz = all.time.rate_hz, .frames = b - a});
+      for (std::int64_t f = a; f < b; ++f)
+        for (std::int64_t m = 0; m < all.markers(); ++m) {
+          out.x(f - a, m) = all.x(f, m);
+          out.state[out.index(f - a, m)] = all.state[all.index(f, m)];
+        }
+      return out;
+    };
+    const std::int64_t n = all.frames();
+    for (int k = 0; k < 3; ++k) {
+      c.name = fmt::format("{}#{}", std::filesystem::path(file).stem().string(), k);
+      const auto still = part(k * n / 3, (k + 1) * n / 3);
+      c.movement = k == 0 ? part(n / 3, n) : part(0, k * n / 3);
+      print_weak("calibrate", c, still);
+    }
+  }
+}
+
 int run_check(int argc, char** argv) {
   const auto data = testing_support::test_data_folder();
   if (!data) return testing_support::skip_all("each marker of static trials of many laboratories");
@@ -101,11 +145,18 @@ int run_check(int argc, char** argv) {
                     .list = argc > 3 && std::string_view(argv[3]) == "list"};
   Group walks{.name = "beside a walk of the session"}, alone{.name = "by names alone"},
       models{.name = "subjects against the model"};
-  for (auto& c : testing_support::cases_beside_a_walk(*data)) {
+  const std::string only = argc > 4 ? argv[4] : "";
+  if (only != "calibrate") for (auto& c : testing_support::cases_beside_a_walk(*data)) {
     look_at(c, sweep, walks);
+    if (only == "walks") continue;
     StaticCase lone = c;
     lone.movement.reset();
     look_at(lone, sweep, alone);
+  }
+  if (only == "calibrate") { calibrate(*data); return 0; }
+  if (only == "walks") {
+    print(walks);
+    return 0;
   }
   for (const auto& file : testing_support::lone_recordings()) {
     auto c = testing_support::recorded_case(*data / file, {});

@@ -27,8 +27,6 @@ constexpr std::int64_t kHalf = 3;        // frames on both sides that are averag
 constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
 constexpr double kRival = 6.0;           // explanations this much less likely are named
 constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
-// Of a marker of trunk, head or arms between two recordings, per axis: shoulders move on the trunk.
-constexpr double kLoose_m = 0.030;
 constexpr double kMirrored = 30.0;  // least gain of a mirror image; bodies' images gain 118 and more
 constexpr int kMirrorFrames = 3;    // of a movement
 
@@ -115,7 +113,7 @@ std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data:
     out.push_back(frame_at(movement, columns, full[std::min(i, full.size() - 1)], 0, options.moving_sd_m));
     for (std::size_t m = 0; m < body.markers.size(); ++m)
       out.back().sd[static_cast<Eigen::Index>(m)] =
-          std::hypot(options.moving_sd_m, body.markers[m].spread.by_posture);
+          std::hypot(options.moving_sd_m, body.markers[m].spread.by_posture.norm() / std::sqrt(3.0));
   }
   return out;
 }
@@ -159,10 +157,15 @@ internal::SharedPrior prior_with(const StandingBody& body, const internal::Share
   internal::SharedPrior known = internal::learn_shared(body, prior, frames);
   Eigen::MatrixXd covariance = known.information.inverse();
   const Eigen::Index sites = covariance.rows() - static_cast<Eigen::Index>(3 * body.markers.size());
+  const Eigen::Index joints = sites - static_cast<Eigen::Index>(3 * body.segments.size());
+  for (std::size_t s = 0; s < body.segments.size(); ++s) {
+    const double sd = body.segments[s].joint_by_posture;
+    covariance.diagonal().segment<3>(joints + static_cast<Eigen::Index>(3 * s)).array() += sd * sd;
+  }
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    const double loose = keeps_its_place(body.markers[m]) ? between_sd_m : std::max(between_sd_m, kLoose_m);
-    const double sd = std::hypot(loose, body.markers[m].spread.by_posture);
-    covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() += sd * sd;
+    const Vector3d sd = body.markers[m].spread.by_posture;
+    covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() +=
+        sd.array().square() + between_sd_m * between_sd_m;
   }
   known.information = covariance.inverse();
   known.information = (0.5 * (known.information + known.information.transpose())).eval();
@@ -283,8 +286,7 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
                               .shift_sd_m = best.shift_sd,
                               .score = best.score,
                               .rivals = std::move(rivals)};
-    if (moving.empty() || best.second >= 0 || keeps_its_place(body.markers[at(best.first)]))
-      out.findings.push_back(std::move(finding));
+    out.findings.push_back(std::move(finding));
     if (best.second < 0) {
       singles.push_back({best.first, best.score, frame});
       frame.x.col(best.first).setConstant(kNaN);

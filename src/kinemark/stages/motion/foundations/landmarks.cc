@@ -27,7 +27,7 @@ enum class Found : std::uint8_t {
 
 // A marker of the toes 60 mm before their joint, which bends by 14 degrees (1 SD). In walks of seven
 // laboratories the distance from heel to toe differs by 6 to 27 mm between 5 and 95 % of the frames.
-constexpr double kToesFlex_m = 0.015;
+const Vector3d kToesFlex_m(0.006, 0.015, 0.004);
 
 PlaceSpread spread_of(Found found) {
   switch (found) {
@@ -49,6 +49,26 @@ PlaceSpread spread_of(Found found) {
       break;
   }
   return {Vector3d(0.070, 0.090, 0.070), Vector3d(0.035, 0.050, 0.035)};
+}
+
+/// Of markers above the pelvis: spines bend, and skin slides over shoulders and turned forearms.
+Vector3d posture_of(BodyPart part) {
+  switch (part) {
+    case BodyPart::trunk:
+      return Vector3d::Constant(0.008);
+    case BodyPart::shoulder:
+      return Vector3d::Constant(0.006);
+    case BodyPart::head:
+      return Vector3d::Constant(0.003);
+    case BodyPart::upper_arm:
+      return Vector3d::Constant(0.010);
+    case BodyPart::forearm:
+      return Vector3d::Constant(0.006);
+    case BodyPart::hand:
+      return Vector3d::Constant(0.006);
+    default:
+      return Vector3d::Constant(0.0);
+  }
 }
 
 struct Entry {
@@ -102,7 +122,7 @@ constexpr std::array kEntries{
     Entry{" CLAV SUP SNJ IJ ", trunk, false, 0.070, 0.340, 0.0, Found::spine},
     Entry{" STRN STERNUM STR ", trunk, false, 0.120, 0.225, 0.0, Found::spine},
     Entry{" SXS PX ", trunk, false, 0.110, 0.170, 0.0, Found::spine},
-    Entry{" SHO ACR ACROMIUM ACROMION SHOULDER SAJ ", trunk, true, -0.005, 0.400, 0.175, Found::covered},
+    Entry{" SHO ACR ACROMIUM ACROMION SHOULDER SAJ ", shoulder, true, -0.060, 0.060, 0.150, Found::covered},
     Entry{" FHD HDF TEMPLE TEMP ", head, true, 0.100, 0.150, 0.065, Found::head},
     Entry{" BHD HDB ", head, true, -0.080, 0.160, 0.060, Found::head},
     Entry{" UPA UA1 UA2 UA3 BICEP ARM1 ARM2 ARM3 ", upper_arm, true, 0.015, -0.150, 0.050, Found::cluster},
@@ -153,10 +173,12 @@ std::optional<Landmark> landmark_of(std::string_view name) {
   const auto [side, stem] = split_marker_name(name);
   const Entry* entry = find_entry(stem, side != Side::middle);
   if (entry == nullptr) return std::nullopt;
-  return Landmark{.part = entry->part,
-                  .side = side,
-                  .x_in_part = Vector3d(entry->x, entry->y, entry->z),
-                  .spread = spread_of(entry->found)};
+  Landmark out{.part = entry->part,
+               .side = side,
+               .x_in_part = Vector3d(entry->x, entry->y, entry->z),
+               .spread = spread_of(entry->found)};
+  out.spread.by_posture = out.spread.by_posture.cwiseMax(posture_of(entry->part));
+  return out;
 }
 
 }  // namespace kinemark::motion
