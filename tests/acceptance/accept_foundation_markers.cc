@@ -5,7 +5,10 @@
 #include <fmt/core.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -42,7 +45,8 @@ struct Group {
   std::string name;
   Tally all;
   std::map<std::string, Tally> parts;
-  int clean = 0, accused = 0;
+  int clean = 0, accused = 0, at_50 = 0, named_at_50 = 0;
+  double said_at_50 = 0.0;  // sum of what the judgements of the clean trials say
   std::string accusations;
 };
 
@@ -58,7 +62,7 @@ void print_weak(const std::string& what, const StaticCase& c, const data::Trajec
   if (c.movement) movements.push_back(&*c.movement);
   const auto weak =
       motion::judge_foundation(c.body, still, movements,
-                               {.least_score = 1.0, .least_score_alone = 1.0, .least_fall = 1.0, .most_findings = 2})
+                               {.least_score = 1.0, .least_score_beside = 1.0, .least_fall = 1.0, .most_findings = 2})
           .value();
   for (const auto& f : weak.findings) fmt::print("# {}, {}, {:.1f}\n", what, motion::describe(f, c.name), f.score);
 }
@@ -86,6 +90,11 @@ void look_at(StaticCase& c, const Sweep& sweep, Group& group) {
         tally->named += named ? 1 : 0;
         tally->other += !named && !j.findings.empty() ? 1 : 0;
       }
+      if (size == 0.050) {
+        ++group.at_50;
+        group.named_at_50 += named ? 1 : 0;
+        group.said_at_50 += c.clean.seen_at_50_mm;
+      }
       if (sweep.list && !named)
         print_weak("weak", c, testing_support::with_shift(c.still, c.still.find(name), size * way));
       if (sweep.list)
@@ -103,6 +112,9 @@ void print(const Group& g) {
   testing_support::print_row(g.all.named >= 0.98 * g.all.planted, g.name + ": one marker 30, 50, 80 mm off named",
                              "at least 98 %", words(g.all));
   for (const auto& [part, tally] : g.parts) testing_support::print_note(g.name + ": " + part, words(tally));
+  const double said = g.said_at_50 / std::max(1, g.at_50), was = static_cast<double>(g.named_at_50) / std::max(1, g.at_50);
+  testing_support::print_row(std::abs(said - was) <= 0.12, g.name + ": share of shifts by 50 mm that the judgement says it would see, beside the share named", "within 12 points",
+                             fmt::format("{:.0f} % said, {:.0f} % of {} named", 100.0 * said, 100.0 * was, g.at_50));
   testing_support::print_row(g.accused <= 0.01 * g.clean, g.name + ": without a mistake, accused", "at most 1 %",
                              fmt::format("{} of {}{}", g.accused, g.clean, g.accusations));
 }
