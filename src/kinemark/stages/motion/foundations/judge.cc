@@ -247,9 +247,8 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   }
   if (!moving.empty()) prior = prior_with(body, prior, moving, options.between_sd_m);
 
-  const internal::Least of_singles = moving.empty()
-                                         ? internal::Least{options.least_score, options.least_fall}
-                                         : internal::Least{options.least_score_beside, 0.0};
+  const internal::Least of_singles{moving.empty() ? options.least_score : options.least_score_beside,
+                                   options.least_fall};
   const auto name_of = [&](int m) { return still.names[static_cast<std::size_t>(columns[at(m)])]; };
   struct Single {
     int marker;
@@ -263,9 +262,12 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
     auto best = explanations.front();
     const bool single_marker = best.second < 0;
     if (best.score < (single_marker ? of_singles.score : options.least_score)) break;
-    if (single_marker &&
-        (best.shift.norm() < kLeastShift_m || best.gain * best.misfit < of_singles.fall))
-      break;
+    if (single_marker && best.gain * best.misfit < of_singles.fall) break;
+    if (single_marker && best.shift.norm() < kLeastShift_m) {
+      // How markers are placed: nobody is accused, and what lies farther off is still asked for.
+      frame.x.col(best.first).setConstant(kNaN);
+      continue;
+    }
     std::vector<std::string> rivals;
     for (std::size_t i = 1; i < explanations.size(); ++i)
       if (explanations[i].score > best.score - kRival) rivals.push_back(words_of(body, explanations[i]));

@@ -20,9 +20,9 @@ struct StandingBody;
 /// Options of judge_foundation().
 struct FoundationOptions {
   double least_score = 12.0;  ///< of a finding: twice the log of how much likelier it makes the recording
-  double least_score_beside = 7.0;  ///< of a single marker beside a movement, which tells its place
-  /// Of a single marker where no movement tells its place: fall of the cost by the spreads as they are. The
-  /// score alone accuses clean subjects whose markers lie better than the spreads say.
+  double least_score_beside = 5.0;  ///< of a single marker beside a movement, which tells its place
+  /// Of a single marker: fall of the cost by the spreads as they are. The score alone accuses clean subjects
+  /// whose markers lie better than the spreads say.
   double least_fall = 8.0;
   double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
   double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue

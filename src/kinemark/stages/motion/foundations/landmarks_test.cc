@@ -59,10 +59,19 @@ TEST(Landmarks, AWandsHeightIsFreeOnEachSide) {
 }
 
 TEST(Landmarks, ToesFlexAndBonesOfTheFootDoNot) {
-  EXPECT_GT(landmark_of("LTOE")->spread.by_posture, 0.01);
-  EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, 0.0);
-  EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, 0.0);
+  const Eigen::Vector3d toe = landmark_of("LTOE")->spread.by_posture;
+  EXPECT_GT(toe.y(), 0.01) << "toes bend up";
+  EXPECT_LT(toe.z(), 0.5 * toe.y()) << "not sideways";
+  EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, Eigen::Vector3d::Zero());
+  EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, Eigen::Vector3d::Zero());
   EXPECT_EQ(landmark_of("LMT2")->x_in_part, landmark_of("LTOE")->x_in_part);
+}
+
+TEST(Landmarks, SkinSlidesAboveThePelvis) {
+  for (const auto* const name : {"C7", "LSHO", "LELB", "LWRA", "LFHD"})
+    EXPECT_GT(landmark_of(name)->spread.by_posture.minCoeff(), 0.002) << name;
+  EXPECT_EQ(landmark_of("LSHO")->part, BodyPart::shoulder);
+  EXPECT_EQ(landmark_of("CLAV")->part, BodyPart::trunk);
 }
 
 TEST(Landmarks, NamesAreCutIntoSideAndRest) {

@@ -84,6 +84,23 @@ TEST(StandingBody, AModelsMarkersPairAcrossSides) {
   EXPECT_EQ(paired, 36);  // all but C7, T10, CLAV, STRN
 }
 
+TEST(StandingBody, ArmsHangFromShouldersThatMoveOnTheTrunk) {
+  for (const auto& body : {body_of_names({"C7", "CLAV", "LSHO", "RSHO", "LELB", "RELB"}),
+                           body_of_model(own_model()).value()}) {
+    const auto acromion = std::ranges::find(body.markers, "LSHO", &StandingBody::Marker::name);
+    ASSERT_NE(acromion, body.markers.end());
+    const auto& shoulder = body.segments[at(acromion->segment)];
+    EXPECT_EQ(shoulder.name, "left shoulder");
+    EXPECT_EQ(body.segments[at(shoulder.parent)].side, Side::middle);
+    EXPECT_EQ(body.segments[at(shoulder.mirror)].name, "right shoulder");
+    const auto elbow = std::ranges::find(body.markers, "LELB", &StandingBody::Marker::name);
+    EXPECT_EQ(body.segments[at(elbow->segment)].parent, acromion->segment);
+    EXPECT_GT(shoulder.joint_by_posture, 0.0);
+    const auto neck = std::ranges::find(body.markers, "C7", &StandingBody::Marker::name);
+    EXPECT_GT(body.segments[at(neck->segment)].joint_by_posture, 0.01) << "spines bend";
+  }
+}
+
 TEST(StandingBody, BodiesThatDoNotTurnBelongToTheirCarrier) {
   const auto body = body_of_model(own_model()).value();
   for (const auto& segment : body.segments) {
