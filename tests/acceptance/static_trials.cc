@@ -91,9 +91,9 @@ StaticCase simulated_case(std::uint64_t seed, bool by_names) {
     return out;
   };
   StaticCase out{.name = fmt::format("subject {}", seed),
-           .body = by_names ? motion::body_of_names(names) : motion::body_of_model(human).value(),
-           .still = frames(9, 0.10),
-           .movement = {}};
+                 .body = by_names ? motion::body_of_names(names) : motion::body_of_model(human).value(),
+                 .still = frames(9, 0.10),
+                 .movement = {}};
   if (by_names) out.movement = frames(60, 0.25);
   return out;
 }
@@ -106,7 +106,8 @@ StaticCase recorded_case(const std::filesystem::path& still, const std::filesyst
 }
 
 std::vector<StaticCase> cases_beside_a_walk(const std::filesystem::path& data) {
-  const auto clinics = data / "c3d-parser-clinics", btk = data / "btk-others", gait = data / "opensim-gait2354";
+  const auto clinics = data / "c3d-parser-clinics", btk = data / "btk-others",
+             gait = data / "opensim-gait2354";
   std::vector<StaticCase> out;
   out.push_back(recorded_case(clinics / "MH0222_BP08.c3d", clinics / "MH0222_BP15.c3d"));
   out.push_back(recorded_case(btk / "PiG_Calibration3_FF.c3d", btk / "PiG_Motion3_FF.c3d"));
@@ -117,12 +118,16 @@ std::vector<StaticCase> cases_beside_a_walk(const std::filesystem::path& data) {
 }
 
 const std::vector<std::string>& lone_recordings() {
-  static const std::vector<std::string> kFiles{
-      "pycgm-rom/Sample_Static.c3d",     "biobuddy/static.c3d",
-      "btk-others/T.trc",                "ezc3d-testFiles/FP_Type1.c3d",
-      "c3d-parser-clinics/MH_Cal_01.c3d", "ezc3d-testFiles/Qualisys.c3d",
-      "opensim-core-formats/walking2.c3d", "cmu-mocap/cmu_02_05.c3d",
-      "btk-others/Gait.c3d",             "btk-others/FunctionalLHip.c3d"};
+  static const std::vector<std::string> kFiles{"pycgm-rom/Sample_Static.c3d",
+                                               "biobuddy/static.c3d",
+                                               "btk-others/T.trc",
+                                               "ezc3d-testFiles/FP_Type1.c3d",
+                                               "c3d-parser-clinics/MH_Cal_01.c3d",
+                                               "ezc3d-testFiles/Qualisys.c3d",
+                                               "opensim-core-formats/walking2.c3d",
+                                               "cmu-mocap/cmu_02_05.c3d",
+                                               "btk-others/Gait.c3d",
+                                               "btk-others/FunctionalLHip.c3d"};
   return kFiles;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Static trials to judge: of laboratories, beside a walk of the same session where there is one, and of simulated subjects.
+// Static trials to judge: of laboratories, beside a walk of the session where there is one, and of simulated
+// subjects.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>

@@ -60,10 +60,12 @@ TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
   EXPECT_EQ(remarks.gates[0].value, 0.0);
   EXPECT_THAT(remarks.gates[0].sentence,
               Not(HasSubstr("shows a mirrored body: an axis of the recording is negated")));
-  EXPECT_THAT(remarks.gates[0].sentence, HasSubstr("No marker of cal.c3d lies where a body cannot have it; a single one 50 mm off would be "
-                        "seen in "));
-  EXPECT_THAT(remarks.gates[0].sentence, HasSubstr(fmt::format("{:.0f} % of markers and directions.",
-                                                               100.0 * judged->seen_at_50_mm)));
+  EXPECT_THAT(
+      remarks.gates[0].sentence,
+      HasSubstr("No marker of cal.c3d lies where a body cannot have it; a single one 50 mm off would be "
+                "seen in "));
+  EXPECT_THAT(remarks.gates[0].sentence,
+              HasSubstr(fmt::format("{:.0f} % of markers and directions.", 100.0 * judged->seen_at_50_mm)));
   EXPECT_THAT(remarks.gates[0].sentence, Not(HasSubstr("Everything below takes it as it is")));
   EXPECT_EQ(judged->judged.size(), kNames.size());
   EXPECT_TRUE(judged->findings.empty());

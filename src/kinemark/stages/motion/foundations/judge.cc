@@ -28,8 +28,8 @@ constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
 constexpr double kRival = 6.0;           // explanations this much less likely are named
 constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
 constexpr double kStated_m = 0.050;      // FoundationJudgement::seen_at_50_mm
-constexpr double kMirrored = 30.0;  // least gain of a mirror image; bodies' images gain 118 and more
-constexpr int kMirrorFrames = 3;    // of a movement
+constexpr double kMirrored = 30.0;       // least gain of a mirror image; bodies' images gain 118 and more
+constexpr int kMirrorFrames = 3;         // of a movement
 
 /// Where the body's markers are in a recording.
 std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
@@ -321,8 +321,7 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
           }))
         continue;
       const auto by_names = internal::prior_of(body);
-      const double more =
-          mean_score(body, by_names, {seen}, a, b) - mean_score(body, by_names, moving, a, b);
+      const double more = mean_score(body, by_names, {seen}, a, b) - mean_score(body, by_names, moving, a, b);
       finding.where = more >= kRival    ? MistakeIn::still
                       : more <= -kRival ? MistakeIn::movement
                                         : MistakeIn::either;

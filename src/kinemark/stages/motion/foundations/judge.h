@@ -44,9 +44,9 @@ struct FoundationFinding {
       Eigen::Vector3d::Zero();  ///< seen less expected: forward, up, to the right of the body
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero();  ///< 1 SD of each
   double score = 0.0;                                    ///< as FoundationOptions::least_score
-  bool by_movement = false;  ///< movements show it; the still recording alone does not
+  bool by_movement = false;            ///< movements show it; the still recording alone does not
   MistakeIn where = MistakeIn::still;  ///< of one by_movement: what each recording by itself tells
-  std::vector<std::string> rivals;  ///< other explanations that are nearly as likely, in words
+  std::vector<std::string> rivals;     ///< other explanations that are nearly as likely, in words
 };
 
 /// What is known of a still recording.
@@ -56,7 +56,7 @@ struct FoundationJudgement {
   std::int64_t frame = -1;                  ///< middle of the stillest part, which was judged; -1: none
   int movements = 0;                        ///< recordings that it was compared with
   double seen_at_50_mm = 0.0;  ///< share of single markers and directions in which 50 mm would be a finding
-  bool mirrored = false;                    ///< its mirror image shows the body; findings are that image's
+  bool mirrored = false;       ///< its mirror image shows the body; findings are that image's
 };
 
 /// Judge the stillest part of a recording against a body, and against movements of the same session, in which

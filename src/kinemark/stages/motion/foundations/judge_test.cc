@@ -241,8 +241,9 @@ TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
   EXPECT_THAT(describe(shifted, "s"), Not(HasSubstr(") from where the movement has it in")));
   shifted.by_movement = true;
   shifted.where = MistakeIn::movement;
-  EXPECT_EQ(describe(shifted, "s"),
-            "LKNE lies 50 mm (SD 8) from where it should in the movement beside s: 30 mm up, 40 mm to the right");
+  EXPECT_EQ(
+      describe(shifted, "s"),
+      "LKNE lies 50 mm (SD 8) from where it should in the movement beside s: 30 mm up, 40 mm to the right");
   shifted.where = MistakeIn::either;
   EXPECT_EQ(describe(shifted, "s"),
             "LKNE lies 50 mm (SD 8) from where the movement has it in s: 30 mm down, 40 mm to the left; in "
@@ -279,10 +280,10 @@ TEST(Judge, AMarkerElsewhereInTheMovementDoesNotAccuseTheStaticTrial) {
 TEST(Judge, AnExchangeInAMovementOfOneLegDoesNotAccuseTheStaticTrial) {
   const std::vector<std::string> names{"LASI", "RASI", "LPSI", "RPSI", "LTHI", "LKNE", "LTIB", "LANK"};
   auto model = human();
-  std::erase_if(model.markers, [&](const auto& marker) {
-    return std::ranges::find(names, marker.name) == names.end();
-  });
-  for (const auto& [a, b] : {std::pair{"LKNE", "LANK"}, std::pair{"LTIB", "LANK"}, std::pair{"LTHI", "LKNE"}}) {
+  std::erase_if(model.markers,
+                [&](const auto& marker) { return std::ranges::find(names, marker.name) == names.end(); });
+  for (const auto& [a, b] :
+       {std::pair{"LKNE", "LANK"}, std::pair{"LTIB", "LANK"}, std::pair{"LTHI", "LKNE"}}) {
     const auto person = subject(41, model);
     const auto still = frames(person, 9, 0.03, 41);
     auto movement = frames(person, 40, 0.25, 141);

@@ -22,6 +22,7 @@ enum class Found : std::uint8_t {
   toe,      ///< along the foot by habit, behind the joint of the toes or on them
   fore,     ///< along the foot by habit, on bones of the foot
   wand,     ///< on a line, its height by habit, and by Plug-in Gait's rule not the same on both sides
+  side,     ///< one of a cluster whose name tells its side of the segment: upper, front, rear
   cluster,  ///< anywhere on the segment
 };
 
@@ -45,6 +46,8 @@ PlaceSpread spread_of(Found found) {
       return {Vector3d(0.030, 0.012, 0.015), Vector3d(0.009, 0.007, 0.008)};
     case Found::wand:
       return {Vector3d(0.035, 0.060, 0.025), Vector3d(0.016, 0.060, 0.012)};
+    case Found::side:
+      return {Vector3d(0.040, 0.060, 0.040), Vector3d(0.020, 0.035, 0.020)};
     case Found::cluster:
       break;
   }
@@ -91,19 +94,22 @@ constexpr std::array kEntries{
     Entry{" GT GTR FTC TROC TROCHANTER ", thigh, true, 0.000, -0.005, 0.090, Found::covered},
     Entry{" THI THIGH ", thigh, true, 0.010, -0.214, 0.090, Found::wand},
     Entry{" THAP ", thigh, true, 0.085, -0.266, 0.025, Found::wand},
-    Entry{" THIGHUPPER THIGHFRONT THIGHREAR TH1 TH2 TH3 TH4 THI1 THI2 THI3 THI4 F01 F02 F03 F04 F05 WAND1 "
-          "ANTFEM POSTFEM ",
-          thigh, true, 0.030, -0.220, 0.070, Found::cluster},
+    Entry{" THIGHUPPER ", thigh, true, 0.045, -0.190, 0.070, Found::side},
+    Entry{" THIGHFRONT ANTFEM ", thigh, true, 0.100, -0.250, 0.005, Found::side},
+    Entry{" THIGHREAR POSTFEM ", thigh, true, 0.025, -0.300, 0.070, Found::side},
+    Entry{" TH1 TH2 TH3 TH4 THI1 THI2 THI3 THI4 F01 F02 F03 F04 F05 WAND1 ", thigh, true, 0.030, -0.220,
+          0.070, Found::cluster},
     Entry{" KNE KNEE KNEELAT KNEELATERAL LFC LFE FLE LEK ", thigh, true, 0.000, -0.419, 0.055, Found::bone},
     Entry{" KNEMED KNEEMED KNEEMEDIAL MKN KNM MFC MFE FME MEK ", thigh, true, 0.000, -0.419, -0.055,
           Found::bone},
     Entry{" FAX ", shank, true, -0.020, -0.035, 0.050, Found::covered},
     Entry{" TTC TT ATT ", shank, true, 0.045, -0.055, 0.000, Found::covered},
     Entry{" TIB SHN SHA SHANK TIBIA ", shank, true, 0.020, -0.207, 0.050, Found::wand},
-    Entry{" SHANKUPPER SHANKFRONT SHANKREAR TB1 TB2 TB3 TB4 SK1 SK2 SK3 SK4 T01 T02 T03 T04 T05 LEG1 LEG2 "
-          "LEG3 LEG4 "
-          "WAND2 ANTTIB POSTTIB ",
-          shank, true, 0.030, -0.210, 0.040, Found::cluster},
+    Entry{" SHANKUPPER ", shank, true, -0.015, -0.080, 0.065, Found::side},
+    Entry{" SHANKFRONT ANTTIB ", shank, true, 0.045, -0.140, 0.030, Found::side},
+    Entry{" SHANKREAR POSTTIB ", shank, true, -0.030, -0.150, 0.075, Found::side},
+    Entry{" TB1 TB2 TB3 TB4 SK1 SK2 SK3 SK4 T01 T02 T03 T04 T05 LEG1 LEG2 LEG3 LEG4 WAND2 ", shank, true,
+          0.030, -0.210, 0.040, Found::cluster},
     Entry{" ANK ANKLE ANKLELAT ANKLELATERAL LMAL FAL LM MALL ", shank, true, -0.005, -0.426, 0.044,
           Found::bone},
     Entry{" MED ANKMED ANKLEMED ANKLEMEDIAL MMAL TAM MM SPH ", shank, true, 0.010, -0.416, -0.042,

@@ -16,7 +16,18 @@ namespace kinemark::motion {
 enum class Side : std::uint8_t { middle, left, right };
 
 /// Segments that a marker may be on.
-enum class BodyPart : std::uint8_t { pelvis, thigh, shank, foot, trunk, head, upper_arm, forearm, hand, shoulder };
+enum class BodyPart : std::uint8_t {
+  pelvis,
+  thigh,
+  shank,
+  foot,
+  trunk,
+  head,
+  upper_arm,
+  forearm,
+  hand,
+  shoulder
+};
 
 /// How far markers lie from the place that their name gives, 1 SD per axis (forward, up, outward), m.
 struct PlaceSpread {

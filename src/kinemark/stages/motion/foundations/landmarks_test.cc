@@ -67,6 +67,19 @@ TEST(Landmarks, ToesFlexAndBonesOfTheFootDoNot) {
   EXPECT_EQ(landmark_of("LMT2")->x_in_part, landmark_of("LTOE")->x_in_part);
 }
 
+TEST(Landmarks, NamesOfAClusterThatTellASideAreKeptApart) {
+  for (const auto* const part : {"Thigh", "Shank"}) {
+    const auto name = [&](const char* side) { return std::string("L.") + part + "." + side; };
+    const auto upper = landmark_of(name("Upper")), front = landmark_of(name("Front")),
+               rear = landmark_of(name("Rear"));
+    ASSERT_TRUE(upper && front && rear) << part;
+    EXPECT_GT(front->x_in_part.x(), rear->x_in_part.x() + 0.05) << part;
+    EXPECT_GT(upper->x_in_part.y(), front->x_in_part.y()) << part;
+    EXPECT_GT(upper->x_in_part.y(), rear->x_in_part.y()) << part;
+    EXPECT_LT(front->spread.own.x(), landmark_of("LTH1")->spread.own.x());
+  }
+}
+
 TEST(Landmarks, SkinSlidesAboveThePelvis) {
   for (const auto* const name : {"C7", "LSHO", "LELB", "LWRA", "LFHD"})
     EXPECT_GT(landmark_of(name)->spread.by_posture.minCoeff(), 0.002) << name;

@@ -139,8 +139,8 @@ int pair_segment(StandingBody::Segment segment, StandingBody& body) {
   return index;
 }
 
-/// Where a model's arm hangs from a trunk without clavicle, its shoulder is a segment of its own, as in the body of names:
-/// acromia move on the trunk. Joints are counted from the trunk's.
+/// Where a model's arm hangs from a trunk without clavicle, its shoulder is a segment of its own, as in the
+/// body of names: acromia move on the trunk. Joints are counted from the trunk's.
 StandingBody::Segment shoulder_of(const StandingBody& body, const StandingBody::Segment& arm,
                                   const Vector3d& arm_in_trunk) {
   StandingBody::Segment out;

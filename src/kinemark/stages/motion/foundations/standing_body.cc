@@ -32,7 +32,8 @@ const std::array<PartEntry, 10>& parts() {
       {trunk, pelvis, "trunk", Vector3d(-0.070, 0.081, 0.0), Vector3d(10, 12, 20), 0.020, 0.0, 0.025},
       {head, trunk, "head", Vector3d(0.000, 0.410, 0.0), Vector3d(15, 30, 25), 0.020, 0.0, 0.015},
       {shoulder, trunk, "shoulder", Vector3d(0.055, 0.340, 0.025), Vector3d(16, 14, 8), 0.015, 0.006, 0.008},
-      {upper_arm, shoulder, "upper arm", Vector3d(-0.050, 0.0065, 0.1616), Vector3d(60, 60, 60), 0.015, 0.010, 0.012},
+      {upper_arm, shoulder, "upper arm", Vector3d(-0.050, 0.0065, 0.1616), Vector3d(60, 60, 60), 0.015, 0.010,
+       0.012},
       {forearm, upper_arm, "forearm", Vector3d(0.0, -0.329, 0.0), Vector3d(12, 60, 60), 0.006, 0.004, 0.004},
       {hand, forearm, "hand", Vector3d(0.0, -0.254, 0.0), Vector3d(25, 20, 40), 0.006, 0.004, 0.004},
   }};

@@ -27,7 +27,7 @@ struct StandingBody {
     double joint_common_sd = 0.006, joint_own_sd = 0.004;       ///< per axis: both sides alike; by itself, m
     double joint_by_posture = 0.0;  ///< per axis, from one posture to another: spines have many joints, m
     int size = 0;                   ///< index into sizes: along the segment
-    int width = -1;                                             ///< index into sizes: along z; -1: as size
+    int width = -1;                 ///< index into sizes: along z; -1: as size
   };
   /// A size that segments share, as a factor.
   struct Size {

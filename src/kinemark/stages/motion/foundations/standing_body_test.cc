@@ -85,8 +85,8 @@ TEST(StandingBody, AModelsMarkersPairAcrossSides) {
 }
 
 TEST(StandingBody, ArmsHangFromShouldersThatMoveOnTheTrunk) {
-  for (const auto& body : {body_of_names({"C7", "CLAV", "LSHO", "RSHO", "LELB", "RELB"}),
-                           body_of_model(own_model()).value()}) {
+  for (const auto& body :
+       {body_of_names({"C7", "CLAV", "LSHO", "RSHO", "LELB", "RELB"}), body_of_model(own_model()).value()}) {
     const auto acromion = std::ranges::find(body.markers, "LSHO", &StandingBody::Marker::name);
     ASSERT_NE(acromion, body.markers.end());
     const auto& shoulder = body.segments[at(acromion->segment)];

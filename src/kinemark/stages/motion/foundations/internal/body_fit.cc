@@ -330,8 +330,8 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
 
 SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
                          const std::vector<SeenFrame>& frames) {
-  constexpr int kMostLooks = 6;  // at all frames together
-  constexpr double kHeld = 1e6;  // how much surer than the prior: shared numbers stay where they are
+  constexpr int kMostLooks = 6;    // at all frames together
+  constexpr double kHeld = 1e6;    // how much surer than the prior: shared numbers stay where they are
   constexpr double kLittle = 1.0;  // of the cost
   // Frame after frame: what one tells becomes what is known before the next.
   SharedPrior known = prior;
@@ -348,7 +348,8 @@ SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
     known.information = tells(fits.back());
     known.information = (0.5 * (known.information + known.information.transpose())).eval();
   }
-  // Then all together: the first ones were linearised far from what all of them tell, some in another posture.
+  // Then all together: the first ones were linearised far from what all of them tell, some in another
+  // posture.
   VectorXd mean = known.mean;
   VectorXd step = VectorXd::Zero(S);
   double least = std::numeric_limits<double>::infinity();

@@ -159,8 +159,7 @@ TEST(BodyFit, WhatFramesTeachDoesNotDependOnTheirOrder) {
     auto frame = standing_frame(body, 1.15, Eigen::Matrix3d::Identity(), Vector3d(0.1 * k, 0, 0));
     // Left markers from the thigh on swing about the hip, which lies 30 mm further back than expected.
     const Vector3d hip = 1.15 * Vector3d(-0.09, -0.0765, -0.085) + Vector3d(0.1 * k, 0, 0);
-    const Eigen::Matrix3d swing =
-        Eigen::AngleAxisd(0.3 * k, Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d swing = Eigen::AngleAxisd(0.3 * k, Vector3d::UnitZ()).toRotationMatrix();
     for (std::size_t m = 4; m < kNames.size(); m += 2) {
       const auto i = static_cast<Eigen::Index>(m);
       frame.x.col(i) = hip + swing * (frame.x.col(i) - hip);
