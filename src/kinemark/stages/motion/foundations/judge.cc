@@ -205,7 +205,7 @@ Status FoundationOptions::check() const {
   for (const double sd : {still_sd_m, moving_sd_m, between_sd_m})
     if (!(sd > 0.0 && sd < 1.0))
       return fail(Code::usage, fmt::format("a spread of {} m; need above 0, below 1", sd));
-  for (const double score : {least_score, least_score_beside, least_fall})
+  for (const double score : {least_score, least_score_beside, least_fall, least_fall_beside})
     if (!(score > 0.0)) return fail(Code::usage, fmt::format("a score of {}; need a number above 0", score));
   if (moving_frames < 1 || most_findings < 1)
     return fail(Code::usage,
@@ -247,8 +247,9 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   }
   if (!moving.empty()) prior = prior_with(body, prior, moving, options.between_sd_m);
 
-  const internal::Least of_singles{moving.empty() ? options.least_score : options.least_score_beside,
-                                   options.least_fall};
+  const auto of_singles = moving.empty()
+                              ? internal::Least{options.least_score, options.least_fall}
+                              : internal::Least{options.least_score_beside, options.least_fall_beside};
   const auto name_of = [&](int m) { return still.names[static_cast<std::size_t>(columns[at(m)])]; };
   struct Single {
     int marker;

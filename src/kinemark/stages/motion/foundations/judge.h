@@ -24,11 +24,12 @@ struct FoundationOptions {
   /// Of a single marker: fall of the cost by the spreads as they are. The score alone accuses clean subjects
   /// whose markers lie better than the spreads say.
   double least_fall = 8.0;
-  double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
-  double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue
-  double between_sd_m = 0.004;  ///< of a marker between two recordings, per axis
-  int moving_frames = 6;        ///< of each movement, evenly picked
-  int most_findings = 4;        ///< of one recording
+  double least_fall_beside = 4.0;  ///< beside a movement
+  double still_sd_m = 0.003;       ///< of a marker in the still frame, per axis
+  double moving_sd_m = 0.006;      ///< of a marker on its segment in a movement, per axis: soft tissue
+  double between_sd_m = 0.004;     ///< of a marker between two recordings, per axis
+  int moving_frames = 6;           ///< of each movement, evenly picked
+  int most_findings = 4;           ///< of one recording
 
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };

@@ -335,7 +335,7 @@ TEST(Judge, ShouldersThatMovedDoNotHideAnotherMarker) {
   const auto person = subject(4, human());
   auto still = only(frames(person, 9, 0.03, 4));
   const auto movement = only(frames(person, 40, 0.25, 14));
-  for (const auto* const shoulder : {"LSHO", "RSHO"}) move(still, shoulder, Vector3d(-0.03, 0.05, 0.0));
+  for (const auto* const shoulder : {"LSHO", "RSHO"}) move(still, shoulder, Vector3d(-0.02, 0.035, 0.0));
   EXPECT_TRUE(by_names(still, &movement).findings.empty());
   move(still, "LASI", Vector3d(0.03, -0.06, 0.0));
   const auto judgement = by_names(still, &movement);
@@ -445,6 +445,7 @@ TEST(Judge, OptionsAreChecked) {
   EXPECT_FALSE(FoundationOptions{.least_score = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.least_score_beside = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.least_fall = -1.0}.check());
+  EXPECT_FALSE(FoundationOptions{.least_fall_beside = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.most_findings = 0}.check());
   EXPECT_FALSE(FoundationOptions{.between_sd_m = 2.0}.check());
   EXPECT_FALSE(FoundationOptions{.still_sd_m = -1.0}.check());
