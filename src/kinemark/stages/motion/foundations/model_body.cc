@@ -157,6 +157,22 @@ StandingBody::Segment shoulder_of(const StandingBody& body, const StandingBody::
   return out;
 }
 
+/// The shoulder that an acromion at `here` belongs to, made where no arm hangs from the trunk.
+int shoulder_on(int trunk, Side side, const Vector3d& here, StandingBody& body,
+                std::vector<Vector3d>& joint) {
+  for (std::size_t s = 0; s < body.segments.size(); ++s)
+    if (body.segments[s].parent == trunk && body.segments[s].side == side &&
+        body.segments[s].name.ends_with(" shoulder"))
+      return static_cast<int>(s);
+  StandingBody::Segment arm;
+  arm.parent = trunk;
+  arm.side = side;
+  const Vector3d arm_from_acromion(0.010, -0.0535, side == Side::left ? -0.0116 : 0.0116);
+  auto shoulder = shoulder_of(body, arm, here - joint[at(trunk)] + arm_from_acromion);
+  joint.push_back(joint[at(trunk)] + shoulder.joint_in_parent);
+  return pair_segment(std::move(shoulder), body);
+}
+
 }  // namespace
 
 Result<StandingBody> body_of_model(const data::ModelDescription& model) {
@@ -208,11 +224,10 @@ Result<StandingBody> body_of_model(const data::ModelDescription& model) {
     marker.name = model.markers[m].name;
     marker.segment = segment_of_body[at(b)];
     const auto landmark = landmark_of(marker.name);
-    if (landmark && landmark->part == BodyPart::shoulder)
-      for (std::size_t s = 0; s < out.segments.size(); ++s)
-        if (out.segments[s].parent == marker.segment && out.segments[s].side == landmark->side &&
-            out.segments[s].name.ends_with(" shoulder"))
-          marker.segment = static_cast<int>(s);
+    if (landmark && landmark->part == BodyPart::shoulder && landmark->side != Side::middle &&
+        out.segments[at(marker.segment)].side == Side::middle)
+      marker.segment = shoulder_on(marker.segment, landmark->side,
+                                   turn * w.marker.col(static_cast<Eigen::Index>(m)), out, joint);
     marker.x_in_segment = turn * w.marker.col(static_cast<Eigen::Index>(m)) - joint[at(marker.segment)];
     if (landmark) marker.spread = landmark->spread;
     out.markers.push_back(std::move(marker));

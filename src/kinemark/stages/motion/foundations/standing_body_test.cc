@@ -101,6 +101,22 @@ TEST(StandingBody, ArmsHangFromShouldersThatMoveOnTheTrunk) {
   }
 }
 
+TEST(StandingBody, AcromiaMoveOnTheTrunkOfAModelWithoutArms) {
+  auto model = own_model();
+  for (const auto& joint : model.joints)
+    if (model.bodies[at(joint.child_body_idx)].name.starts_with("humerus"))
+      for (const auto& axis : joint.axes)
+        if (axis.coordinate_idx >= 0) model.coordinates[at(axis.coordinate_idx)].locked = true;
+  const auto body = body_of_model(model).value(), whole = body_of_model(own_model()).value();
+  for (const auto& segment : body.segments) EXPECT_FALSE(segment.name.starts_with("humerus"));
+  for (const auto* const name : {"LSHO", "RSHO"}) {
+    const auto acromion = std::ranges::find(body.markers, name, &StandingBody::Marker::name);
+    ASSERT_NE(acromion, body.markers.end());
+    EXPECT_TRUE(body.segments[at(acromion->segment)].name.ends_with(" shoulder"));
+    EXPECT_LT((standing(body, name) - standing(whole, name)).norm(), 1e-9) << "where the model has it";
+  }
+}
+
 TEST(StandingBody, BodiesThatDoNotTurnBelongToTheirCarrier) {
   const auto body = body_of_model(own_model()).value();
   for (const auto& segment : body.segments) {
