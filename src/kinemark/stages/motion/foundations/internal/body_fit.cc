@@ -330,7 +330,7 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
 
 SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
                          const std::vector<SeenFrame>& frames) {
-  constexpr int kMostLooks = 6;    // at all frames together
+  constexpr int kMostPasses = 6;    // at all frames together
   constexpr double kHeld = 1e6;    // how much surer than the prior: shared numbers stay where they are
   constexpr double kLittle = 1.0;  // of the cost
   // Frame after frame: what one tells becomes what is known before the next.
@@ -353,7 +353,7 @@ SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
   VectorXd mean = known.mean;
   VectorXd step = VectorXd::Zero(S);
   double least = std::numeric_limits<double>::infinity();
-  for (int look = 0; look < kMostLooks && !frames.empty(); ++look) {
+  for (int pass = 0; pass < kMostPasses && !frames.empty(); ++pass) {
     const SharedPrior held{mean, kHeld * prior.information};
     VectorXd gradient = prior.information * (prior.mean - mean);
     double cost = (mean - prior.mean).dot(prior.information * (mean - prior.mean));
@@ -363,7 +363,7 @@ SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
       BodyFit near = fits[f];
       near.shared = mean;
       now.push_back(fit_body(body, held, frames[f], &near));
-      if (look == 0)
+      if (pass == 0)
         if (BodyFit again = fit_body(body, held, frames[f]); again.cost < now.back().cost)
           now.back() = std::move(again);
       const BodyFit& fit = now.back();
