@@ -330,7 +330,7 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
 
 SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
                          const std::vector<SeenFrame>& frames) {
-  constexpr int kMostPasses = 6;    // at all frames together
+  constexpr int kMostPasses = 6;   // over all frames together
   constexpr double kHeld = 1e6;    // how much surer than the prior: shared numbers stay where they are
   constexpr double kLittle = 1.0;  // of the cost
   // Frame after frame: what one tells becomes what is known before the next.
