@@ -1,52 +1,26 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Static trials in which one pair is exchanged or one marker lies 30 to 80 mm elsewhere, judged as `scale`
-// (against a model) and `analyze --segments pig --static` (by names and the walk) judge them.
-// Arguments: mistakes in each trial (default 4), first seed (default 2608).
+// Static trials in which one pair is exchanged, judged as `scale` (against a model) and
+// `segments --definition pig --static` (by names and the walk) judge them.
+// Arguments: exchanges in each trial (default 4), first seed (default 2608).
 #include <fmt/core.h>
 
-#include <Eigen/Core>
-#include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "kinemark/core/index.h"
+#include "acceptance/static_trials.h"
 #include "kinemark/core/random.h"
-#include "kinemark/io/osim/osim_model.h"
-#include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/model/kinematics.h"
-#include "kinemark/model/state.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/stages/motion/foundations/judge.h"
-#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "support/acceptance.h"
 #include "support/test_data.h"
 
 namespace {
 
 using namespace kinemark;
-using data::Trajectories;
-using Eigen::Vector3d;
 using testing_support::print_row;
-
-/// Three normal numbers, drawn in order.
-Vector3d some_vector(Random& random) {
-  Vector3d out;
-  for (int a = 0; a < 3; ++a) out[a] = random.gaussian();
-  return out;
-}
-
-/// A static trial, the body that it is judged against, and its movement where there is one.
-struct Case {
-  std::string name;
-  motion::StandingBody body;
-  Trajectories still;
-  std::optional<Trajectories> movement;
-  motion::FoundationJudgement clean = {};  // of the trial as it is
-};
+using Case = testing_support::StaticCase;
 
 struct Count {
   int planted = 0, named = 0, clean = 0, accused = 0;
@@ -57,16 +31,6 @@ struct Count {
                           planted, missed.empty() ? "" : "; not: " + missed.substr(0, 300)));
   }
 };
-
-Trajectories read(const std::filesystem::path& path) {
-  return pipeline::read_marker_input({.path = path}).value().trial.markers;
-}
-
-motion::FoundationJudgement judge(const Case& c, const Trajectories& still) {
-  std::vector<const Trajectories*> movements;
-  if (c.movement) movements.push_back(&*c.movement);
-  return motion::judge_foundation(c.body, still, movements).value();
-}
 
 /// Two markers that somebody may mistake for each other: partners, or neighbours on a segment or across a
 /// joint.
@@ -84,50 +48,24 @@ std::pair<std::int64_t, std::int64_t> some_pair(const Case& c, const std::vector
   }
 }
 
-void plant(const Case& c, int index, std::uint64_t seed, Count& exchanges, Count& shifts) {
+void plant(const Case& c, int index, std::uint64_t seed, Count& exchanges) {
   std::vector<std::int64_t> seen;
   for (const auto& name : c.clean.judged) seen.push_back(c.still.find(name));
   Random random(seed, static_cast<std::uint64_t>(index));
-  Trajectories spoilt = c.still;
-  const bool exchange = index % 2 == 0;
-  std::string what, a, b;
-  if (exchange) {
-    const auto [i, j] = some_pair(c, seen, c.clean.frame, random);
-    for (std::int64_t f = 0; f < spoilt.frames(); ++f) {
-      const auto s = spoilt.index(f, i), t = spoilt.index(f, j);
-      const Vector3d kept = spoilt.x(f, i);
-      spoilt.x(f, i) = spoilt.x(f, j);
-      spoilt.x(f, j) = kept;
-      std::swap(spoilt.state[s], spoilt.state[t]);
-    }
-    a = spoilt.names[static_cast<std::size_t>(i)];
-    b = spoilt.names[static_cast<std::size_t>(j)];
-    what = fmt::format("{} {}/{}", c.name, a, b);
-  } else {
-    const auto m = seen[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(seen.size())))];
-    const Vector3d way = some_vector(random).normalized();
-    const double size = 0.03 + 0.05 * random.uniform();
-    for (std::int64_t f = 0; f < spoilt.frames(); ++f)
-      if (spoilt.present(f, m)) spoilt.x(f, m) += size * way;
-    a = spoilt.names[static_cast<std::size_t>(m)];
-    what = fmt::format("{} {} {:.0f} mm", c.name, a, 1e3 * size);
-  }
-  auto& count = exchange ? exchanges : shifts;
-  const auto judgement = judge(c, spoilt);
-  ++count.planted;
+  const auto [i, j] = some_pair(c, seen, c.clean.frame, random);
+  const auto& a = c.still.names[static_cast<std::size_t>(i)];
+  const auto& b = c.still.names[static_cast<std::size_t>(j)];
+  const auto judgement = testing_support::judge(c, testing_support::with_exchange(c.still, i, j));
+  ++exchanges.planted;
   const auto& f = judgement.findings;
-  const bool named = !f.empty() && (exchange ? (f[0].marker == a && f[0].partner == b) ||
-                                                   (f[0].marker == b && f[0].partner == a)
-                                             : f[0].marker == a && f[0].partner.empty());
-  if (named) {
-    ++count.named;
-  } else {
-    count.missed += (count.missed.empty() ? "" : ", ") + what;
-  }
+  if (!f.empty() && ((f[0].marker == a && f[0].partner == b) || (f[0].marker == b && f[0].partner == a)))
+    ++exchanges.named;
+  else
+    exchanges.missed += (exchanges.missed.empty() ? "" : ", ") + fmt::format("{} {}/{}", c.name, a, b);
 }
 
 void look_at_clean(Case& c, Count& count) {
-  c.clean = judge(c, c.still);
+  c.clean = testing_support::judge(c, c.still);
   if (c.clean.judged.empty()) return;
   ++count.clean;
   if (c.clean.findings.empty()) return;
@@ -135,61 +73,12 @@ void look_at_clean(Case& c, Count& count) {
   count.missed += (count.missed.empty() ? "" : ", ") + motion::describe(c.clean.findings[0], c.name);
 }
 
-/// Subjects of our own: another size for every segment, sides a little unlike, markers placed by hand.
-Case simulated(std::uint64_t seed, bool by_names) {
-  const auto human = io::read_osim(testing_support::project_folder() / "models" / "human.osim").value();
-  Random random(seed, 77);
-  auto person = human;
-  const double size = 1.0 + 0.06 * random.gaussian();
-  for (auto& joint : person.joints)
-    joint.parent_from_joint.translation *= size * (1.0 + 0.015 * random.gaussian());
-  for (auto& marker : person.markers) {
-    marker.x_in_body *= size;
-    for (int a = 0; a < 3; ++a) marker.x_in_body[a] += 0.005 * random.gaussian();
-  }
-  const auto model = model::Model::compile(person).value();
-  model::Workspace w(model);
-  std::vector<std::string> names;
-  for (const auto& marker : person.markers) names.push_back(marker.name);
-  const auto frames = [&](std::int64_t count, double spread) {
-    auto out = Trajectories::all_missing(names, {.rate_hz = 100.0, .frames = count});
-    Eigen::VectorXd q(model.coordinate_count());
-    for (std::int64_t f = 0; f < count; ++f) {
-      for (int k = 0; k < model.coordinate_count(); ++k) {
-        const auto& coordinate = person.coordinates[at(k)];
-        if (f == 0 || spread > 0.2)
-          q[k] =
-              coordinate.default_value + (coordinate.is_rotation && k > 5 ? spread * random.gaussian() : 0.0);
-      }
-      model::kinematics(model, w, model::state_from_coordinates(model, q));
-      for (std::int64_t m = 0; m < out.markers(); ++m) {
-        out.x(f, m) = w.marker.col(m) + 0.001 * some_vector(random);
-        out.state[out.index(f, m)] = data::SampleState::measured;
-      }
-    }
-    return out;
-  };
-  Case out{.name = fmt::format("subject {}", seed),
-           .body = by_names ? motion::body_of_names(names) : motion::body_of_model(human).value(),
-           .still = frames(9, 0.10),
-           .movement = {}};
-  if (by_names) out.movement = frames(60, 0.25);
-  return out;
-}
-
-Case recorded(const std::filesystem::path& still, const std::filesystem::path& movement) {
-  Case out{.name = still.stem().string(), .body = {}, .still = read(still), .movement = {}};
-  out.body = motion::body_of_names(out.still.names);
-  if (!movement.empty()) out.movement = read(movement);
-  return out;
-}
-
 /// Subjects without a mistake against the model, by names alone, and by names beside a movement.
 void look_at_many_clean(std::uint64_t seed, int subjects) {
   Count counts[3];
   for (int s = 0; s < subjects; ++s) {
-    Case model = simulated(seed + static_cast<std::uint64_t>(s), false);
-    Case names = simulated(seed + static_cast<std::uint64_t>(s), true);
+    Case model = testing_support::simulated_case(seed + static_cast<std::uint64_t>(s), false);
+    Case names = testing_support::simulated_case(seed + static_cast<std::uint64_t>(s), true);
     look_at_clean(model, counts[0]);
     look_at_clean(names, counts[2]);
     names.movement.reset();
@@ -208,41 +97,27 @@ int run_check(int argc, char** argv) {
   if (!data) return testing_support::skip_all("static trials of many laboratories");
   const int plants = argc > 1 ? std::atoi(argv[1]) : 4;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 2608;
-  const auto clinics = *data / "c3d-parser-clinics";
 
-  Count exchanges, shifts, clean;
+  Count exchanges, clean;
   const int subjects = std::max(2, plants / 4);
   for (int s = 0; s < subjects; ++s) {
-    Case c = simulated(seed + static_cast<std::uint64_t>(s), false);
+    Case c = testing_support::simulated_case(seed + static_cast<std::uint64_t>(s), false);
     look_at_clean(c, clean);
-    for (int k = 0; k < 4; ++k) plant(c, 4 * s + k, seed, exchanges, shifts);
+    for (int k = 0; k < 4; ++k) plant(c, 4 * s + k, seed, exchanges);
   }
   exchanges.print("simulated subjects against the model: exchanged pairs named", 0.98);
-  shifts.print("simulated subjects against the model: markers 30 to 80 mm off named", 0.98);
 
-  Count exchanges_walk, shifts_walk;
-  std::vector<Case> pairs;
-  pairs.push_back(recorded(clinics / "MH0222_BP08.c3d", clinics / "MH0222_BP15.c3d"));
-  pairs.push_back(recorded(*data / "btk-others" / "PiG_Calibration3_FF.c3d",
-                           *data / "btk-others" / "PiG_Motion3_FF.c3d"));
-  pairs.push_back(recorded(clinics / "S4_AM_Cal_01.c3d", clinics / "S4-AMGait03.c3d"));
-  pairs.push_back(recorded(clinics / "RBWH_Max_Cal_01.c3d", clinics / "RBWH_bfnd_w1.c3d"));
-  pairs.push_back(recorded(*data / "opensim-gait2354" / "subject01_static.trc",
-                           *data / "opensim-gait2354" / "subject01_walk1.trc"));
+  Count exchanges_walk;
+  auto pairs = testing_support::cases_beside_a_walk(*data);
   for (auto& c : pairs) {
     look_at_clean(c, clean);
-    for (int k = 0; k < plants; ++k) plant(c, k, seed + 1, exchanges_walk, shifts_walk);
+    for (int k = 0; k < plants; ++k) plant(c, k, seed + 1, exchanges_walk);
   }
   exchanges_walk.print("static trials beside a walk of the session: exchanged pairs named", 0.98);
-  shifts_walk.print("static trials beside a walk of the session: markers 30 to 80 mm off named", 0.98);
 
   if (plants > 4) {
-    for (const char* name :
-         {"pycgm-rom/Sample_Static.c3d", "biobuddy/static.c3d", "btk-others/T.trc",
-          "ezc3d-testFiles/FP_Type1.c3d", "c3d-parser-clinics/MH_Cal_01.c3d", "ezc3d-testFiles/Qualisys.c3d",
-          "opensim-core-formats/walking2.c3d", "cmu-mocap/cmu_02_05.c3d", "btk-others/Gait.c3d",
-          "btk-others/FunctionalLHip.c3d"}) {
-      Case other = recorded(*data / name, {});
+    for (const auto& name : testing_support::lone_recordings()) {
+      Case other = testing_support::recorded_case(*data / name, {});
       look_at_clean(other, clean);
     }
     for (const auto& c : pairs) {

@@ -8,6 +8,7 @@ namespace kinemark::pipeline {
 
 nlohmann::ordered_json foundation_json(const std::string& file,
                                        const motion::FoundationJudgement& judgement) {
+  constexpr const char* kWhere[] = {"still", "movement", "either"};
   auto findings = nlohmann::ordered_json::array();
   for (const auto& finding : judgement.findings) {
     nlohmann::ordered_json one{{"marker", finding.marker}, {"partner", nullptr}};
@@ -18,7 +19,7 @@ nlohmann::ordered_json foundation_json(const std::string& file,
       one["shift_sd_m"] = {finding.shift_sd_m.x(), finding.shift_sd_m.y(), finding.shift_sd_m.z()};
     }
     one["by_movement"] = finding.by_movement;
-    one["either"] = finding.either;
+    one["where"] = kWhere[static_cast<std::size_t>(finding.where)];
     one["score"] = finding.score;
     one["rivals"] = finding.rivals;
     one["sentence"] = motion::describe(finding, file);
@@ -27,6 +28,7 @@ nlohmann::ordered_json foundation_json(const std::string& file,
   return {{"file", file},
           {"judged", judgement.judged},
           {"movements", judgement.movements},
+          {"seen_at_50_mm", judgement.seen_at_50_mm},
           {"mirrored", judgement.mirrored},
           {"findings", std::move(findings)}};
 }

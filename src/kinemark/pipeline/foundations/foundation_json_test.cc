@@ -45,11 +45,13 @@ TEST(FoundationJson, WritesAShiftWithItsSpreadAndWithoutAPartner) {
   motion::FoundationJudgement judgement;
   judgement.judged = {"LKNE", "RKNE"};
   judgement.movements = 2;
+  judgement.seen_at_50_mm = 0.4;
   judgement.findings.push_back({.marker = "LKNE",
                                 .shift_m = Vector3d(0.05, -0.02, 0.0),
                                 .shift_sd_m = Vector3d(0.008, 0.007, 0.006),
                                 .score = 31.0,
                                 .by_movement = true,
+                                .where = motion::MistakeIn::either,
                                 .rivals = {"LTHI 70 mm off"}});
   const auto json = foundation_json("cal.c3d", judgement);
   EXPECT_EQ(json["file"], "cal.c3d");
@@ -59,9 +61,11 @@ TEST(FoundationJson, WritesAShiftWithItsSpreadAndWithoutAPartner) {
   EXPECT_EQ(one["shift_m"][0], 0.05);
   EXPECT_EQ(one["shift_sd_m"][2], 0.006);
   EXPECT_TRUE(one["by_movement"]);
+  EXPECT_EQ(one["where"], "either");
+  EXPECT_EQ(json["seen_at_50_mm"], 0.4);
   EXPECT_EQ(one["rivals"][0], "LTHI 70 mm off");
   EXPECT_THAT(one["sentence"].get<std::string>(),
-              HasSubstr("LKNE lies 54 mm (SD 8) from where it should in cal"));
+              HasSubstr("LKNE lies 54 mm (SD 8) from where the movement has it in cal"));
 }
 
 }  // namespace

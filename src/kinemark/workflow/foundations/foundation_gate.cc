@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,21 +30,35 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
   if (!judgement) return fail_at(name, judgement.error());
   if (judgement->judged.empty()) return judgement;
   const auto found = judgement->findings.size() + (judgement->mirrored ? 1 : 0);
-  data::Gate gate{.name = "static_trial",
-                  .passed = found == 0,
-                  .value = static_cast<double>(found),
-                  .bound = 0.0,
-                  .unit = "findings",
-                  .sentence = fmt::format("No marker of {} lies where a body cannot have it.", name)};
+  data::Gate gate{
+      .name = "static_trial",
+      .passed = found == 0,
+      .value = static_cast<double>(found),
+      .bound = 0.0,
+      .unit = "findings",
+      .sentence = fmt::format("No marker of {} lies where a body cannot have it; a single one 50 mm "
+                              "off would be seen in {:.0f} % of markers and directions.",
+                              name, 100.0 * judgement->seen_at_50_mm)};
   if (found > 0) {
     std::vector<std::string> sentences;
     if (judgement->mirrored) sentences.push_back(motion::describe_mirrored(name));
     for (const auto& finding : judgement->findings) sentences.push_back(motion::describe(finding, name));
-    gate.sentence = fmt::format(
-        "The static trial cannot be built on: {}. Everything below takes it as it is; label it again or "
-        "leave the "
-        "marker out.",
-        join(sentences, "; "));
+    const bool still_is_wrong =
+        judgement->mirrored || std::ranges::any_of(judgement->findings, [](const auto& finding) {
+          return finding.where == motion::MistakeIn::still;
+        });
+    const std::string all = join(sentences, "; ");
+    gate.sentence =
+        still_is_wrong
+            ? fmt::format(
+                  "The static trial cannot be built on: {}. Everything below takes it as it is; label "
+                  "it again or leave the marker out.",
+                  all)
+            : fmt::format(
+                  "The static trial and the movement beside it contradict each other: {}. Everything "
+                  "below takes both as they are; label again the one that is wrong, or leave the "
+                  "marker out.",
+                  all);
     remarks.warnings.push_back(gate.sentence);
   }
   remarks.gates.push_back(std::move(gate));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/workflow/foundations/foundation_gate.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,7 +60,12 @@ TEST(FoundationGate, PassesACleanTrialAndSaysSo) {
   EXPECT_EQ(remarks.gates[0].value, 0.0);
   EXPECT_THAT(remarks.gates[0].sentence,
               Not(HasSubstr("shows a mirrored body: an axis of the recording is negated")));
-  EXPECT_THAT(remarks.gates[0].sentence, HasSubstr("No marker of cal.c3d lies where a body cannot have it."));
+  EXPECT_THAT(
+      remarks.gates[0].sentence,
+      HasSubstr("No marker of cal.c3d lies where a body cannot have it; a single one 50 mm off would be "
+                "seen in "));
+  EXPECT_THAT(remarks.gates[0].sentence,
+              HasSubstr(fmt::format("{:.0f} % of markers and directions.", 100.0 * judged->seen_at_50_mm)));
   EXPECT_THAT(remarks.gates[0].sentence, Not(HasSubstr("Everything below takes it as it is")));
   EXPECT_EQ(judged->judged.size(), kNames.size());
   EXPECT_TRUE(judged->findings.empty());
@@ -98,6 +104,29 @@ TEST(FoundationGate, MissesAnExchangeAndNamesThePair) {
   EXPECT_EQ(remarks.gates[0].value, 1.0);
   ASSERT_EQ(judged->findings.size(), 1U);
   EXPECT_EQ(judged->findings[0].partner, "LTOE");
+}
+
+TEST(FoundationGate, SaysThatTwoRecordingsContradictEachOtherWhereTheMovementMayBeWrong) {
+  const auto body = motion::body_of_names(kNames);
+  auto walk = motion::testing::walking_body(kNames, 60);
+  const data::Trajectories* const movement = &walk;
+  for (std::int64_t f = 0; f < walk.frames(); ++f) walk.x(f, walk.find("LASI")) += Vector3d(0.0, 0.09, 0.0);
+  Remarks remarks;
+  const auto judged = judge_static_trial("cal.c3d", body, standing(), std::span(&movement, 1), remarks);
+  ASSERT_TRUE(judged) << judged.error().message;
+  EXPECT_FALSE(remarks.passed());
+  ASSERT_EQ(remarks.warnings.size(), 1U);
+  EXPECT_THAT(remarks.warnings[0],
+              HasSubstr("The static trial and the movement beside it contradict each other: LASI lies"));
+  EXPECT_THAT(remarks.warnings[0], Not(HasSubstr("The static trial cannot be built on")));
+  auto trial = standing();
+  exchange(trial, "LTOE", "LHEE");
+  Remarks other;
+  ASSERT_TRUE(judge_static_trial("cal.c3d", body, trial, {}, other));
+  ASSERT_EQ(other.warnings.size(), 1U);
+  EXPECT_THAT(other.warnings[0], HasSubstr("The static trial cannot be built on"));
+  EXPECT_THAT(other.warnings[0],
+              Not(HasSubstr("The static trial and the movement beside it contradict each other")));
 }
 
 TEST(FoundationGate, NamesEachOfTwoExchanges) {

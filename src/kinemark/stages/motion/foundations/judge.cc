@@ -27,10 +27,9 @@ constexpr std::int64_t kHalf = 3;        // frames on both sides that are averag
 constexpr std::size_t kFewest = 6;       // markers that a body can be judged by
 constexpr double kRival = 6.0;           // explanations this much less likely are named
 constexpr double kLeastShift_m = 0.025;  // smaller ones are how markers are placed
-// Of a marker of trunk, head or arms between two recordings, per axis: shoulders move on the trunk.
-constexpr double kLoose_m = 0.030;
-constexpr double kMirrored = 30.0;  // least gain of a mirror image; bodies' images gain 118 and more
-constexpr int kMirrorFrames = 3;    // of a movement
+constexpr double kStated_m = 0.050;      // FoundationJudgement::seen_at_50_mm
+constexpr double kMirrored = 30.0;       // least gain of a mirror image; bodies' images gain 118 and more
+constexpr int kMirrorFrames = 3;         // of a movement
 
 /// Where the body's markers are in a recording.
 std::vector<std::int64_t> columns_of(const StandingBody& body, const data::Trajectories& recording) {
@@ -115,7 +114,7 @@ std::vector<internal::SeenFrame> frames_of(const StandingBody& body, const data:
     out.push_back(frame_at(movement, columns, full[std::min(i, full.size() - 1)], 0, options.moving_sd_m));
     for (std::size_t m = 0; m < body.markers.size(); ++m)
       out.back().sd[static_cast<Eigen::Index>(m)] =
-          std::hypot(options.moving_sd_m, body.markers[m].spread.by_posture);
+          std::hypot(options.moving_sd_m, body.markers[m].spread.by_posture.norm() / std::sqrt(3.0));
   }
   return out;
 }
@@ -159,10 +158,15 @@ internal::SharedPrior prior_with(const StandingBody& body, const internal::Share
   internal::SharedPrior known = internal::learn_shared(body, prior, frames);
   Eigen::MatrixXd covariance = known.information.inverse();
   const Eigen::Index sites = covariance.rows() - static_cast<Eigen::Index>(3 * body.markers.size());
+  const Eigen::Index joints = sites - static_cast<Eigen::Index>(3 * body.segments.size());
+  for (std::size_t s = 0; s < body.segments.size(); ++s) {
+    const double sd = body.segments[s].joint_by_posture;
+    covariance.diagonal().segment<3>(joints + static_cast<Eigen::Index>(3 * s)).array() += sd * sd;
+  }
   for (std::size_t m = 0; m < body.markers.size(); ++m) {
-    const double loose = keeps_its_place(body.markers[m]) ? between_sd_m : std::max(between_sd_m, kLoose_m);
-    const double sd = std::hypot(loose, body.markers[m].spread.by_posture);
-    covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() += sd * sd;
+    const Vector3d sd = body.markers[m].spread.by_posture;
+    covariance.diagonal().segment<3>(sites + static_cast<Eigen::Index>(3 * m)).array() +=
+        sd.array().square() + between_sd_m * between_sd_m;
   }
   known.information = covariance.inverse();
   known.information = (0.5 * (known.information + known.information.transpose())).eval();
@@ -175,14 +179,15 @@ std::string words_of(const StandingBody& body, const internal::Hypothesis& h) {
   return fmt::format("{} and {} exchanged", first, body.markers[at(h.second)].name);
 }
 
-/// What a pair's exchange scores in frames of one recording: mean over those that have both, and their
-/// number.
+/// What a pair's exchange, or one marker elsewhere (second -1), scores in frames of one recording: mean over
+/// those that have it.
 double mean_score(const StandingBody& body, const internal::SharedPrior& prior,
                   const std::vector<internal::SeenFrame>& frames, int first, int second) {
   double sum = 0.0, count = 0.0;
   for (const auto& frame : frames) {
-    if (!frame.x.col(first).allFinite() || !frame.x.col(second).allFinite()) continue;
-    sum += internal::explain_exchange(body, prior, frame, first, second).score;
+    if (!frame.x.col(first).allFinite() || (second >= 0 && !frame.x.col(second).allFinite())) continue;
+    sum += second < 0 ? internal::explain_shift(body, prior, frame, first).score
+                      : internal::explain_exchange(body, prior, frame, first, second).score;
     count += 1.0;
   }
   return count > 0.0 ? sum / count : -kRival;
@@ -200,7 +205,7 @@ Status FoundationOptions::check() const {
   for (const double sd : {still_sd_m, moving_sd_m, between_sd_m})
     if (!(sd > 0.0 && sd < 1.0))
       return fail(Code::usage, fmt::format("a spread of {} m; need above 0, below 1", sd));
-  for (const double score : {least_score, least_score_alone, least_fall})
+  for (const double score : {least_score, least_score_beside, least_fall, least_fall_beside})
     if (!(score > 0.0)) return fail(Code::usage, fmt::format("a score of {}; need a number above 0", score));
   if (moving_frames < 1 || most_findings < 1)
     return fail(Code::usage,
@@ -242,6 +247,9 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   }
   if (!moving.empty()) prior = prior_with(body, prior, moving, options.between_sd_m);
 
+  const auto of_singles = moving.empty()
+                              ? internal::Least{options.least_score, options.least_fall}
+                              : internal::Least{options.least_score_beside, options.least_fall_beside};
   const auto name_of = [&](int m) { return still.names[static_cast<std::size_t>(columns[at(m)])]; };
   struct Single {
     int marker;
@@ -251,12 +259,16 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
   std::vector<Single> singles;
   for (int k = 0; k < options.most_findings; ++k) {
     const auto explanations = internal::explain(body, prior, frame);
-    if (explanations.empty() || explanations.front().score < options.least_score) break;
+    if (explanations.empty()) break;
     auto best = explanations.front();
-    if (best.second < 0 && best.shift.norm() < kLeastShift_m) break;
-    const bool alone = best.second < 0 && moving.empty();
-    if (alone && (best.score < options.least_score_alone || best.gain * best.misfit < options.least_fall))
-      break;
+    const bool single_marker = best.second < 0;
+    if (best.score < (single_marker ? of_singles.score : options.least_score)) break;
+    if (single_marker && best.gain * best.misfit < of_singles.fall) break;
+    if (single_marker && best.shift.norm() < kLeastShift_m) {
+      // How markers are placed: nobody is accused, and what lies farther off is still asked for.
+      frame.x.col(best.first).setConstant(kNaN);
+      continue;
+    }
     std::vector<std::string> rivals;
     for (std::size_t i = 1; i < explanations.size(); ++i)
       if (explanations[i].score > best.score - kRival) rivals.push_back(words_of(body, explanations[i]));
@@ -283,8 +295,7 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
                               .shift_sd_m = best.shift_sd,
                               .score = best.score,
                               .rivals = std::move(rivals)};
-    if (moving.empty() || best.second >= 0 || keeps_its_place(body.markers[at(best.first)]))
-      out.findings.push_back(std::move(finding));
+    out.findings.push_back(std::move(finding));
     if (best.second < 0) {
       singles.push_back({best.first, best.score, frame});
       frame.x.col(best.first).setConstant(kNaN);
@@ -299,20 +310,25 @@ Result<FoundationJudgement> judge_foundation(const StandingBody& body, const dat
       finding.by_movement = std::ranges::none_of(alone->findings, [&](const FoundationFinding& other) {
         return other.marker == finding.marker && other.partner == finding.partner;
       });
-      if (!finding.by_movement || finding.partner.empty()) continue;
-      // Each of the two recordings by itself: which of them is better with the two exchanged?
-      const auto index = [&](const std::string& name) {
-        return static_cast<int>(std::ranges::find(still.names, name) - still.names.begin());
+      if (!finding.by_movement) continue;
+      // Each of the two recordings by itself: which of them is better without the mistake?
+      const auto marker_of = [&](const std::string& name) {
+        const auto column = std::ranges::find(still.names, name) - still.names.begin();
+        return name.empty() ? -1 : static_cast<int>(std::ranges::find(columns, column) - columns.begin());
       };
-      const auto marker_at = [&](int column) {
-        return static_cast<int>(std::ranges::find(columns, column) - columns.begin());
-      };
-      const int a = marker_at(index(finding.marker)), b = marker_at(index(finding.partner));
+      const int a = marker_of(finding.marker), b = marker_of(finding.partner);
+      if (std::ranges::none_of(moving, [&](const auto& one) {
+            return one.x.col(a).allFinite() && (b < 0 || one.x.col(b).allFinite());
+          }))
+        continue;
       const auto by_names = internal::prior_of(body);
-      finding.either =
-          mean_score(body, by_names, {seen}, a, b) - mean_score(body, by_names, moving, a, b) < kRival;
+      const double more = mean_score(body, by_names, {seen}, a, b) - mean_score(body, by_names, moving, a, b);
+      finding.where = more >= kRival    ? MistakeIn::still
+                      : more <= -kRival ? MistakeIn::movement
+                                        : MistakeIn::either;
     }
   }
+  out.seen_at_50_mm = internal::share_seen(body, prior, frame, kStated_m, of_singles);
   return out;
 }
 
@@ -365,11 +381,14 @@ std::string describe_mirrored(const std::string& recording) {
 
 std::string describe(const FoundationFinding& finding, const std::string& recording) {
   std::string out;
+  const bool either = finding.where == MistakeIn::either, moving = finding.where == MistakeIn::movement;
+  const std::string holder = moving ? "the movement beside " + recording : recording;
   if (!finding.partner.empty()) {
-    out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, recording);
-    if (finding.either) out += " or in the movement beside it: in which of the two cannot be known";
+    out = fmt::format("{} and {} are exchanged in {}", finding.marker, finding.partner, holder);
+    if (either) out += " or in the movement beside it: in which of the two cannot be known";
   } else {
-    const Vector3d& shift = finding.shift_m;
+    // What lies elsewhere in the movement is seen from the still recording.
+    const Vector3d shift = moving ? Vector3d(-finding.shift_m) : finding.shift_m;
     std::vector<std::string> parts;
     constexpr const char* kWords[3][2] = {
         {"back", "forward"}, {"down", "up"}, {"to the left", "to the right"}};
@@ -377,10 +396,13 @@ std::string describe(const FoundationFinding& finding, const std::string& record
       if (std::abs(shift[a]) >= 0.3 * shift.cwiseAbs().maxCoeff())
         parts.push_back(
             fmt::format("{:.0f} mm {}", 1e3 * std::abs(shift[a]), kWords[a][shift[a] > 0.0 ? 1 : 0]));
-    out = fmt::format("{} lies {:.0f} mm (SD {:.0f}) from where it should in {}: {}", finding.marker,
-                      1e3 * shift.norm(), 1e3 * length_sd(shift, finding.shift_sd_m), recording, join(parts));
+    out = fmt::format("{} lies {:.0f} mm (SD {:.0f}) {} {}: {}", finding.marker, 1e3 * shift.norm(),
+                      1e3 * length_sd(shift, finding.shift_sd_m),
+                      either ? "from where the movement has it in" : "from where it should in", holder,
+                      join(parts));
+    if (either) out += "; in which of the two it is off cannot be known";
   }
-  if (finding.by_movement && !finding.either) out += ", as the movement shows it";
+  if (finding.by_movement && finding.where == MistakeIn::still) out += ", as the movement shows it";
   if (!finding.rivals.empty()) out += fmt::format(" (or: {})", join(finding.rivals));
   return out;
 }

@@ -20,18 +20,22 @@ struct StandingBody;
 /// Options of judge_foundation().
 struct FoundationOptions {
   double least_score = 12.0;  ///< of a finding: twice the log of how much likelier it makes the recording
-  /// Of a single marker where no movement tells its place: score, and fall of the cost by the spreads as they
-  /// are. The score alone accuses clean subjects whose markers lie better than the spreads say.
-  double least_score_alone = 16.0;
-  double least_fall = 8.0;      ///< see least_score_alone
-  double still_sd_m = 0.003;    ///< of a marker in the still frame, per axis
-  double moving_sd_m = 0.006;   ///< of a marker on its segment in a movement, per axis: soft tissue
-  double between_sd_m = 0.004;  ///< of a marker between two recordings, per axis
-  int moving_frames = 6;        ///< of each movement, evenly picked
-  int most_findings = 4;        ///< of one recording
+  double least_score_beside = 5.0;  ///< of a single marker beside a movement, which tells its place
+  /// Of a single marker: fall of the cost by the spreads as they are. The score alone accuses clean subjects
+  /// whose markers lie better than the spreads say.
+  double least_fall = 8.0;
+  double least_fall_beside = 4.0;  ///< beside a movement
+  double still_sd_m = 0.003;       ///< of a marker in the still frame, per axis
+  double moving_sd_m = 0.006;      ///< of a marker on its segment in a movement, per axis: soft tissue
+  double between_sd_m = 0.004;     ///< of a marker between two recordings, per axis
+  int moving_frames = 6;           ///< of each movement, evenly picked
+  int most_findings = 4;           ///< of one recording
 
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };
+
+/// Which of two recordings that contradict each other holds a mistake.
+enum class MistakeIn : std::uint8_t { still, movement, either };
 
 /// A marker that lies elsewhere, or a pair that is exchanged.
 struct FoundationFinding {
@@ -41,9 +45,9 @@ struct FoundationFinding {
       Eigen::Vector3d::Zero();  ///< seen less expected: forward, up, to the right of the body
   Eigen::Vector3d shift_sd_m = Eigen::Vector3d::Zero();  ///< 1 SD of each
   double score = 0.0;                                    ///< as FoundationOptions::least_score
-  bool by_movement = false;  ///< movements show it; the still recording alone does not: either may be wrong
-  bool either = false;       ///< of a pair by_movement: nothing tells in which of the two recordings it is
-  std::vector<std::string> rivals;  ///< other explanations that are nearly as likely, in words
+  bool by_movement = false;            ///< movements show it; the still recording alone does not
+  MistakeIn where = MistakeIn::still;  ///< of one by_movement: what each recording by itself tells
+  std::vector<std::string> rivals;     ///< other explanations that are nearly as likely, in words
 };
 
 /// What is known of a still recording.
@@ -52,7 +56,8 @@ struct FoundationJudgement {
   std::vector<std::string> judged;          ///< markers that were asked
   std::int64_t frame = -1;                  ///< middle of the stillest part, which was judged; -1: none
   int movements = 0;                        ///< recordings that it was compared with
-  bool mirrored = false;                    ///< its mirror image shows the body; findings are that image's
+  double seen_at_50_mm = 0.0;  ///< share of single markers and directions in which 50 mm would be a finding
+  bool mirrored = false;       ///< its mirror image shows the body; findings are that image's
 };
 
 /// Judge the stillest part of a recording against a body, and against movements of the same session, in which

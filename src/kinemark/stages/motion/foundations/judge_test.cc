@@ -206,7 +206,7 @@ TEST(Judge, ASingleMarkerNeedsMoreWhereNoMovementTellsItsPlace) {
   };
   EXPECT_EQ(found_with(8.0), 1);
   EXPECT_EQ(found_with(2000.0), 0);
-  EXPECT_TRUE(judge_foundation(body, still, {}, {.least_score_alone = 2000.0}).value().findings.empty());
+  EXPECT_TRUE(judge_foundation(body, still, {}, {.least_score = 2000.0}).value().findings.empty());
 }
 
 TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
@@ -218,11 +218,13 @@ TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
             "LTOE and LHEE are exchanged in cal.c3d, as the movement shows it");
   EXPECT_THAT(describe(exchanged, "cal.c3d"),
               Not(HasSubstr(" or in the movement beside it: in which of the two cannot be known")));
-  exchanged.either = true;
+  exchanged.where = MistakeIn::either;
   EXPECT_EQ(
       describe(exchanged, "cal.c3d"),
       "LTOE and LHEE are exchanged in cal.c3d or in the movement beside it: in which of the two cannot be "
       "known");
+  exchanged.where = MistakeIn::movement;
+  EXPECT_EQ(describe(exchanged, "cal.c3d"), "LTOE and LHEE are exchanged in the movement beside cal.c3d");
   FoundationFinding shifted{.marker = "LKNE",
                             .shift_m = Vector3d(-0.048, 0.020, 0.001),
                             .shift_sd_m = Vector3d::Constant(0.008),
@@ -235,6 +237,60 @@ TEST(Judge, ExchangesAreNotDescribedAsShiftsNorShiftsAsExchanges) {
   shifted.shift_m = Vector3d(0.0, -0.03, -0.04);
   EXPECT_EQ(describe(shifted, "s"),
             "LKNE lies 50 mm (SD 8) from where it should in s: 30 mm down, 40 mm to the left");
+  EXPECT_THAT(describe(shifted, "s"), Not(HasSubstr("; in which of the two it is off cannot be known")));
+  EXPECT_THAT(describe(shifted, "s"), Not(HasSubstr(") from where the movement has it in")));
+  shifted.by_movement = true;
+  shifted.where = MistakeIn::movement;
+  EXPECT_EQ(
+      describe(shifted, "s"),
+      "LKNE lies 50 mm (SD 8) from where it should in the movement beside s: 30 mm up, 40 mm to the right");
+  shifted.where = MistakeIn::either;
+  EXPECT_EQ(describe(shifted, "s"),
+            "LKNE lies 50 mm (SD 8) from where the movement has it in s: 30 mm down, 40 mm to the left; in "
+            "which of the two it is off cannot be known");
+}
+
+/// A mistake in one of two recordings is never said to be in the other.
+void expect_not_in(const FoundationJudgement& judgement, const std::string& marker, MistakeIn sound) {
+  ASSERT_FALSE(judgement.findings.empty()) << marker;
+  EXPECT_TRUE(std::ranges::any_of(judgement.findings, [&](const FoundationFinding& finding) {
+    return finding.marker == marker || finding.partner == marker;
+  })) << marker;
+  for (const auto& finding : judgement.findings) {
+    EXPECT_FALSE(finding.where == sound) << describe(finding, "cal.c3d");
+    EXPECT_TRUE(finding.by_movement || finding.where == MistakeIn::still);
+  }
+}
+
+TEST(Judge, AMarkerElsewhereInTheMovementDoesNotAccuseTheStaticTrial) {
+  for (const auto* const marker : {"LKNE", "RHEE", "LASI", "RTHI"}) {
+    const auto person = subject(31);
+    const auto still = frames(person, 9, 0.03, 31);
+    // Skin and all, the marker sits elsewhere on its segment.
+    auto elsewhere = person;
+    for (auto& one : elsewhere.markers)
+      if (one.name == marker) one.x_in_body += Vector3d(0.05, 0.02, 0.02);
+    const auto movement = frames(elsewhere, 40, 0.25, 131);
+    expect_not_in(by_names(still, &movement), marker, MistakeIn::still);
+    const auto spoilt = frames(elsewhere, 9, 0.03, 31), sound = frames(person, 40, 0.25, 131);
+    expect_not_in(by_names(spoilt, &sound), marker, MistakeIn::movement);
+  }
+}
+
+TEST(Judge, AnExchangeInAMovementOfOneLegDoesNotAccuseTheStaticTrial) {
+  const std::vector<std::string> names{"LASI", "RASI", "LPSI", "RPSI", "LTHI", "LKNE", "LTIB", "LANK"};
+  auto model = human();
+  std::erase_if(model.markers,
+                [&](const auto& marker) { return std::ranges::find(names, marker.name) == names.end(); });
+  for (const auto& [a, b] :
+       {std::pair{"LKNE", "LANK"}, std::pair{"LTIB", "LANK"}, std::pair{"LTHI", "LKNE"}}) {
+    const auto person = subject(41, model);
+    const auto still = frames(person, 9, 0.03, 41);
+    auto movement = frames(person, 40, 0.25, 141);
+    EXPECT_TRUE(by_names(still, &movement).findings.empty());
+    exchange(movement, a, b);
+    expect_not_in(by_names(still, &movement), a, MistakeIn::still);
+  }
 }
 
 /// Trunk, pelvis and legs, with two markers of each leg.
@@ -262,28 +318,39 @@ TEST(Judge, ToesThatBentAreNoMistakeAndAHeelElsewhereIs) {
   EXPECT_EQ(judgement.findings[0].marker, "LHEE");
 }
 
-TEST(Judge, MarkersOfTheTrunkAreNotAccusedBesideAMovement) {
+TEST(Judge, MarkersOfTrunkAndArmsAreNamedBesideAMovement) {
   const auto person = subject(3, human());
-  auto still = only(frames(person, 9, 0.03, 3));
-  const auto movement = only(frames(person, 40, 0.25, 13));
-  move(still, "LSHO", Vector3d(0.0, 0.08, 0.0));
+  const auto still = frames(person, 9, 0.03, 3), movement = frames(person, 40, 0.25, 13);
   EXPECT_TRUE(by_names(still, &movement).findings.empty());
-  move(still, "LASI", Vector3d(0.0, 0.08, 0.0));
-  const auto judgement = by_names(still, &movement);
-  ASSERT_EQ(judgement.findings.size(), 1);
-  EXPECT_EQ(judgement.findings[0].marker, "LASI");
+  for (const auto* const marker : {"T10", "LSHO", "RELB", "LWRA", "RFHD"}) {
+    auto spoilt = still;
+    move(spoilt, marker, Vector3d(0.0, 0.06, 0.04));
+    const auto judgement = by_names(spoilt, &movement);
+    ASSERT_FALSE(judgement.findings.empty()) << marker;
+    EXPECT_EQ(judgement.findings[0].marker, marker);
+  }
 }
 
 TEST(Judge, ShouldersThatMovedDoNotHideAnotherMarker) {
   const auto person = subject(4, human());
   auto still = only(frames(person, 9, 0.03, 4));
   const auto movement = only(frames(person, 40, 0.25, 14));
-  for (const auto* const shoulder : {"LSHO", "RSHO"}) move(still, shoulder, Vector3d(-0.05, 0.09, 0.0));
+  for (const auto* const shoulder : {"LSHO", "RSHO"}) move(still, shoulder, Vector3d(-0.02, 0.035, 0.0));
   EXPECT_TRUE(by_names(still, &movement).findings.empty());
   move(still, "LASI", Vector3d(0.03, -0.06, 0.0));
   const auto judgement = by_names(still, &movement);
   ASSERT_EQ(judgement.findings.size(), 1);
   EXPECT_EQ(judgement.findings[0].marker, "LASI");
+}
+
+TEST(Judge, StatesWhatItWouldSee) {
+  const auto person = subject(6);
+  const auto still = frames(person, 9, 0.03, 6), movement = frames(person, 40, 0.25, 16);
+  const double alone = by_names(still).seen_at_50_mm, beside = by_names(still, &movement).seen_at_50_mm;
+  EXPECT_GT(alone, 0.0);
+  EXPECT_LT(alone, 0.8);
+  EXPECT_GT(beside, 0.85);
+  EXPECT_LE(beside, 1.0);
 }
 
 TEST(Judge, TheStillestPartIsJudged) {
@@ -323,7 +390,9 @@ TEST(Judge, AMovementShowsWhatTheStaticTrialAloneCannot) {
   EXPECT_EQ(judgement.movements, 1);
   ASSERT_EQ(judgement.findings.size(), 1);
   EXPECT_EQ(judgement.findings[0].marker, "RTHI");
-  EXPECT_THAT(describe(judgement.findings[0], "cal.c3d"), HasSubstr(", as the movement shows it"));
+  EXPECT_EQ(judgement.findings[0].where, MistakeIn::either) << "a wand may stand at any height in both";
+  EXPECT_THAT(describe(judgement.findings[0], "cal.c3d"),
+              HasSubstr("; in which of the two it is off cannot be known"));
   exchange(still, "LTOE", "LHEE");
   for (const auto& finding : by_names(still, &movement).findings)
     EXPECT_EQ(finding.by_movement, finding.marker == "RTHI") << describe(finding, "cal.c3d");
@@ -374,8 +443,9 @@ TEST(Judge, TooFewMarkersAreNotJudged) {
 
 TEST(Judge, OptionsAreChecked) {
   EXPECT_FALSE(FoundationOptions{.least_score = 0.0}.check());
-  EXPECT_FALSE(FoundationOptions{.least_score_alone = 0.0}.check());
+  EXPECT_FALSE(FoundationOptions{.least_score_beside = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.least_fall = -1.0}.check());
+  EXPECT_FALSE(FoundationOptions{.least_fall_beside = 0.0}.check());
   EXPECT_FALSE(FoundationOptions{.most_findings = 0}.check());
   EXPECT_FALSE(FoundationOptions{.between_sd_m = 2.0}.check());
   EXPECT_FALSE(FoundationOptions{.still_sd_m = -1.0}.check());

@@ -22,12 +22,13 @@ enum class Found : std::uint8_t {
   toe,      ///< along the foot by habit, behind the joint of the toes or on them
   fore,     ///< along the foot by habit, on bones of the foot
   wand,     ///< on a line, its height by habit, and by Plug-in Gait's rule not the same on both sides
+  side,     ///< one of a cluster whose name tells its side of the segment: upper, front, rear
   cluster,  ///< anywhere on the segment
 };
 
 // A marker of the toes 60 mm before their joint, which bends by 14 degrees (1 SD). In walks of seven
 // laboratories the distance from heel to toe differs by 6 to 27 mm between 5 and 95 % of the frames.
-constexpr double kToesFlex_m = 0.015;
+const Vector3d kToesFlex_m(0.006, 0.015, 0.004);
 
 PlaceSpread spread_of(Found found) {
   switch (found) {
@@ -45,10 +46,32 @@ PlaceSpread spread_of(Found found) {
       return {Vector3d(0.030, 0.012, 0.015), Vector3d(0.009, 0.007, 0.008)};
     case Found::wand:
       return {Vector3d(0.035, 0.060, 0.025), Vector3d(0.016, 0.060, 0.012)};
+    case Found::side:
+      return {Vector3d(0.040, 0.060, 0.040), Vector3d(0.020, 0.035, 0.020)};
     case Found::cluster:
       break;
   }
   return {Vector3d(0.070, 0.090, 0.070), Vector3d(0.035, 0.050, 0.035)};
+}
+
+/// Of markers above the pelvis: spines bend, and skin slides over shoulders and turned forearms.
+Vector3d posture_of(BodyPart part) {
+  switch (part) {
+    case BodyPart::trunk:
+      return Vector3d::Constant(0.008);
+    case BodyPart::shoulder:
+      return Vector3d::Constant(0.006);
+    case BodyPart::head:
+      return Vector3d::Constant(0.003);
+    case BodyPart::upper_arm:
+      return Vector3d::Constant(0.010);
+    case BodyPart::forearm:
+      return Vector3d::Constant(0.006);
+    case BodyPart::hand:
+      return Vector3d::Constant(0.006);
+    default:
+      return Vector3d::Constant(0.0);
+  }
 }
 
 struct Entry {
@@ -71,19 +94,22 @@ constexpr std::array kEntries{
     Entry{" GT GTR FTC TROC TROCHANTER ", thigh, true, 0.000, -0.005, 0.090, Found::covered},
     Entry{" THI THIGH ", thigh, true, 0.010, -0.214, 0.090, Found::wand},
     Entry{" THAP ", thigh, true, 0.085, -0.266, 0.025, Found::wand},
-    Entry{" THIGHUPPER THIGHFRONT THIGHREAR TH1 TH2 TH3 TH4 THI1 THI2 THI3 THI4 F01 F02 F03 F04 F05 WAND1 "
-          "ANTFEM POSTFEM ",
-          thigh, true, 0.030, -0.220, 0.070, Found::cluster},
+    Entry{" THIGHUPPER ", thigh, true, 0.045, -0.190, 0.070, Found::side},
+    Entry{" THIGHFRONT ANTFEM ", thigh, true, 0.100, -0.250, 0.005, Found::side},
+    Entry{" THIGHREAR POSTFEM ", thigh, true, 0.025, -0.300, 0.070, Found::side},
+    Entry{" TH1 TH2 TH3 TH4 THI1 THI2 THI3 THI4 F01 F02 F03 F04 F05 WAND1 ", thigh, true, 0.030, -0.220,
+          0.070, Found::cluster},
     Entry{" KNE KNEE KNEELAT KNEELATERAL LFC LFE FLE LEK ", thigh, true, 0.000, -0.419, 0.055, Found::bone},
     Entry{" KNEMED KNEEMED KNEEMEDIAL MKN KNM MFC MFE FME MEK ", thigh, true, 0.000, -0.419, -0.055,
           Found::bone},
     Entry{" FAX ", shank, true, -0.020, -0.035, 0.050, Found::covered},
     Entry{" TTC TT ATT ", shank, true, 0.045, -0.055, 0.000, Found::covered},
     Entry{" TIB SHN SHA SHANK TIBIA ", shank, true, 0.020, -0.207, 0.050, Found::wand},
-    Entry{" SHANKUPPER SHANKFRONT SHANKREAR TB1 TB2 TB3 TB4 SK1 SK2 SK3 SK4 T01 T02 T03 T04 T05 LEG1 LEG2 "
-          "LEG3 LEG4 "
-          "WAND2 ANTTIB POSTTIB ",
-          shank, true, 0.030, -0.210, 0.040, Found::cluster},
+    Entry{" SHANKUPPER ", shank, true, -0.015, -0.080, 0.065, Found::side},
+    Entry{" SHANKFRONT ANTTIB ", shank, true, 0.045, -0.140, 0.030, Found::side},
+    Entry{" SHANKREAR POSTTIB ", shank, true, -0.030, -0.150, 0.075, Found::side},
+    Entry{" TB1 TB2 TB3 TB4 SK1 SK2 SK3 SK4 T01 T02 T03 T04 T05 LEG1 LEG2 LEG3 LEG4 WAND2 ", shank, true,
+          0.030, -0.210, 0.040, Found::cluster},
     Entry{" ANK ANKLE ANKLELAT ANKLELATERAL LMAL FAL LM MALL ", shank, true, -0.005, -0.426, 0.044,
           Found::bone},
     Entry{" MED ANKMED ANKLEMED ANKLEMEDIAL MMAL TAM MM SPH ", shank, true, 0.010, -0.416, -0.042,
@@ -102,7 +128,7 @@ constexpr std::array kEntries{
     Entry{" CLAV SUP SNJ IJ ", trunk, false, 0.070, 0.340, 0.0, Found::spine},
     Entry{" STRN STERNUM STR ", trunk, false, 0.120, 0.225, 0.0, Found::spine},
     Entry{" SXS PX ", trunk, false, 0.110, 0.170, 0.0, Found::spine},
-    Entry{" SHO ACR ACROMIUM ACROMION SHOULDER SAJ ", trunk, true, -0.005, 0.400, 0.175, Found::covered},
+    Entry{" SHO ACR ACROMIUM ACROMION SHOULDER SAJ ", shoulder, true, -0.060, 0.060, 0.150, Found::covered},
     Entry{" FHD HDF TEMPLE TEMP ", head, true, 0.100, 0.150, 0.065, Found::head},
     Entry{" BHD HDB ", head, true, -0.080, 0.160, 0.060, Found::head},
     Entry{" UPA UA1 UA2 UA3 BICEP ARM1 ARM2 ARM3 ", upper_arm, true, 0.015, -0.150, 0.050, Found::cluster},
@@ -153,10 +179,12 @@ std::optional<Landmark> landmark_of(std::string_view name) {
   const auto [side, stem] = split_marker_name(name);
   const Entry* entry = find_entry(stem, side != Side::middle);
   if (entry == nullptr) return std::nullopt;
-  return Landmark{.part = entry->part,
-                  .side = side,
-                  .x_in_part = Vector3d(entry->x, entry->y, entry->z),
-                  .spread = spread_of(entry->found)};
+  Landmark out{.part = entry->part,
+               .side = side,
+               .x_in_part = Vector3d(entry->x, entry->y, entry->z),
+               .spread = spread_of(entry->found)};
+  out.spread.by_posture = out.spread.by_posture.cwiseMax(posture_of(entry->part));
+  return out;
 }
 
 }  // namespace kinemark::motion

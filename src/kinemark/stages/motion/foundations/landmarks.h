@@ -16,13 +16,25 @@ namespace kinemark::motion {
 enum class Side : std::uint8_t { middle, left, right };
 
 /// Segments that a marker may be on.
-enum class BodyPart : std::uint8_t { pelvis, thigh, shank, foot, trunk, head, upper_arm, forearm, hand };
+enum class BodyPart : std::uint8_t {
+  pelvis,
+  thigh,
+  shank,
+  foot,
+  trunk,
+  head,
+  upper_arm,
+  forearm,
+  hand,
+  shoulder
+};
 
 /// How far markers lie from the place that their name gives, 1 SD per axis (forward, up, outward), m.
 struct PlaceSpread {
   Eigen::Vector3d common = Eigen::Vector3d::Constant(0.020);  ///< both sides alike: the laboratory's habit
   Eigen::Vector3d own = Eigen::Vector3d::Constant(0.012);     ///< each marker by itself
-  double by_posture = 0.0;  ///< from one posture to another: what it lies on may bend, as toes do; every axis
+  /// From one posture to another: what it lies on bends, or slides under skin.
+  Eigen::Vector3d by_posture = Eigen::Vector3d::Zero();
 };
 
 /// A marker's place on the body of a man of 1.75 m who stands: x forward, y up, z outward (to the right for

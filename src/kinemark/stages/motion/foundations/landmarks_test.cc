@@ -59,10 +59,32 @@ TEST(Landmarks, AWandsHeightIsFreeOnEachSide) {
 }
 
 TEST(Landmarks, ToesFlexAndBonesOfTheFootDoNot) {
-  EXPECT_GT(landmark_of("LTOE")->spread.by_posture, 0.01);
-  EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, 0.0);
-  EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, 0.0);
+  const Eigen::Vector3d toe = landmark_of("LTOE")->spread.by_posture;
+  EXPECT_GT(toe.y(), 0.01) << "toes bend up";
+  EXPECT_LT(toe.z(), 0.5 * toe.y()) << "not sideways";
+  EXPECT_EQ(landmark_of("LMT2")->spread.by_posture, Eigen::Vector3d::Zero());
+  EXPECT_EQ(landmark_of("LHEE")->spread.by_posture, Eigen::Vector3d::Zero());
   EXPECT_EQ(landmark_of("LMT2")->x_in_part, landmark_of("LTOE")->x_in_part);
+}
+
+TEST(Landmarks, NamesOfAClusterThatTellASideAreKeptApart) {
+  for (const auto* const part : {"Thigh", "Shank"}) {
+    const auto name = [&](const char* side) { return std::string("L.") + part + "." + side; };
+    const auto upper = landmark_of(name("Upper")), front = landmark_of(name("Front")),
+               rear = landmark_of(name("Rear"));
+    ASSERT_TRUE(upper && front && rear) << part;
+    EXPECT_GT(front->x_in_part.x(), rear->x_in_part.x() + 0.05) << part;
+    EXPECT_GT(upper->x_in_part.y(), front->x_in_part.y()) << part;
+    EXPECT_GT(upper->x_in_part.y(), rear->x_in_part.y()) << part;
+    EXPECT_LT(front->spread.own.x(), landmark_of("LTH1")->spread.own.x());
+  }
+}
+
+TEST(Landmarks, SkinSlidesAboveThePelvis) {
+  for (const auto* const name : {"C7", "LSHO", "LELB", "LWRA", "LFHD"})
+    EXPECT_GT(landmark_of(name)->spread.by_posture.minCoeff(), 0.002) << name;
+  EXPECT_EQ(landmark_of("LSHO")->part, BodyPart::shoulder);
+  EXPECT_EQ(landmark_of("CLAV")->part, BodyPart::trunk);
 }
 
 TEST(Landmarks, NamesAreCutIntoSideAndRest) {

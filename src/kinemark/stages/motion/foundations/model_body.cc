@@ -25,6 +25,7 @@ struct BodyKind {
   std::string_view width;  // size along z; empty: as size
   std::array<double, 3> turn_deg;
   double joint_common, joint_own;
+  double joint_by_posture = 0.0;
 };
 
 constexpr std::array kKinds{
@@ -37,17 +38,17 @@ constexpr std::array kKinds{
     BodyKind{"calcn", "foot", "", {8, 8, 5}, 0.002, 0.002},
     BodyKind{"foot", "foot", "", {9, 9, 15}, 0.004, 0.003},
     BodyKind{"toes", "foot", "", {4, 4, 10}, 0.004, 0.003},
-    BodyKind{"torso", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0},
-    BodyKind{"thorax", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0},
-    BodyKind{"abdomen", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0},
-    BodyKind{"trunk", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0},
-    BodyKind{"head", "head", "", {15, 30, 25}, 0.020, 0.0},
-    BodyKind{"clavicle", "trunk", "trunk width", {10, 10, 10}, 0.010, 0.008},
-    BodyKind{"scapula", "trunk", "trunk width", {15, 15, 15}, 0.010, 0.008},
-    BodyKind{"humerus", "upper arm", "", {60, 60, 60}, 0.020, 0.015},
-    BodyKind{"ulna", "forearm", "", {8, 20, 60}, 0.006, 0.004},
-    BodyKind{"radius", "forearm", "", {4, 50, 4}, 0.004, 0.003},
-    BodyKind{"hand", "hand", "", {25, 10, 40}, 0.006, 0.004},
+    BodyKind{"torso", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0, 0.025},
+    BodyKind{"thorax", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0, 0.025},
+    BodyKind{"abdomen", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0, 0.025},
+    BodyKind{"trunk", "trunk", "trunk width", {10, 12, 20}, 0.020, 0.0, 0.025},
+    BodyKind{"head", "head", "", {15, 30, 25}, 0.020, 0.0, 0.015},
+    BodyKind{"clavicle", "trunk", "trunk width", {10, 10, 10}, 0.010, 0.008, 0.008},
+    BodyKind{"scapula", "trunk", "trunk width", {15, 15, 15}, 0.010, 0.008, 0.008},
+    BodyKind{"humerus", "upper arm", "", {60, 60, 60}, 0.020, 0.015, 0.012},
+    BodyKind{"ulna", "forearm", "", {8, 20, 60}, 0.006, 0.004, 0.004},
+    BodyKind{"radius", "forearm", "", {4, 50, 4}, 0.004, 0.003, 0.004},
+    BodyKind{"hand", "hand", "", {25, 10, 40}, 0.006, 0.004, 0.004},
 };
 
 std::string lower(std::string text) {
@@ -120,7 +121,56 @@ StandingBody::Segment segment_of(const std::string& name, StandingBody& body) {
   out.turn_sd = internal::kDegree * Vector3d(kind->turn_deg[0], kind->turn_deg[1], kind->turn_deg[2]);
   out.joint_common_sd = kind->joint_common;
   out.joint_own_sd = kind->joint_own;
+  out.joint_by_posture = kind->joint_by_posture;
   return out;
+}
+
+/// Adds a segment beside the same one of the other side.
+/// @return its index
+int pair_segment(StandingBody::Segment segment, StandingBody& body) {
+  const auto index = static_cast<int>(body.segments.size());
+  for (std::size_t s = 0; s < body.segments.size() && segment.side != Side::middle; ++s)
+    if (body.segments[s].side != segment.side &&
+        stem_of_body(body.segments[s].name) == stem_of_body(segment.name)) {
+      segment.mirror = static_cast<int>(s);
+      body.segments[s].mirror = index;
+    }
+  body.segments.push_back(std::move(segment));
+  return index;
+}
+
+/// Where a model's arm hangs from a trunk without clavicle, its shoulder is a segment of its own, as in the
+/// body of names: acromia move on the trunk. Joints are counted from the trunk's.
+StandingBody::Segment shoulder_of(const StandingBody& body, const StandingBody::Segment& arm,
+                                  const Vector3d& arm_in_trunk) {
+  StandingBody::Segment out;
+  out.name = arm.side == Side::left ? "left shoulder" : "right shoulder";
+  out.parent = arm.parent;
+  out.side = arm.side;
+  out.joint_in_parent = arm_in_trunk + Vector3d(0.050, -0.0065, arm.side == Side::left ? 0.1616 : -0.1616);
+  out.turn_sd = internal::kDegree * Vector3d(16, 14, 8);
+  out.joint_common_sd = 0.015;
+  out.joint_own_sd = 0.006;
+  out.joint_by_posture = 0.008;
+  out.size = body.segments[at(arm.parent)].size;
+  out.width = body.segments[at(arm.parent)].width;
+  return out;
+}
+
+/// The shoulder that an acromion at `here` belongs to, made where no arm hangs from the trunk.
+int shoulder_on(int trunk, Side side, const Vector3d& here, StandingBody& body,
+                std::vector<Vector3d>& joint) {
+  for (std::size_t s = 0; s < body.segments.size(); ++s)
+    if (body.segments[s].parent == trunk && body.segments[s].side == side &&
+        body.segments[s].name.ends_with(" shoulder"))
+      return static_cast<int>(s);
+  StandingBody::Segment arm;
+  arm.parent = trunk;
+  arm.side = side;
+  const Vector3d arm_from_acromion(0.010, -0.0535, side == Side::left ? -0.0116 : 0.0116);
+  auto shoulder = shoulder_of(body, arm, here - joint[at(trunk)] + arm_from_acromion);
+  joint.push_back(joint[at(trunk)] + shoulder.joint_in_parent);
+  return pair_segment(std::move(shoulder), body);
 }
 
 }  // namespace
@@ -153,15 +203,18 @@ Result<StandingBody> body_of_model(const data::ModelDescription& model) {
     // A second body on the ground hangs from the first one, by a joint that may be anywhere.
     segment.parent = first ? (out.segments.empty() ? -1 : 0) : segment_of_body[at(body.parent)];
     if (segment.parent >= 0) segment.joint_in_parent = here - joint[at(segment.parent)];
+    const BodyKind* const kind = kind_of(stem_of_body(segment.name));
+    if (segment.parent >= 0 && segment.side != Side::middle && kind != nullptr && kind->size == "upper arm" &&
+        out.segments[at(segment.parent)].side == Side::middle) {
+      auto shoulder = shoulder_of(out, segment, segment.joint_in_parent);
+      joint.push_back(joint[at(shoulder.parent)] + shoulder.joint_in_parent);
+      segment.parent = pair_segment(std::move(shoulder), out);
+      segment.joint_in_parent = here - joint.back();
+      segment.joint_common_sd = 0.015;
+      segment.joint_own_sd = 0.010;
+    }
     if (first && segment.parent >= 0) segment.joint_common_sd = segment.joint_own_sd = 1.0;
-    for (std::size_t s = 0; s < out.segments.size() && segment.side != Side::middle; ++s)
-      if (out.segments[s].side != segment.side &&
-          stem_of_body(out.segments[s].name) == stem_of_body(segment.name)) {
-        segment.mirror = static_cast<int>(s);
-        out.segments[s].mirror = static_cast<int>(out.segments.size());
-      }
-    segment_of_body[b] = static_cast<int>(out.segments.size());
-    out.segments.push_back(std::move(segment));
+    segment_of_body[b] = pair_segment(std::move(segment), out);
     joint.push_back(here);
   }
   for (std::size_t m = 0; m < model.markers.size(); ++m) {
@@ -170,8 +223,13 @@ Result<StandingBody> body_of_model(const data::ModelDescription& model) {
     StandingBody::Marker marker;
     marker.name = model.markers[m].name;
     marker.segment = segment_of_body[at(b)];
+    const auto landmark = landmark_of(marker.name);
+    if (landmark && landmark->part == BodyPart::shoulder && landmark->side != Side::middle &&
+        out.segments[at(marker.segment)].side == Side::middle)
+      marker.segment = shoulder_on(marker.segment, landmark->side,
+                                   turn * w.marker.col(static_cast<Eigen::Index>(m)), out, joint);
     marker.x_in_segment = turn * w.marker.col(static_cast<Eigen::Index>(m)) - joint[at(marker.segment)];
-    if (const auto landmark = landmark_of(marker.name)) marker.spread = landmark->spread;
+    if (landmark) marker.spread = landmark->spread;
     out.markers.push_back(std::move(marker));
   }
   internal::pair_markers(out);

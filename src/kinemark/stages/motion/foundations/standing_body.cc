@@ -19,21 +19,23 @@ struct PartEntry {
   std::string_view name;
   Vector3d joint;     // in the parent, right side
   Vector3d turn_deg;  // SD about x, y, z
-  double joint_common, joint_own;
+  double joint_common, joint_own, joint_by_posture;
 };
 
-const std::array<PartEntry, 9>& parts() {
+const std::array<PartEntry, 10>& parts() {
   using enum BodyPart;
-  static const std::array<PartEntry, 9> kParts{{
-      {pelvis, pelvis, "pelvis", Vector3d::Zero(), Vector3d::Zero(), 0.0, 0.0},
-      {thigh, pelvis, "thigh", Vector3d(-0.060, -0.0765, 0.085), Vector3d(12, 15, 30), 0.012, 0.004},
-      {shank, thigh, "shank", Vector3d(0.0, -0.429, 0.0), Vector3d(4, 9, 25), 0.004, 0.003},
-      {foot, shank, "foot", Vector3d(0.0, -0.4305, 0.0), Vector3d(9, 9, 15), 0.004, 0.003},
-      {trunk, pelvis, "trunk", Vector3d(-0.070, 0.081, 0.0), Vector3d(10, 12, 20), 0.020, 0.0},
-      {head, trunk, "head", Vector3d(0.000, 0.410, 0.0), Vector3d(15, 30, 25), 0.020, 0.0},
-      {upper_arm, trunk, "upper arm", Vector3d(0.005, 0.3465, 0.1866), Vector3d(60, 60, 60), 0.020, 0.015},
-      {forearm, upper_arm, "forearm", Vector3d(0.0, -0.329, 0.0), Vector3d(12, 60, 60), 0.006, 0.004},
-      {hand, forearm, "hand", Vector3d(0.0, -0.254, 0.0), Vector3d(25, 20, 40), 0.006, 0.004},
+  static const std::array<PartEntry, 10> kParts{{
+      {pelvis, pelvis, "pelvis", Vector3d::Zero(), Vector3d::Zero(), 0.0, 0.0, 0.0},
+      {thigh, pelvis, "thigh", Vector3d(-0.060, -0.0765, 0.085), Vector3d(12, 15, 30), 0.012, 0.004, 0.0},
+      {shank, thigh, "shank", Vector3d(0.0, -0.429, 0.0), Vector3d(4, 9, 25), 0.004, 0.003, 0.0},
+      {foot, shank, "foot", Vector3d(0.0, -0.4305, 0.0), Vector3d(9, 9, 15), 0.004, 0.003, 0.0},
+      {trunk, pelvis, "trunk", Vector3d(-0.070, 0.081, 0.0), Vector3d(10, 12, 20), 0.020, 0.0, 0.025},
+      {head, trunk, "head", Vector3d(0.000, 0.410, 0.0), Vector3d(15, 30, 25), 0.020, 0.0, 0.015},
+      {shoulder, trunk, "shoulder", Vector3d(0.055, 0.340, 0.025), Vector3d(16, 14, 8), 0.015, 0.006, 0.008},
+      {upper_arm, shoulder, "upper arm", Vector3d(-0.050, 0.0065, 0.1616), Vector3d(60, 60, 60), 0.015, 0.010,
+       0.012},
+      {forearm, upper_arm, "forearm", Vector3d(0.0, -0.329, 0.0), Vector3d(12, 60, 60), 0.006, 0.004, 0.004},
+      {hand, forearm, "hand", Vector3d(0.0, -0.254, 0.0), Vector3d(25, 20, 40), 0.006, 0.004, 0.004},
   }};
   return kParts;
 }
@@ -63,6 +65,7 @@ class Builder {
     out.turn_sd = internal::kDegree * entry.turn_deg;
     out.joint_common_sd = entry.joint_common;
     out.joint_own_sd = entry.joint_own;
+    out.joint_by_posture = entry.joint_by_posture;
     out.size = internal::add_size(body, std::string(entry.name), side);
     if (part == BodyPart::pelvis || part == BodyPart::trunk)
       out.width = internal::add_size(body, std::string(entry.name) + " width", side);

@@ -25,8 +25,9 @@ struct StandingBody {
     Eigen::Vector3d joint_in_parent = Eigen::Vector3d::Zero();  ///< from the parent's joint
     Eigen::Vector3d turn_sd = Eigen::Vector3d::Constant(0.4);   ///< about x, y, z in the parent's axes, rad
     double joint_common_sd = 0.006, joint_own_sd = 0.004;       ///< per axis: both sides alike; by itself, m
-    int size = 0;                                               ///< index into sizes: along the segment
-    int width = -1;                                             ///< index into sizes: along z; -1: as size
+    double joint_by_posture = 0.0;  ///< per axis, from one posture to another: spines have many joints, m
+    int size = 0;                   ///< index into sizes: along the segment
+    int width = -1;                 ///< index into sizes: along z; -1: as size
   };
   /// A size that segments share, as a factor.
   struct Size {

@@ -84,6 +84,39 @@ TEST(StandingBody, AModelsMarkersPairAcrossSides) {
   EXPECT_EQ(paired, 36);  // all but C7, T10, CLAV, STRN
 }
 
+TEST(StandingBody, ArmsHangFromShouldersThatMoveOnTheTrunk) {
+  for (const auto& body :
+       {body_of_names({"C7", "CLAV", "LSHO", "RSHO", "LELB", "RELB"}), body_of_model(own_model()).value()}) {
+    const auto acromion = std::ranges::find(body.markers, "LSHO", &StandingBody::Marker::name);
+    ASSERT_NE(acromion, body.markers.end());
+    const auto& shoulder = body.segments[at(acromion->segment)];
+    EXPECT_EQ(shoulder.name, "left shoulder");
+    EXPECT_EQ(body.segments[at(shoulder.parent)].side, Side::middle);
+    EXPECT_EQ(body.segments[at(shoulder.mirror)].name, "right shoulder");
+    const auto elbow = std::ranges::find(body.markers, "LELB", &StandingBody::Marker::name);
+    EXPECT_EQ(body.segments[at(elbow->segment)].parent, acromion->segment);
+    EXPECT_GT(shoulder.joint_by_posture, 0.0);
+    const auto neck = std::ranges::find(body.markers, "C7", &StandingBody::Marker::name);
+    EXPECT_GT(body.segments[at(neck->segment)].joint_by_posture, 0.01) << "spines bend";
+  }
+}
+
+TEST(StandingBody, AcromiaMoveOnTheTrunkOfAModelWithoutArms) {
+  auto model = own_model();
+  for (const auto& joint : model.joints)
+    if (model.bodies[at(joint.child_body_idx)].name.starts_with("humerus"))
+      for (const auto& axis : joint.axes)
+        if (axis.coordinate_idx >= 0) model.coordinates[at(axis.coordinate_idx)].locked = true;
+  const auto body = body_of_model(model).value(), whole = body_of_model(own_model()).value();
+  for (const auto& segment : body.segments) EXPECT_FALSE(segment.name.starts_with("humerus"));
+  for (const auto* const name : {"LSHO", "RSHO"}) {
+    const auto acromion = std::ranges::find(body.markers, name, &StandingBody::Marker::name);
+    ASSERT_NE(acromion, body.markers.end());
+    EXPECT_TRUE(body.segments[at(acromion->segment)].name.ends_with(" shoulder"));
+    EXPECT_LT((standing(body, name) - standing(whole, name)).norm(), 1e-9) << "where the model has it";
+  }
+}
+
 TEST(StandingBody, BodiesThatDoNotTurnBelongToTheirCarrier) {
   const auto body = body_of_model(own_model()).value();
   for (const auto& segment : body.segments) {

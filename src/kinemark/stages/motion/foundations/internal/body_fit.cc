@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinemark/core/index.h"
 
@@ -329,16 +330,63 @@ BodyFit fit_body(const StandingBody& body, const SharedPrior& prior, const SeenF
 
 SharedPrior learn_shared(const StandingBody& body, const SharedPrior& prior,
                          const std::vector<SeenFrame>& frames) {
+  constexpr int kMostPasses = 6;   // over all frames together
+  constexpr double kHeld = 1e6;    // how much surer than the prior: shared numbers stay where they are
+  constexpr double kLittle = 1.0;  // of the cost
   // Frame after frame: what one tells becomes what is known before the next.
   SharedPrior known = prior;
   const Layout layout(body);
   const Eigen::Index P = layout.pose(), S = layout.shared();
-  for (const auto& frame : frames) {
-    const BodyFit fit = fit_body(body, known, frame);
+  std::vector<BodyFit> fits;
+  const auto tells = [&](const BodyFit& fit) -> MatrixXd {
     const MatrixXd A = fit.information.topLeftCorner(P, P), C = fit.information.topRightCorner(P, S);
-    known.mean = fit.shared;
-    known.information = fit.information.bottomRightCorner(S, S) - C.transpose() * A.llt().solve(C);
+    return fit.information.bottomRightCorner(S, S) - C.transpose() * A.llt().solve(C);
+  };
+  for (const auto& frame : frames) {
+    fits.push_back(fit_body(body, known, frame));
+    known.mean = fits.back().shared;
+    known.information = tells(fits.back());
     known.information = (0.5 * (known.information + known.information.transpose())).eval();
+  }
+  // Then all together: the first ones were linearised far from what all of them tell, some in another
+  // posture.
+  VectorXd mean = known.mean;
+  VectorXd step = VectorXd::Zero(S);
+  double least = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kMostPasses && !frames.empty(); ++pass) {
+    const SharedPrior held{mean, kHeld * prior.information};
+    VectorXd gradient = prior.information * (prior.mean - mean);
+    double cost = (mean - prior.mean).dot(prior.information * (mean - prior.mean));
+    MatrixXd information = prior.information;
+    std::vector<BodyFit> now;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      BodyFit near = fits[f];
+      near.shared = mean;
+      now.push_back(fit_body(body, held, frames[f], &near));
+      if (pass == 0)
+        if (BodyFit again = fit_body(body, held, frames[f]); again.cost < now.back().cost)
+          now.back() = std::move(again);
+      const BodyFit& fit = now.back();
+      cost += fit.cost;
+      information += tells(fit) - held.information;
+      for (std::size_t m = 0; m < fit.rows.size(); ++m)
+        if (const int row = fit.rows[m]; row >= 0) {
+          const auto i = static_cast<Eigen::Index>(m);
+          gradient += fit.by_shared.middleRows<3>(row).transpose() * fit.residual.col(i) /
+                      (frames[f].sd[i] * frames[f].sd[i]);
+        }
+    }
+    if (cost >= least) {
+      step *= 0.5;  // it went too far
+    } else {
+      const bool enough = least - cost < kLittle;
+      least = cost;
+      fits = std::move(now);
+      known = {mean, (0.5 * (information + information.transpose())).eval()};
+      if (enough) break;
+      step = known.information.llt().solve(gradient);
+    }
+    mean = known.mean + step;
   }
   return known;
 }

@@ -151,5 +151,27 @@ TEST(BodyFit, FramesTeachWhereMarkersLie) {
   EXPECT_LT(taught.cost, 0.6 * naive.cost);
 }
 
+TEST(BodyFit, WhatFramesTeachDoesNotDependOnTheirOrder) {
+  const auto body = body_of_names(kNames);
+  const auto prior = prior_of(body);
+  std::vector<SeenFrame> frames;
+  for (int k = 0; k < 4; ++k) {
+    auto frame = standing_frame(body, 1.15, Eigen::Matrix3d::Identity(), Vector3d(0.1 * k, 0, 0));
+    // Left markers from the thigh on swing about the hip, which lies 30 mm further back than expected.
+    const Vector3d hip = 1.15 * Vector3d(-0.09, -0.0765, -0.085) + Vector3d(0.1 * k, 0, 0);
+    const Eigen::Matrix3d swing = Eigen::AngleAxisd(0.3 * k, Vector3d::UnitZ()).toRotationMatrix();
+    for (std::size_t m = 4; m < kNames.size(); m += 2) {
+      const auto i = static_cast<Eigen::Index>(m);
+      frame.x.col(i) = hip + swing * (frame.x.col(i) - hip);
+    }
+    frames.push_back(std::move(frame));
+  }
+  const auto there = learn_shared(body, prior, frames);
+  std::ranges::reverse(frames);
+  const auto back = learn_shared(body, prior, frames);
+  EXPECT_LT((there.mean - back.mean).cwiseAbs().maxCoeff(), 0.002);
+  EXPECT_EQ(learn_shared(body, prior, {}).mean, prior.mean);
+}
+
 }  // namespace
 }  // namespace kinemark::motion::internal

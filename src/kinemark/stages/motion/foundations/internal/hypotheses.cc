@@ -101,6 +101,36 @@ void add_near_exchanges(const StandingBody& body, const SharedPrior& prior, cons
       out.push_back(h);
 }
 
+/// What the freedom to lie anywhere gains by itself, and what far shifts cost.
+double price_of(const Vector3d& shift, const Matrix3d& covariance) {
+  return log_det(Matrix3d::Identity() + kUsualShift_m * kUsualShift_m * covariance.inverse()) +
+         shift.squaredNorm() / (kUsualShift_m * kUsualShift_m);
+}
+
+/// What one marker elsewhere gains over `none`, the fit of the frame as it is.
+Hypothesis elsewhere(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
+                     const BodyFit& none, int marker) {
+  Hypothesis h{.first = marker};
+  SeenFrame changed = frame;
+  changed.sd[marker] = kElsewhere_m;
+  const BodyFit fit = fit_body(body, prior, changed, &none);
+  const int row = fit.rows[at(marker)];
+  MatrixXd J(3, fit.by_pose.cols() + fit.by_shared.cols());
+  J << fit.by_pose.middleRows<3>(row), fit.by_shared.middleRows<3>(row);
+  const Matrix3d expected = J * fit.information.llt().solve(J.transpose());
+  const Vector3d off = fit.residual.col(marker);
+  const double sd = frame.sd[marker];
+  h.misfit = std::max(kLeastMisfit, (fit.cost - off.squaredNorm() / (kElsewhere_m * kElsewhere_m)) /
+                                        static_cast<double>(none.by_pose.rows() - 3));
+  const Matrix3d covariance = h.misfit * (expected + sd * sd * Matrix3d::Identity());
+  h.gain = (none.cost - fit.cost) / h.misfit;
+  h.score = h.gain - price_of(off, covariance);
+  const Matrix3d root = fit.world_from_root.transpose();
+  h.shift = root * off;
+  h.shift_sd = (root * covariance * root.transpose()).diagonal().cwiseSqrt();
+  return h;
+}
+
 /// What exchanging two markers gains over `none`, the fit of the frame as it is.
 Hypothesis exchanged(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
                      const BodyFit& none, int first, int second) {
@@ -148,31 +178,37 @@ std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& pri
   best(exchanges, 0.0);
   add_near_exchanges(body, prior, frame, static_cast<std::size_t>(most), exchanges);
   std::vector<Hypothesis> all;
-  const double seen = static_cast<double>(none.by_pose.rows());
-  for (auto h : shifts) {
-    SeenFrame changed = frame;
-    changed.sd[h.first] = kElsewhere_m;
-    const BodyFit fit = fit_body(body, prior, changed, &none);
-    const int row = fit.rows[at(h.first)];
-    MatrixXd J(3, fit.by_pose.cols() + fit.by_shared.cols());
-    J << fit.by_pose.middleRows<3>(row), fit.by_shared.middleRows<3>(row);
-    const Matrix3d expected = J * fit.information.llt().solve(J.transpose());
-    const Vector3d off = fit.residual.col(h.first);
-    const double sd = frame.sd[h.first];
-    h.misfit =
-        std::max(kLeastMisfit, (fit.cost - off.squaredNorm() / (kElsewhere_m * kElsewhere_m)) / (seen - 3.0));
-    const Matrix3d covariance = h.misfit * (expected + sd * sd * Matrix3d::Identity());
-    h.gain = (none.cost - fit.cost) / h.misfit;
-    h.score = h.gain - log_det(Matrix3d::Identity() + kUsualShift_m * kUsualShift_m * covariance.inverse()) -
-              off.squaredNorm() / (kUsualShift_m * kUsualShift_m);
-    const Matrix3d root = fit.world_from_root.transpose();
-    h.shift = root * off;
-    h.shift_sd = (root * covariance * root.transpose()).diagonal().cwiseSqrt();
-    all.push_back(h);
-  }
+  for (const auto& h : shifts) all.push_back(elsewhere(body, prior, frame, none, h.first));
   for (const auto& h : exchanges) all.push_back(exchanged(body, prior, frame, none, h.first, h.second));
   std::ranges::stable_sort(all, std::greater{}, &Hypothesis::score);
   return all;
+}
+
+Hypothesis explain_shift(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
+                         int marker) {
+  return elsewhere(body, prior, frame, fit_body(body, prior, frame), marker);
+}
+
+double share_seen(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame, double shift_m,
+                  const Least& least) {
+  const BodyFit none = fit_body(body, prior, frame);
+  const MatrixXd W = inverse_covariance(none, frame);
+  const double misfit =
+      std::max(kLeastMisfit, none.cost / static_cast<double>(std::max<Eigen::Index>(1, none.by_pose.rows())));
+  int asked = 0, seen = 0;
+  for (const int row : none.rows) {
+    if (row < 0) continue;
+    const Matrix3d weight = W.block<3, 3>(row, row);
+    // Faces, edges and corners of a cube; the other side of each is the same.
+    for (int k = 14; k < 27; ++k) {
+      const Vector3d shift = shift_m * Vector3d((k % 3) - 1.0, (k / 3 % 3) - 1.0, (k / 9) - 1.0).normalized();
+      const double fall = shift.dot(weight * shift);
+      ++asked;
+      if (fall >= least.fall && fall / misfit - price_of(shift, misfit * weight.inverse()) >= least.score)
+        ++seen;
+    }
+  }
+  return asked > 0 ? static_cast<double>(seen) / asked : 0.0;
 }
 
 Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,

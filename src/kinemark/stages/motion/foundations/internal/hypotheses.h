@@ -24,6 +24,20 @@ struct Hypothesis {
 [[nodiscard]] std::vector<Hypothesis> explain(const StandingBody& body, const SharedPrior& prior,
                                               const SeenFrame& frame, int most = 4);
 
+/// One marker elsewhere, against no mistake.
+[[nodiscard]] Hypothesis explain_shift(const StandingBody& body, const SharedPrior& prior,
+                                       const SeenFrame& frame, int marker);
+
+/// What a finding needs: score and fall of the cost.
+struct Least {
+  double score = 0.0, fall = 0.0;
+};
+
+/// Share of single markers and directions (13 axes) in which a shift of this size would be a finding, were
+/// all else as the frame shows it. 0 where no marker is seen.
+[[nodiscard]] double share_seen(const StandingBody& body, const SharedPrior& prior, const SeenFrame& frame,
+                                double shift_m, const Least& least);
+
 /// Two markers as exchanged, against no mistake.
 [[nodiscard]] Hypothesis explain_exchange(const StandingBody& body, const SharedPrior& prior,
                                           const SeenFrame& frame, int first, int second);

@@ -84,6 +84,54 @@ TEST_F(Hypotheses, AnExchangeIsWeighedByItselfAsAmongAll) {
   EXPECT_LT(explain_exchange(body_, prior_, frame, a, b).score, 0.0);
 }
 
+TEST_F(Hypotheses, AShiftIsWeighedByItselfAsAmongAll) {
+  auto frame = standing(body_, 8);
+  const int a = marker(body_, "LASI");
+  frame.x.col(a) += Vector3d(0.0, 0.1, 0.0);
+  const auto alone = explain_shift(body_, prior_, frame, a), best = explain(body_, prior_, frame).front();
+  EXPECT_EQ(best.first, a);
+  EXPECT_EQ(best.second, -1);
+  EXPECT_NEAR(alone.score, best.score, 1e-9 * best.score);
+  EXPECT_LT(explain_shift(body_, prior_, frame, marker(body_, "RTOE")).score, best.score);
+}
+
+TEST_F(Hypotheses, TheShareSeenIsTheShareFound) {
+  // Known places as beside a movement: each coordinate to 4 mm, so that most shifts show.
+  SharedPrior known = prior_;
+  known.information.diagonal().array() += 1.0 / (0.004 * 0.004);
+  const Least least{.score = 7.0, .fall = 0.0};
+  for (const double size : {0.02, 0.04}) {
+    const auto clean = standing(body_, 9);
+    const double said = share_seen(body_, known, clean, size, least);
+    int planted = 0, found = 0;
+    Random random(31, 0);
+    for (int m = 0; m < clean.x.cols(); ++m)
+      for (int k = 0; k < 3; ++k) {
+        Vector3d way;
+        for (int a = 0; a < 3; ++a) way[a] = random.gaussian();
+        auto frame = clean;
+        frame.x.col(m) += size * way.normalized();
+        const auto h = explain_shift(body_, known, frame, m);
+        ++planted;
+        found += h.score >= least.score && h.gain * h.misfit >= least.fall ? 1 : 0;
+      }
+    EXPECT_NEAR(said, static_cast<double>(found) / planted, 0.2) << size;
+    EXPECT_GT(said, 0.0);
+  }
+}
+
+TEST_F(Hypotheses, MoreIsSeenOfLargerShiftsAndNothingWhereNoneIsEnough) {
+  const auto frame = standing(body_, 10);
+  const Least least{.score = 12.0, .fall = 8.0};
+  const double near = share_seen(body_, prior_, frame, 0.05, least),
+               far = share_seen(body_, prior_, frame, 0.12, least);
+  EXPECT_LT(near, far);
+  EXPECT_EQ(share_seen(body_, prior_, frame, 0.05, {.score = 1e9, .fall = 0.0}), 0.0);
+  auto nothing = frame;
+  nothing.x.setConstant(std::nan(""));
+  EXPECT_EQ(share_seen(body_, prior_, nothing, 0.05, least), 0.0);
+}
+
 TEST_F(Hypotheses, AShiftIsFoundWithItsSizeAndSpread) {
   for (const double size : {0.09, 0.15}) {
     auto frame = standing(body_, 4);
