@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <tuple>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
@@ -30,6 +31,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -102,7 +104,7 @@ struct Setting {
     for (std::size_t c = 0; c < channel_count; ++c) {
       plate.channel_idx.push_back(static_cast<int>(c) + 1);
       t.analog.names.push_back("ch" + std::to_string(c));
-      t.analog.units.push_back(c < units.size() ? units[c] : "N");
+      t.analog.units.push_back(type != 3 && c < units.size() ? units[c] : "N");
     }
     t.force_plates.push_back(plate);
     t.analog.samples = frames * samples_per_frame;
@@ -211,6 +213,56 @@ TEST(PlateForces, TheUnitOfMomentsIsTheChannelsOrTheFiles) {
   for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
     if (i % 7 >= 1 && i % 7 < 4) trial.analog.values[i] *= 1e-3;
   expect_truth(setting, through_a_file(trial).value().wrenches.items.at(0), 1);
+}
+
+TEST(PlateForces, UnitsOfOtherLanguagesAndScalesAreOnes) {
+  const auto forces_of_units = [](const char* force, double force_scale, const char* moment,
+                                  double moment_scale) {
+    Setting setting;
+    setting.units = {force, force, force, moment, moment, moment};
+    auto trial = setting.trial(3, [](double) { return 1.0; });
+    for (std::size_t i = 0; i < trial.analog.values.size(); ++i) {
+      if (i % 7 >= 1 && i % 7 < 4) trial.analog.values[i] /= force_scale;
+      if (i % 7 >= 4) trial.analog.values[i] *= 1e-3 / moment_scale;
+    }
+    return through_a_file(trial).value();
+  };
+  for (const auto& [force, force_scale, moment, moment_scale] :
+       {std::tuple{"kN", 1e3, "kN.m", 1e3},
+        {"N", 1.0, "Nxm", 1.0},
+        {"N", 1.0, "Joule", 1.0},
+        {"kgf", 9.80665, "kgf.m", 9.80665},
+        {"lbf", 4.4482216152605, "lbf.in", 4.4482216152605 * 0.0254},
+        {"dN", 0.1, "N.cm", 1e-2}}) {
+    const auto forces = forces_of_units(force, force_scale, moment, moment_scale);
+    expect_truth(Setting{}, forces.wrenches.items.at(0), 1);
+    EXPECT_THAT(forces.warnings, Not(Contains(HasSubstr("no unit of force")))) << moment;
+  }
+  EXPECT_THAT(forces_of_units("furlong", 1.0, "Nmm", 1e-3).warnings,
+              Contains(HasSubstr(
+                  "force plate 1 has channel 1 in 'furlong', channel 2 in 'furlong', channel 3 in 'furlong', "
+                  "which is no unit of force or moment; taken as N and N x mm")));
+}
+
+TEST(PlateForces, ThePolynomialOfAKistlerPlateMovesItsCentreOfPressure) {
+  Setting setting;
+  setting.force = {0.0, 0.0, -700.0};
+  setting.position = {0.06, -0.05, 0.0};
+  auto trial = setting.trial(3, [](double) { return 1.0; });
+  const auto local = [&](const data::Trial& of) {
+    const auto forces = plate_forces(of).value();
+    return std::pair{Vector3d(setting.world_from_plate.transpose() *
+                              (of_frame(forces.wrenches.items.at(0).point, 1) - setting.centre)),
+                     forces.warnings};
+  };
+  EXPECT_LT((local(trial).first - setting.position).norm(), 1e-6);
+  EXPECT_THAT(local(trial).second, Not(Contains(HasSubstr("FPCOPPOLY"))));
+  // Of a real plate; ezc3d 1.7.2 finds (61.5, -45.8) mm.
+  trial.force_plates[0].pressure_correction = {
+      7.92062965e-15,  8.82868963e-15,  -5.82099979e-10, -2.48554011e-10, -2.77102004e-6, -1.76282003e-6,
+      -1.76082995e-10, -4.22186008e-10, 1.29694999e-5,   1.20909999e-5,   -4.13978994e-2, 5.16279005e-2};
+  EXPECT_LT((local(trial).first - Vector3d(0.0615, -0.0458, 0.0)).norm(), 1e-4);
+  EXPECT_THAT(local(trial).second, Contains(HasSubstr("corrected by the file's polynomial")));
 }
 
 TEST(PlateForces, FramesAreNeitherEarlyNorLate) {
@@ -362,8 +414,10 @@ TEST(PlateForces, BaselineOfTheFramesThatZeroNames) {
   EXPECT_EQ(of_frame(forces.wrenches.items.at(0).force, 5), Vector3d::Zero());
   const auto raw = through_a_file(trial, {.baseline = false}, set_zero(1, 9)).value();
   EXPECT_NEAR(of_frame(raw.wrenches.items.at(0).force, 20).z(), 728.0, 1e-3);
+  // The manual reads a range from 0 as one from 1.
+  expect_truth(setting, through_a_file(trial, {}, set_zero(0, 9)).value().wrenches.items.at(0), 20);
   // Ranges that name nothing.
-  for (const auto& [first, last] : {std::pair{0, 0}, {1, 0}, {0, 9}, {1, 31}, {-3, 2}}) {
+  for (const auto& [first, last] : {std::pair{0, 0}, {1, 0}, {1, 31}, {-3, 2}}) {
     const auto as_is =
         through_a_file(trial, {}, set_zero(static_cast<std::int16_t>(first), static_cast<std::int16_t>(last)))
             .value();
