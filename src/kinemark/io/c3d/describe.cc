@@ -104,7 +104,7 @@ void describe_trial(const C3dHeader& header, const C3dParameters& parameters, co
             : "has no points");
   read_events(header, parameters, trial);
   trial.force_plates = find_force_plates(parameters, layout, warnings);
-  trial.unloaded_s = unloaded_times(parameters, trial.markers.time);
+  trial.unloaded_s = unloaded_times(parameters, trial.markers.time, warnings);
 }
 
 }  // namespace kinemark::io

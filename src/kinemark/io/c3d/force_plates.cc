@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -74,6 +75,7 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
   const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
+  const std::vector<double> polynomials = p.numbers("FORCE_PLATFORM", "FPCOPPOLY");
   std::vector<data::ForcePlate> plates;
   for (std::size_t i = 0; i < used; ++i) {
     data::ForcePlate plate{.number = static_cast<int>(i) + 1, .metres_per_unit = layout.metres_per_unit};
@@ -88,6 +90,14 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
       plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
     plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
     read_calibration(calibrations, i, plate);
+    if (polynomials.size() >= 12 * (i + 1) &&
+        std::any_of(polynomials.begin() + static_cast<std::ptrdiff_t>(12 * i),
+                    polynomials.begin() + static_cast<std::ptrdiff_t>(12 * (i + 1)),
+                    [](double v) { return v != 0.0; }))
+      warnings.push_back(
+          fmt::format("force plate {} has a polynomial that corrects its centre of pressure (FPCOPPOLY); it "
+                      "is not applied",
+                      i + 1));
     if (!std::ranges::all_of(plate.corners_in_world, near) || !near(plate.origin_in_plate))
       warnings.push_back(
           fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));
@@ -96,10 +106,20 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   return plates;
 }
 
-std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time) {
-  const auto zero = parameters.numbers("FORCE_PLATFORM", "ZERO");
+std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time,
+                                     std::vector<std::string>& warnings) {
+  constexpr std::array<double, 2> kNone{0.0, -1.0};
+  auto zero = parameters.numbers("FORCE_PLATFORM", "ZERO");
   const auto frames = static_cast<double>(time.frames);
-  if (zero.size() < 2 || !(zero[0] >= 1.0 && zero[0] <= zero[1] && zero[1] <= frames)) return {0.0, -1.0};
+  if (zero.size() < 2 || !(zero[1] >= 1.0)) return kNone;
+  // The manual: a range that begins at 0 begins at the first frame.
+  if (zero[0] == 0.0) zero[0] = 1.0;
+  if (!(zero[0] >= 1.0 && zero[0] <= zero[1] && zero[1] <= frames)) {
+    warnings.push_back(
+        fmt::format("FORCE_PLATFORM:ZERO names frames {:g} to {:g} of {:g}: no baseline is subtracted",
+                    zero[0], zero[1], frames));
+    return kNone;
+  }
   const auto time_of = [&](double number) { return time.time_s(static_cast<std::int64_t>(number) - 1); };
   return {time_of(zero[0]), time_of(zero[1])};
 }

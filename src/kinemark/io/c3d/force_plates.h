@@ -20,6 +20,7 @@ namespace kinemark::io {
 
 /// First and last time on the clock of the markers of the frames that FORCE_PLATFORM:ZERO names; the first
 /// after the last where it names none of the file.
-[[nodiscard]] std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time);
+[[nodiscard]] std::array<double, 2> unloaded_times(const C3dParameters& parameters, const TimeBase& time,
+                                                   std::vector<std::string>& warnings);
 
 }  // namespace kinemark::io

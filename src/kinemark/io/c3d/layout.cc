@@ -260,6 +260,11 @@ void settle_analog(C3dLayout& out, const C3dParameters& p, Warnings& warnings) {
   const double general = p.number("ANALOG", "GEN_SCALE").value_or(1.0);
   const C3dParameter* offset = p.find("ANALOG", "OFFSET");
   for (double& s : out.analog_scale) s *= general;
+  if (const auto zeros = std::ranges::count(out.analog_scale, 0.0); zeros > 0)
+    warnings.push_back(
+        fmt::format("ANALOG:SCALE, times GEN_SCALE, is 0 for {} of {} channels: whatever they held, they are "
+                    "0 throughout",
+                    zeros, channels));
   if (out.analog_unsigned && offset != nullptr && offset->type == C3dType::int16)
     for (double& o : out.analog_offset)
       if (o < 0.0) o += 65536.0;

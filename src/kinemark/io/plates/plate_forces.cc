@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/text.h"
 #include "kinemark/io/plates/internal/plate_wrench.h"
 
 namespace kinemark::io {
@@ -70,6 +71,10 @@ std::vector<Plate> usable_plates(const data::Trial& trial, std::vector<std::stri
       warnings.push_back(fmt::format(
           "force plate {} has an ORIGIN above its surface; taken as measured from the surface instead",
           found.number));
+    if (const auto& unknown = wrench->unknown_units(); !unknown.empty())
+      warnings.push_back(
+          fmt::format("force plate {} has {}, which is no unit of force or moment; taken as N and N x {}",
+                      found.number, join_some(unknown, 3), found.metres_per_unit == 1.0 ? "m" : "mm"));
     Plate plate{.name = fmt::format("plate {}", found.number),
                 .channel_idx = found.channel_idx,
                 .wrench = std::move(*wrench),

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <tuple>
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/random.h"
@@ -30,6 +31,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 Vector3d of_frame(const Array<double>& values, std::int64_t f) {
   return Eigen::Map<const Vector3d>(values.data() + 3 * f);
@@ -102,7 +104,7 @@ struct Setting {
     for (std::size_t c = 0; c < channel_count; ++c) {
       plate.channel_idx.push_back(static_cast<int>(c) + 1);
       t.analog.names.push_back("ch" + std::to_string(c));
-      t.analog.units.push_back(c < units.size() ? units[c] : "N");
+      t.analog.units.push_back(type != 3 && c < units.size() ? units[c] : "N");
     }
     t.force_plates.push_back(plate);
     t.analog.samples = frames * samples_per_frame;
@@ -211,6 +213,35 @@ TEST(PlateForces, TheUnitOfMomentsIsTheChannelsOrTheFiles) {
   for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
     if (i % 7 >= 1 && i % 7 < 4) trial.analog.values[i] *= 1e-3;
   expect_truth(setting, through_a_file(trial).value().wrenches.items.at(0), 1);
+}
+
+TEST(PlateForces, UnitsOfOtherLanguagesAndScalesAreOnes) {
+  const auto forces_of_units = [](const char* force, double force_scale, const char* moment,
+                                  double moment_scale) {
+    Setting setting;
+    setting.units = {force, force, force, moment, moment, moment};
+    auto trial = setting.trial(3, [](double) { return 1.0; });
+    for (std::size_t i = 0; i < trial.analog.values.size(); ++i) {
+      if (i % 7 >= 1 && i % 7 < 4) trial.analog.values[i] /= force_scale;
+      if (i % 7 >= 4) trial.analog.values[i] *= 1e-3 / moment_scale;
+    }
+    return through_a_file(trial).value();
+  };
+  for (const auto& [force, force_scale, moment, moment_scale] :
+       {std::tuple{"kN", 1e3, "kN.m", 1e3},
+        {"N", 1.0, "Nxm", 1.0},
+        {"N", 1.0, "Joule", 1.0},
+        {"kgf", 9.80665, "kgf.m", 9.80665},
+        {"lbf", 4.4482216152605, "lbf.in", 4.4482216152605 * 0.0254},
+        {"dN", 0.1, "N.cm", 1e-2}}) {
+    const auto forces = forces_of_units(force, force_scale, moment, moment_scale);
+    expect_truth(Setting{}, forces.wrenches.items.at(0), 1);
+    EXPECT_THAT(forces.warnings, Not(Contains(HasSubstr("no unit of force")))) << moment;
+  }
+  EXPECT_THAT(forces_of_units("furlong", 1.0, "Nmm", 1e-3).warnings,
+              Contains(HasSubstr(
+                  "force plate 1 has channel 1 in 'furlong', channel 2 in 'furlong', channel 3 in 'furlong', "
+                  "which is no unit of force or moment; taken as N and N x mm")));
 }
 
 TEST(PlateForces, FramesAreNeitherEarlyNorLate) {
@@ -362,8 +393,10 @@ TEST(PlateForces, BaselineOfTheFramesThatZeroNames) {
   EXPECT_EQ(of_frame(forces.wrenches.items.at(0).force, 5), Vector3d::Zero());
   const auto raw = through_a_file(trial, {.baseline = false}, set_zero(1, 9)).value();
   EXPECT_NEAR(of_frame(raw.wrenches.items.at(0).force, 20).z(), 728.0, 1e-3);
+  // The manual reads a range from 0 as one from 1.
+  expect_truth(setting, through_a_file(trial, {}, set_zero(0, 9)).value().wrenches.items.at(0), 20);
   // Ranges that name nothing.
-  for (const auto& [first, last] : {std::pair{0, 0}, {1, 0}, {0, 9}, {1, 31}, {-3, 2}}) {
+  for (const auto& [first, last] : {std::pair{0, 0}, {1, 0}, {1, 31}, {-3, 2}}) {
     const auto as_is =
         through_a_file(trial, {}, set_zero(static_cast<std::int16_t>(first), static_cast<std::int16_t>(last)))
             .value();

@@ -6,42 +6,44 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <optional>
+#include <utility>
 
+#include "kinemark/core/force_unit.h"
 #include "kinemark/core/length_unit.h"
+#include "kinemark/core/number.h"
+#include "kinemark/core/utf8.h"
 
 namespace kinemark::io::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-/// "N.mm", "Nt mm" -> "nmm".
-std::string plain(const std::string& unit) {
-  std::string text;
-  for (const char c : unit)
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
-      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (text.starts_with("newton")) text.erase(1, text.starts_with("newtons") ? 6 : 5);
-  if (text.starts_with("nt")) text.erase(1, 1);
-  return text;
-}
+/// What a channel's unit is worth; a word that is none of its quantity gives what the manual takes, and is
+/// named.
+struct ChannelUnits {
+  const data::ForcePlate& plate;
+  const std::vector<std::string>& units;
+  std::vector<std::string> unknown;  ///< "channel 4 in 'furlong'"
 
-double newtons(const std::string& unit) {
-  const std::string text = plain(unit);
-  return text == "kn" ? 1e3 : 1.0;
-}
+  double newtons(std::size_t c) { return value_or(c, newtons_per_unit(word(c)), 1.0); }
+  /// The manual gives moments in N x unit of length; another unit named by the channel takes precedence.
+  double newton_metres(std::size_t c) {
+    return value_or(c, newton_metres_per_unit(word(c)), plate.metres_per_unit);
+  }
+  double metres(std::size_t c) { return value_or(c, metres_per_unit(word(c)), plate.metres_per_unit); }
 
-/// The manual gives moments in N x unit of length; another unit named by the channel takes precedence.
-double newton_metres(const std::string& unit, double metres_per_unit) {
-  const std::string text = plain(unit);
-  if (text.size() < 2 || text.front() != 'n') return metres_per_unit;
-  return kinemark::metres_per_unit(text.substr(1)).value_or(metres_per_unit);
-}
-
-double metres(const std::string& unit, double metres_per_unit) {
-  return kinemark::metres_per_unit(plain(unit)).value_or(metres_per_unit);
-}
+ private:
+  [[nodiscard]] std::string word(std::size_t c) const {
+    const auto idx = static_cast<std::size_t>(plate.channel_idx[c]);
+    return idx < units.size() ? units[idx] : std::string();
+  }
+  double value_or(std::size_t c, std::optional<double> known, double usual) {
+    if (!known && !trim(word(c)).empty())
+      unknown.push_back(fmt::format("channel {} in '{}'", c + 1, printable(word(c), 20)));
+    return known.value_or(usual);
+  }
+};
 
 std::size_t channels_needed(int type) { return type == 3 || type == 7 ? 8 : 6; }
 
@@ -86,11 +88,6 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
   if (plate.channel_idx.size() < n)
     return fail(Code::bad_input,
                 fmt::format("has {} analog channels; type {} needs {}", plate.channel_idx.size(), type, n));
-  const auto unit = [&](std::size_t c) {
-    const auto idx = static_cast<std::size_t>(plate.channel_idx[c]);
-    return idx < units.size() ? units[idx] : std::string();
-  };
-
   PlateWrench wrench;
   wrench.is_pressure_point_ = type == 1;
   // From the origin of the plate's axes to the centre of its surface; z points down, into the plate. Files
@@ -101,16 +98,19 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
   if (wrench.origin_flipped_ && sensors) wrench.centre_.z() *= -1.0;
   if (wrench.origin_flipped_ && !sensors) wrench.centre_ *= -1.0;
 
+  ChannelUnits of{.plate = plate, .units = units, .unknown = {}};
   wrench.scale_.setOnes(static_cast<Eigen::Index>(n));
   for (std::size_t c = 0; c < n; ++c) {
     double& scale = wrench.scale_[static_cast<Eigen::Index>(c)];
     if (sensors || c < 3)
-      scale = newtons(unit(c));
+      scale = of.newtons(c);
     else if (type == 1 && c < 5)
-      scale = metres(unit(c), plate.metres_per_unit);
+      scale = of.metres(c);
     else
-      scale = newton_metres(unit(c), plate.metres_per_unit);
+      scale = of.newton_metres(c);
   }
+  // The matrix of these turns volts, or whatever else comes in, into forces.
+  if (type != 4 && type != 7) wrench.unknown_units_ = std::move(of.unknown);
   if (type == 4 || type == 7) {
     auto matrix = calibration(plate, n);
     if (!matrix) return std::unexpected(matrix.error());

@@ -32,10 +32,14 @@ class PlateWrench {
   }
   /// Whether ORIGIN lay above the surface, and was reversed.
   [[nodiscard]] bool origin_flipped() const { return origin_flipped_; }
+  /// Channels whose unit is no word of their quantity, "channel 4 in 'furlong'": taken as N, and N times the
+  /// file's unit of length.
+  [[nodiscard]] const std::vector<std::string>& unknown_units() const { return unknown_units_; }
 
  private:
   bool is_pressure_point_ = false;  ///< type 1: channels 3 and 4 are the centre of pressure
   bool origin_flipped_ = false;
+  std::vector<std::string> unknown_units_;
   PlateChannels scale_;  ///< of each channel, to N, N m and m
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 8> matrix_;
   Eigen::Vector3d centre_ =
