@@ -172,11 +172,11 @@ int run(int argc, char** argv) {
       }
     const double n = static_cast<double>(count), some = std::max(1.0, determined);
     const auto title = fmt::format("EMG, share active: {}", family.name);
-    const auto measured =
-        fmt::format("{:.0f} of {:.0f} determined; intervals hold the truth in {:.1f} %, bias {:.2f}, RMS error "
-                    "{:.2f}, width {:.2f} %",
-                    determined, n, 100.0 * inside / some, 100.0 * bias / some, 100.0 * std::sqrt(squares / some),
-                    100.0 * width / some);
+    const auto measured = fmt::format(
+        "{:.0f} of {:.0f} determined; intervals hold the truth in {:.1f} %, bias {:.2f}, RMS error "
+        "{:.2f}, width {:.2f} %",
+        determined, n, 100.0 * inside / some, 100.0 * bias / some, 100.0 * std::sqrt(squares / some),
+        100.0 * width / some);
     if (family.is_figure)
       print_note(title, measured);
     else if (!family.is_determined)
