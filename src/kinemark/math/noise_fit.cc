@@ -378,7 +378,7 @@ NoiseModel in_units(NoiseModel model, double typical_sd) {
 NoiseFits fit_all(const Data& data) {
   const auto& search = *data.search;
   NoiseFits out{.lowest = data.lowest, .rate_hz = data.rate_hz};
-  double points = 0.0;
+  double points = 0.0, most = -INFINITY;
   for (const double weight : data.weight) points += weight;
   const bool filters = search.known || may_be_filtered(data);
   const double floor = search.largest_floor_sd / search.typical_sd;
@@ -405,14 +405,12 @@ NoiseFits fit_all(const Data& data) {
                              (filter ? kEvidenceOfFilter : 0.0),
                  .kind = kind.kind,
                  .scale_free = kind.scale_free};
-    if (out.fits.empty() || fit.evidence > out.fits.front().evidence) {
-      out.misfit = misfit_of(spectrum, best.x, data);
-      out.fits.insert(out.fits.begin(), std::move(fit));
-    } else {
-      out.fits.push_back(std::move(fit));
-    }
+    if (!kind.scale_free && fit.evidence > most)
+      most = fit.evidence, out.misfit = misfit_of(spectrum, best.x, data);
+    out.fits.push_back(std::move(fit));
   }
-  std::ranges::stable_sort(out.fits, std::ranges::greater{}, &NoiseFit::evidence);
+  std::ranges::stable_sort(out.fits, std::ranges::greater{},
+                           [](const NoiseFit& fit) { return std::pair(!fit.scale_free, fit.evidence); });
   out.largest_misfit = 1.0 + 2.0 * std::sqrt(16.0 / std::max(32.0, data.frequencies));
   return out;
 }
@@ -421,8 +419,9 @@ void draw_from(const NoiseFits& from, const NoiseSearch& search, std::int64_t co
                std::vector<NoiseModel>& out) {
   std::vector<double> weights;
   double sum = 0.0;
+  const double best = std::ranges::max(from.fits, {}, &NoiseFit::evidence).evidence;
   for (const auto& fit : from.fits) {
-    const double weight = std::exp(fit.evidence - from.fits.front().evidence);
+    const double weight = std::exp(fit.evidence - best);
     weights.push_back(weight < kLeastWeight ? 0.0 : weight);
     sum += weights.back();
   }

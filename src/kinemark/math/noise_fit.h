@@ -44,7 +44,7 @@ struct NoiseFits {
   double rate_hz = 0.0;         ///< samples per second
   double misfit = 0.0;          ///< deviance over what is expected of the right model
   double largest_misfit = 0.0;  ///< that the right model has, but for few
-  std::vector<NoiseFit> fits;   ///< the most probable first
+  std::vector<NoiseFit> fits;   ///< the most probable first; those without a corner, a doubt, at the end
 };
 
 /// What was found. Where a model is right from a frequency on, what the next higher one says belongs to the
