@@ -42,10 +42,12 @@ Kind kind_of(const std::string& ending) {
   return Kind::markers;
 }
 
-/// A table of OpenSim may hold markers and nothing else.
-Kind kind_of_input(const std::filesystem::path& path) {
-  const Kind kind = kind_of(ending_of(path));
-  return kind == Kind::table && io::begins_as_markers(path) ? Kind::markers : kind;
+/// What the input is taken for: a table of OpenSim may hold markers and nothing else, and stays a table all the
+/// same where it becomes one.
+Kind kind_of_input(const ConvertJob& job) {
+  const Kind kind = kind_of(ending_of(job.in));
+  const bool may_be_markers = kind == Kind::table && kind_of(ending_of(job.out)) != Kind::table;
+  return may_be_markers && io::begins_as_markers(job.in) ? Kind::markers : kind;
 }
 
 /// Formats of models for robots and physics programs, which are written and not read.
@@ -239,7 +241,7 @@ namespace {
 /// Whether these files go together, with a model or without.
 Status check_kinds(const ConvertJob& job) {
   const std::string from = ending_of(job.in), to = ending_of(job.out);
-  const bool makes_skeleton = kind_of_input(job.in) == Kind::table && (to == ".bvh" || to == ".glb");
+  const bool makes_skeleton = kind_of_input(job) == Kind::table && (to == ".bvh" || to == ".glb");
   if (!job.model.empty() && !makes_skeleton)
     return fail(
         Code::usage,
@@ -254,10 +256,10 @@ Status check_kinds(const ConvertJob& job) {
   if (!job.skeleton.empty() && from != ".amc")
     return fail(Code::usage,
                 fmt::format("--skeleton: {} has none beside it; it is for .amc files", job.in.string()));
-  if (kind_of_input(job.in) == Kind::model && is_robot(to)) return {};
-  if (kind_of_input(job.in) == Kind::table && to == ".mat") return {};
-  if (kind_of_input(job.in) == Kind::markers && kind_of(to) == Kind::table) return {};
-  if (makes_skeleton || (kind_of_input(job.in) == kind_of(to) && !is_robot(to))) return {};
+  if (kind_of_input(job) == Kind::model && is_robot(to)) return {};
+  if (kind_of_input(job) == Kind::table && to == ".mat") return {};
+  if (kind_of_input(job) == Kind::markers && kind_of(to) == Kind::table) return {};
+  if (makes_skeleton || (kind_of_input(job) == kind_of(to) && !is_robot(to))) return {};
   return fail(Code::usage,
               fmt::format("{} cannot become {}: markers, tables and models are different kinds of file",
                           job.in.string(), job.out.string()));
@@ -281,12 +283,12 @@ Status check_each_once(const ConvertJob& job) {
 Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
-  if (!job.RecordingOptions::empty() && kind_of_input(job.in) != Kind::markers)
+  if (!job.RecordingOptions::empty() && kind_of_input(job) != Kind::markers)
     return fail(Code::usage,
                 fmt::format("{}: is no recording; --rate, --edits, --select and the other options "
                             "of a recording are not for it",
                             job.in.string()));
-  if ((!job.merged.empty() || job.resample_hz) && kind_of_input(job.in) != Kind::markers)
+  if ((!job.merged.empty() || job.resample_hz) && kind_of_input(job) != Kind::markers)
     return fail(Code::usage,
                 fmt::format("{}: only marker files can be merged and resampled", job.in.string()));
   if (!job.merged.empty())
@@ -297,7 +299,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = check_apart(job, {job.out}, files_of(job)); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
   std::vector<std::filesystem::path> written = {job.out};
-  switch (kind_of_input(job.in)) {
+  switch (kind_of_input(job)) {
     case Kind::model:
       warnings = convert_model(job);
       break;
