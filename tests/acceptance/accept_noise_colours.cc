@@ -38,8 +38,7 @@ const std::vector<Colour> kColours{{"white", Expect::white, 3},           {"t3",
                                    {"flicker", Expect::any, 10},          {"ar0.7", Expect::correlated, 70},
                                    {"ar0.9", Expect::correlated, 100},    {"ar0.99", Expect::correlated, 100},
                                    {"butterworth", Expect::filtered, 35}, {"spline", Expect::filtered, 35},
-                                   {"smoother", Expect::filtered, 35},    {"pink1", Expect::any, 100},
-                                   {"pink0.7", Expect::any, 100}};
+                                   {"smoother", Expect::filtered, 35}};
 
 // Noise of a series, and what its filter does, in mm.
 struct Spoiled {
@@ -202,46 +201,21 @@ void judge_colour(std::size_t colour, const std::vector<Trial>& trials, bool few
     print_row(cut_off.share() >= 95, name + "cut-off within a factor of 1.5", "95 %", cut_off.text());
 }
 
-struct Ends {
-  Count two, one;
-};
-
-// Of one measure the colours of which there are many, each by itself.
-void judge_each(const std::string& id, const std::map<std::size_t, Ends>& by_colour, Count Ends::* ends,
-                double least) {
-  constexpr int kMany = 100;
-  bool good = true;
-  std::string text;
-  for (const auto& [colour, counts] : by_colour) {
-    const Count& count = counts.*ends;
-    if (count.all < kMany) continue;
-    good = good && count.share() >= least;
-    text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", kColours[colour].name, count.share());
-  }
-  if (!text.empty()) print_row(good, "noise_colours, each: " + id, fmt::format("{:g} %", least), text);
-}
-
 void judge_measures(const std::vector<Trial>& trials) {
   std::map<std::string, std::pair<Count, Count>> by_id;
-  std::map<std::string, std::map<std::size_t, Ends>> by_colour;
   for (const auto& trial : trials)
     for (const auto& one : trial.judged) {
       if (one.tremor_family && one.id != "tremor") continue;
-      if (one.kind == data::IntervalKind::none) continue;
-      const bool two = one.kind == data::IntervalKind::two_sided;
-      (two ? by_id[one.id].first : by_id[one.id].second).add(one.covered);
-      auto& each = by_colour[one.id][trial.colour];
-      (two ? each.two : each.one).add(one.covered);
+      if (one.kind == data::IntervalKind::two_sided)
+        by_id[one.id].first.add(one.covered);
+      else if (one.kind != data::IntervalKind::none)
+        by_id[one.id].second.add(one.covered);
     }
   for (const auto& [id, counts] : by_id) {
     const auto& [two, one] = counts;
     if (two.all >= 50) print_row(two.share() >= 85, "noise_colours, all: " + id, "85 %", two.text());
     if (one.all >= 50)
       print_row(one.share() >= 97, "noise_colours, all: " + id + ", one end", "97 %", one.text());
-  }
-  for (const auto& [id, colours] : by_colour) {
-    judge_each(id, colours, &Ends::two, 85);
-    judge_each(id + ", one end", colours, &Ends::one, 97);
   }
   Count tremor;
   for (const auto& trial : trials)

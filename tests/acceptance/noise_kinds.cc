@@ -22,24 +22,6 @@ double student(Random& random) {  // three degrees of freedom, variance 1
   return random.gaussian() / std::sqrt(squares);
 }
 
-// Noise with the spectrum f^-exponent (Kasdin 1995): white noise through the filter (1 - z)^(-exponent / 2),
-// of which it has heard for four times as long. Its deviation about its mean is 1.
-Eigen::VectorXd power_of_frequency(double exponent, std::int64_t n, Random& random) {
-  const std::int64_t memory = 5 * n;
-  std::vector<double> fresh(static_cast<std::size_t>(memory)), weight(fresh.size(), 1.0);
-  for (auto& value : fresh) value = random.gaussian();
-  for (std::size_t k = 1; k < weight.size(); ++k)
-    weight[k] = weight[k - 1] * (static_cast<double>(k) - 1.0 + 0.5 * exponent) / static_cast<double>(k);
-  Eigen::VectorXd out(n);
-  for (std::int64_t i = 0; i < n; ++i) {
-    const auto now = static_cast<std::size_t>(memory - n + i);
-    out[i] = 0.0;
-    for (std::size_t k = 0; k <= now; ++k) out[i] += weight[k] * fresh[now - k];
-  }
-  out.array() -= out.mean();
-  return out / std::sqrt(out.squaredNorm() / static_cast<double>(n));
-}
-
 void run_filter(const std::string& colour, double hz, double rate, SeriesMatrix& x) {
   if (colour == "butterworth") {
     const auto sections = math::butterworth_lowpass(2, math::two_pass_cutoff(2, hz / rate));
@@ -96,11 +78,6 @@ SeriesMatrix with_noise_of_colour(const std::string& colour, const SeriesMatrix&
       double e = random.gaussian();
       for (std::int64_t i = 0; i < n; ++i, e = rho * e + fresh * random.gaussian()) x(i, k) += sd * e;
     }
-    return x;
-  }
-  if (colour.starts_with("pink")) {
-    const double exponent = std::atof(colour.c_str() + 4);
-    for (Eigen::Index k = 0; k < x.cols(); ++k) x.col(k) += sd * power_of_frequency(exponent, n, random);
     return x;
   }
   for (std::int64_t i = 0; i < n; ++i) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Simulated noise of many colours: white, heavy-tailed, flickering, autoregressive, a power of the
-// frequency, and white before a filter
+// Simulated noise of many colours: white, heavy-tailed, flickering, autoregressive, and white before a filter
 // that the movement goes through as well.
 #pragma once
 
@@ -25,7 +24,7 @@ void low_pass(const std::string& colour, double hz, double rate_hz, math::Series
 /// -3 dB of low_pass(), found by running it on cosines.
 [[nodiscard]] double three_db_of(const std::string& colour, double hz, double rate_hz, std::int64_t frames);
 
-/// A path with noise of a colour ("white", "t3", "flicker", "ar0.9", "pink0.7", ...), not filtered yet.
+/// A path with noise of a colour ("white", "t3", "flicker", "ar0.9", ...), not filtered yet.
 /// @param sd  per axis, in the unit of the path
 [[nodiscard]] math::SeriesMatrix with_noise_of_colour(const std::string& colour,
                                                       const math::SeriesMatrix& path, double sd,

@@ -11,7 +11,6 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
-#include "kinemark/math/power_noise.h"
 
 namespace kinemark::math {
 namespace {
@@ -33,8 +32,6 @@ constexpr double kNextShare = 0.4;                    // of draws from the next 
 constexpr double kLeastWeight = 0.02;                 // of a model over that of the best
 constexpr double kTailLeast = 5.0, kTailMore = 7.0;   // exponents of a tail by a power
 constexpr double kFallLeast = 3.0, kFallMore = 17.0;  // of an exponential tail, over the lowest frequency
-constexpr double kFlattest = 0.3, kSteeper = 1.9;     // exponents of noise by a power
-constexpr double kSlowest_hz = 0.05;                  // where it ends at the latest
 
 // Parameters by their place; -1: the model has none of these.
 struct Sites {
@@ -50,7 +47,6 @@ struct Kind {
   LowPass form = LowPass::butterworth;
   int order = 0;
   Tail moves = Tail::power;
-  bool scale_free = false;  // a power of the frequency in the place of autoregressive noise
 
   [[nodiscard]] Sites sites() const {
     Sites out;
@@ -67,8 +63,6 @@ struct Kind {
 constexpr std::array kKinds{Kind{NoiseKind::white},
                             Kind{NoiseKind::correlated},
                             Kind{NoiseKind::correlated_and_white},
-                            Kind{NoiseKind::correlated, LowPass::butterworth, 0, Tail::power, true},
-                            Kind{NoiseKind::correlated_and_white, LowPass::butterworth, 0, Tail::power, true},
                             Kind{NoiseKind::filtered, LowPass::butterworth, 1},
                             Kind{NoiseKind::filtered, LowPass::butterworth, 2},
                             Kind{NoiseKind::filtered, LowPass::butterworth, 4},
@@ -78,13 +72,12 @@ constexpr std::array kKinds{Kind{NoiseKind::white},
                             Kind{NoiseKind::filtered, LowPass::spline, 5}};
 
 // All kinds with both tails. Without one, slow noise and white only: with white noise on top it would be
-// white noise under a tail. A power of the frequency has no corner that a tail could hide.
+// white noise under a tail.
 std::vector<Kind> kinds_with_tails() {
   std::vector<Kind> out;
   for (auto kind : kKinds) {
     for (const auto tail : {Tail::none, Tail::power, Tail::exponential}) {
-      const bool single =
-          kind.kind == NoiseKind::white || kind.kind == NoiseKind::correlated || kind.scale_free;
+      const bool single = kind.kind == NoiseKind::white || kind.kind == NoiseKind::correlated;
       if (tail == Tail::none && !single) continue;
       kind.moves = tail;
       out.push_back(kind);
@@ -115,15 +108,7 @@ class Spectrum {
 
   [[nodiscard]] const Sites& sites() const { return sites_; }
 
-  // @param corner  of noise by a power, cycles per sample
-  [[nodiscard]] NoiseModel model(const Eigen::VectorXd& at_values, double corner = 0.0) const {
-    if (kind_.scale_free)
-      return like_power({.power = std::exp(at_values[sites_.variance]),
-                         .exponent = kFlattest + kSteeper * sigmoid(at_values[sites_.memory]),
-                         .floor = sites_.floor >= 0 ? std::exp(at_values[sites_.floor]) : 0.0,
-                         .lowest = data_.lowest,
-                         .corner = corner},
-                        data_.rate_hz);
+  [[nodiscard]] NoiseModel model(const Eigen::VectorXd& at_values) const {
     NoiseModel out{.kind = kind_.kind, .form = kind_.form, .order = kind_.order};
     out.variance = std::exp(at_values[sites_.variance]);
     if (sites_.memory >= 0) out.correlation = 1.0 - std::exp(at_values[sites_.memory]);
@@ -142,7 +127,6 @@ class Spectrum {
     const double exponent = (by_power ? kTailLeast : kFallLeast) + more * share;
     const double floor = sites_.floor >= 0 ? std::exp(x[sites_.floor]) : 0.0;
     const double forget = sites_.memory >= 0 ? std::exp(x[sites_.memory]) : 1.0, rho = 1.0 - forget;
-    const double steep = kind_.scale_free ? sigmoid(x[sites_.memory]) : 0.0;
     const double half = sites_.cut_off >= 0 ? std::exp(x[sites_.cut_off]) : 0.0;
     const double at_half = half > 0.0 ? roll_off_at_half(kind_.form, kind_.order, half) : 1.0;
     double half_slope = 2.0 * kind_.order;  // of ln at_half by ln half
@@ -155,10 +139,7 @@ class Spectrum {
     for (Eigen::Index i = 0; i < logs.size(); ++i) {
       const std::size_t k = at(i);
       double noise = variance, by_memory = 0.0;
-      if (kind_.scale_free) {
-        noise = variance * std::exp(-(kFlattest + kSteeper * steep) * data_.log_ratio[k]);
-        by_memory = -noise * data_.log_ratio[k] * kSteeper * steep * (1.0 - steep);
-      } else if (sites_.memory >= 0) {
+      if (sites_.memory >= 0) {
         const double down = 1.0 - 2.0 * rho * data_.cosine[k] + rho * rho;
         noise = variance * (1.0 - rho * rho) / down;
         by_memory = variance * forget *
@@ -199,10 +180,7 @@ struct Priors {
     mean = weight = Eigen::VectorXd::Zero(sites.count);
     weight[sites.variance] = 1.0 / (kPriorSpread * kPriorSpread);  // about the typical one
     if (sites.slope >= 0) low[sites.slope] = -6.0, high[sites.slope] = 6.0, weight[sites.slope] = 0.25;
-    if (kind.scale_free)
-      low[sites.memory] = -4.0, high[sites.memory] = 4.0, weight[sites.memory] = 0.25;
-    else if (sites.memory >= 0)
-      low[sites.memory] = std::log(0.002), high[sites.memory] = std::log(0.95);
+    if (sites.memory >= 0) low[sites.memory] = std::log(0.002), high[sites.memory] = std::log(0.95);
     if (kind.kind != NoiseKind::filtered) return;
     floor = sites.floor;
     low[sites.cut_off] = std::log(std::max(2.0 / data.rate_hz, 0.01));
@@ -301,19 +279,13 @@ std::vector<Eigen::VectorXd> starts_of(const Kind& kind, const Data& data) {
       start({middle, first, 0.0});
       break;
     case NoiseKind::correlated:
-    case NoiseKind::correlated_and_white: {
-      const bool white_too = kind.kind == NoiseKind::correlated_and_white;
-      const double white = high + std::log(0.5), tail = first + std::log(0.3);
-      const auto begin = [&](double variance, double memory) {
-        start({variance, memory, white_too ? white : tail, white_too ? tail : 0.0, 0.0});
-      };
-      if (kind.scale_free)
-        for (const double slope : {-1.4, 0.4}) begin(first + std::log(0.5), slope);
-      else
-        for (const double rho : white_too ? std::vector{0.8, 0.97} : std::vector{0.5, 0.9, 0.98})
-          begin(slow(rho), std::log(1.0 - rho));
+      for (const double rho : {0.5, 0.9, 0.98})
+        start({slow(rho), std::log(1.0 - rho), first + std::log(0.3), 0.0});
       break;
-    }
+    case NoiseKind::correlated_and_white:
+      for (const double rho : {0.8, 0.97})
+        start({slow(rho), std::log(1.0 - rho), high + std::log(0.5), first + std::log(0.3), 0.0});
+      break;
     case NoiseKind::filtered: {
       std::vector<double> halves;
       if (data.search->known)
@@ -377,8 +349,8 @@ NoiseModel in_units(NoiseModel model, double typical_sd) {
 
 NoiseFits fit_all(const Data& data) {
   const auto& search = *data.search;
-  NoiseFits out{.lowest = data.lowest, .rate_hz = data.rate_hz};
-  double points = 0.0, most = -INFINITY;
+  NoiseFits out{.lowest = data.lowest};
+  double points = 0.0;
   for (const double weight : data.weight) points += weight;
   const bool filters = search.known || may_be_filtered(data);
   const double floor = search.largest_floor_sd / search.typical_sd;
@@ -402,15 +374,15 @@ NoiseFits fit_all(const Data& data) {
                  .parameters = best.x,
                  .covariance = best.curvature.completeOrthogonalDecomposition().pseudoInverse(),
                  .evidence = best.value - 0.5 * std::log(points) * static_cast<double>(best.x.size()) -
-                             (filter ? kEvidenceOfFilter : 0.0),
-                 .kind = kind.kind,
-                 .scale_free = kind.scale_free};
-    if (!kind.scale_free && fit.evidence > most)
-      most = fit.evidence, out.misfit = misfit_of(spectrum, best.x, data);
-    out.fits.push_back(std::move(fit));
+                             (filter ? kEvidenceOfFilter : 0.0)};
+    if (out.fits.empty() || fit.evidence > out.fits.front().evidence) {
+      out.misfit = misfit_of(spectrum, best.x, data);
+      out.fits.insert(out.fits.begin(), std::move(fit));
+    } else {
+      out.fits.push_back(std::move(fit));
+    }
   }
-  std::ranges::stable_sort(out.fits, std::ranges::greater{},
-                           [](const NoiseFit& fit) { return std::pair(!fit.scale_free, fit.evidence); });
+  std::ranges::stable_sort(out.fits, std::ranges::greater{}, &NoiseFit::evidence);
   out.largest_misfit = 1.0 + 2.0 * std::sqrt(16.0 / std::max(32.0, data.frequencies));
   return out;
 }
@@ -419,9 +391,8 @@ void draw_from(const NoiseFits& from, const NoiseSearch& search, std::int64_t co
                std::vector<NoiseModel>& out) {
   std::vector<double> weights;
   double sum = 0.0;
-  const double best = std::ranges::max(from.fits, {}, &NoiseFit::evidence).evidence;
   for (const auto& fit : from.fits) {
-    const double weight = std::exp(fit.evidence - best);
+    const double weight = std::exp(fit.evidence - from.fits.front().evidence);
     weights.push_back(weight < kLeastWeight ? 0.0 : weight);
     sum += weights.back();
   }
@@ -431,24 +402,20 @@ void draw_from(const NoiseFits& from, const NoiseSearch& search, std::int64_t co
     std::size_t i = 0;
     while (i + 1 < weights.size() && pick >= weights[i]) pick -= weights[i++];
     const auto& fit = from.fits[i];
-    const Kind kind{fit.kind, fit.model.form, fit.model.order, Tail::power, fit.scale_free};
+    const Kind kind{fit.model.kind, fit.model.form, fit.model.order};
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(fit.covariance);
     Eigen::VectorXd off(fit.parameters.size());
     for (Eigen::Index p = 0; p < off.size(); ++p)
       off[p] = kSpreadDrawn * std::sqrt(std::clamp(solver.eigenvalues()[p], 0.0, kWidestDrawn)) *
                random.gaussian();
-    double corner = 0.0;
-    if (const double end = kSlowest_hz / from.rate_hz; fit.scale_free && drawn[i])
-      corner = end * std::pow(std::max(1.0, from.lowest / end), random.uniform());
     if (!drawn[i]) off.setZero();
     drawn[i] = true;
     Eigen::VectorXd x = fit.parameters + solver.eigenvectors() * off;
     const auto sites = kind.sites();
-    if (sites.memory >= 0 && !fit.scale_free)
-      x[sites.memory] = std::clamp(x[sites.memory], std::log(0.002), 0.0);
+    if (sites.memory >= 0) x[sites.memory] = std::clamp(x[sites.memory], std::log(0.002), 0.0);
     if (sites.cut_off >= 0) x[sites.cut_off] = std::min(x[sites.cut_off], std::log(0.48));
-    const Data none{.lowest = from.lowest, .rate_hz = from.rate_hz};
-    out.push_back(in_units(Spectrum(kind, none).model(x, corner), search.typical_sd));
+    const Data none;
+    out.push_back(in_units(Spectrum(kind, none).model(x), search.typical_sd));
   }
 }
 
@@ -469,9 +436,7 @@ std::optional<FoundNoise> find_noise(const NoiseSpectrum& spectrum, double rate_
     auto fits = fit_all(data);
     if (fits.fits.empty()) continue;
     if (out && out->chosen.misfit < out->chosen.largest_misfit) {
-      // A corner is seen less the higher one begins: whether there is none, the lower frequency says.
-      std::erase_if(fits.fits, [](const NoiseFit& fit) { return fit.scale_free; });
-      if (!fits.fits.empty()) out->next = std::move(fits);
+      out->next = std::move(fits);
       break;
     }
     if (!out || fits.misfit < out->chosen.misfit) out = FoundNoise{.chosen = std::move(fits)};

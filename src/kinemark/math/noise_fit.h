@@ -32,19 +32,14 @@ struct NoiseFit {
   Eigen::VectorXd parameters;  ///< logarithms and logits, as noise_fit.cc has them
   Eigen::MatrixXd covariance;  ///< of them, by the curvature of the likelihood
   double evidence = 0.0;  ///< logarithm of the likelihood less half the parameters' number times log n (BIC)
-  NoiseKind kind = NoiseKind::white;  ///< that was fitted
-  /// What is correlated was fitted as a power of the frequency, as 1/f noise is; `model` is then the
-  /// correlated and white noise that is nearest to it.
-  bool scale_free = false;
 };
 
 /// Models of the spectrum from one frequency on.
 struct NoiseFits {
   double lowest = 0.0;          ///< that frequency, cycles per sample
-  double rate_hz = 0.0;         ///< samples per second
   double misfit = 0.0;          ///< deviance over what is expected of the right model
   double largest_misfit = 0.0;  ///< that the right model has, but for few
-  std::vector<NoiseFit> fits;   ///< the most probable first; those without a corner, a doubt, at the end
+  std::vector<NoiseFit> fits;   ///< the most probable first
 };
 
 /// What was found. Where a model is right from a frequency on, what the next higher one says belongs to the
@@ -64,10 +59,7 @@ struct FoundNoise {
 /// seven frequencies from 2 to 18 Hz from which one of them is right, and weigh them by BIC. Each has a tail
 /// of the movement, a power steeper than f^-5 or an exponential, which goes through the filter as the noise
 /// does; white and correlated noise are tried without one, too. A filter is a claim: it must be 12 nats
-/// better than any other model and its floor must be as low as rounding. Correlated noise is also tried as a
-/// power of the frequency (1/f noise, exponents from 0.3 to 2.2): it has no corner, so that there is more of
-/// it below than the autoregressive one says. Which of the two it is, BIC weighs; where it cannot tell, both
-/// are drawn.
+/// better than any other model and its floor must be as low as rounding.
 ///
 /// @return nothing where the spectrum is empty. Cost: some 40 fits of 50 microseconds for each frequency.
 [[nodiscard]] std::optional<FoundNoise> find_noise(const NoiseSpectrum& spectrum, double rate_hz,
@@ -75,8 +67,7 @@ struct FoundNoise {
 
 /// Noise as it may be: models by their evidence, parameters by the curvature of the likelihood with 1.3 times
 /// its deviations, four of ten from the next higher frequency. The first of each is at its most probable
-/// values. Where a power of the frequency ends is drawn as well, from 0.05 Hz to the lowest frequency that
-/// was fitted.
+/// values.
 [[nodiscard]] std::vector<NoiseModel> draw_noise(const FoundNoise& found, const NoiseSearch& search,
                                                  std::int64_t count, std::uint64_t seed,
                                                  std::uint64_t stream);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -202,50 +201,6 @@ TEST(DrawNoise, SpreadsAsFarAsTheRecordingLeavesOpen) {
   const double slow = spread(movement(500, 4) + noise(500, 1e-3, 0.99, 4));
   EXPECT_LT(white, 2.0);
   EXPECT_GT(slow, 4.0);
-}
-
-// Noise with the spectrum 1/f, by the filter (1 - z)^(-1/2).
-SeriesMatrix pink_noise(std::int64_t n, double sd, std::uint64_t seed) {
-  Random random(seed, 3);
-  const std::int64_t before = 4 * n;
-  SeriesMatrix fresh(before + n, 3), out = SeriesMatrix::Zero(n, 3);
-  for (auto& value : fresh.reshaped()) value = sd * random.gaussian();
-  double weight = 1.0;
-  for (std::int64_t k = 0; k < before; ++k) {
-    out += weight * fresh.middleRows(before - k, n);
-    weight *= (static_cast<double>(k) + 0.5) / static_cast<double>(k + 1);
-  }
-  return out;
-}
-
-// Power at 0.4 Hz that is drawn: 10, 90 and 98 %.
-std::array<double, 3> drawn_slow(const SeriesMatrix& x) {
-  std::vector<double> slow;
-  for (const auto& draw : draw_noise(found_in(x), {}, 99, 1, 2)) slow.push_back(draw.power(0.004));
-  std::ranges::sort(slow);
-  return {slow[9], slow[89], slow[97]};
-}
-
-TEST(DrawNoise, HoldsTheSlowPartOfNoiseWithoutACorner) {
-  int held = 0, open = 0;
-  const double truth = 1e-6 / (kWholeTurn * 0.004);  // of 1 / |1 - z|
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto [low, high, most] = drawn_slow(movement(500, seed) + pink_noise(500, 1e-3, seed));
-    held += low <= truth && truth <= most;
-    open += high > 5.0 * low;
-  }
-  EXPECT_GE(held, 14);
-  EXPECT_GE(open, 17);
-}
-
-TEST(DrawNoise, NoiseWhoseCornerIsSeenHasNoMoreBelowIt) {
-  int open = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto [low, high, most] = drawn_slow(movement(500, seed) + noise(500, 1e-3, 0.5, seed));
-    open += high > 5.0 * low;
-    EXPECT_LT(most, 40.0 * low) << seed;
-  }
-  EXPECT_LE(open, 2);
 }
 
 TEST(DrawNoise, IsTheSameForASeedAndAnotherForAnother) {

@@ -311,7 +311,6 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
     }
   };
   const bool extremes = refits.any_extreme();
-  if (extremes) refits.box = smallest_box_axes(pilot_part.x, principal_axes(pilot_part.x));
   const PathMatrix recorded = less_.middleRows(stretch.first, stretch.count);
   std::vector<PathMatrix> copies;  // the noise of a batch, and of the one before where it is alone
   const auto thin = [&](const RefitBatch& batch) {

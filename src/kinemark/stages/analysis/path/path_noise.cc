@@ -23,7 +23,7 @@ constexpr std::int64_t kBeside = 2;     // samples of a spike, judged once more 
 constexpr std::int64_t kWithin = 6;     // samples of one that is judged, where its neighbours must be
 constexpr double kOtherSide = 0.25;  // of an outlier's residual, that its neighbours have on the other side
 constexpr double kSlowLow_hz = 0.2, kSlowHigh_hz = 2.0;
-constexpr double kSlowUnknown = 5.0;    // 90 % over 10 % of the power
+constexpr double kSlowUnknown = 2.5;    // 90 % over 10 % of the power
 constexpr double kDisagrees = 1.3;      // stated over found, or the other way round
 constexpr double kRoundingHigh = 1.25;  // of the deviation of rounding
 

@@ -48,7 +48,7 @@ struct PathNoise {
   double above_hz = kNaN;     ///< frequency from which the model describes the samples; NaN: none
   std::int64_t outliers = 0;  ///< samples left out: single frames far from their neighbours
 
-  /// Slow noise that cannot be told from movement: its power is not known within a factor of 5.
+  /// Slow noise that cannot be told from movement: its power is not known within a factor of 2.5.
   [[nodiscard]] bool slow_is_unknown() const;
   /// Low-passed where the movement itself has power, or nobody knows where: what was taken is not in the
   /// data.

@@ -45,7 +45,7 @@ std::vector<double> RefitValues::thinned_values(const PathMatrix& x,
   std::vector<double> out(definitions.size(), 0.0);
   const auto axes = principal_axes(x);
   for (const auto& copy : copies) {
-    const auto extremes = thinned_extremes(x, axes, box, copy);
+    const auto extremes = thinned_extremes(x, axes, copy);
     for (std::size_t i = 0; i < out.size(); ++i)
       if (definitions[i]->thinned != nullptr)
         out[i] += definitions[i]->thinned(extremes) / static_cast<double>(copies.size());

@@ -59,8 +59,6 @@ struct EllipseAxes {
 /// around the path seen along it (exact: one edge of the hull lies on it, Freeman & Shapira 1975) until the
 /// volume no longer falls: a local minimum, never larger than the box along the principal axes.
 [[nodiscard]] Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal);
-/// Directions of its sides, the longest first, as columns.
-[[nodiscard]] Eigen::Matrix3d smallest_box_axes(const PathMatrix& x, const PrincipalAxes& principal);
 
 /// Which samples of a path lie near its hull, for the boxes of paths that lie near it.
 struct OuterSamples {

@@ -296,14 +296,6 @@ PathMatrix outermost(const PathMatrix& points, const PathMatrix& x,
   return out;
 }
 
-struct Box {
-  Eigen::Vector3d sides;
-  Eigen::Matrix3d axes;
-};
-
-Box box_around(const PathMatrix& x, const PrincipalAxes& principal, const OuterSamples& near,
-               const PathMatrix& near_x);
-
 }  // namespace
 
 OuterSamples outer_samples(const PathMatrix& x) {
@@ -334,17 +326,6 @@ Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal
 
 Eigen::Vector3d smallest_box(const PathMatrix& x, const PrincipalAxes& principal, const OuterSamples& near,
                              const PathMatrix& near_x) {
-  return box_around(x, principal, near, near_x).sides;
-}
-
-Eigen::Matrix3d smallest_box_axes(const PathMatrix& x, const PrincipalAxes& principal) {
-  return box_around(x, principal, outer_samples(x), x).axes;
-}
-
-namespace {
-
-Box box_around(const PathMatrix& x, const PrincipalAxes& principal, const OuterSamples& near,
-               const PathMatrix& near_x) {
   Eigen::Matrix3d axes = principal.axes;
   const double margin = kInside * (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   PathMatrix centred = x;
@@ -389,14 +370,8 @@ Box box_around(const PathMatrix& x, const PrincipalAxes& principal, const OuterS
       ++unchanged;
     }
   }
-  std::array<Eigen::Index, 3> order{0, 1, 2};
-  std::ranges::stable_sort(order, std::ranges::greater{}, [&best](Eigen::Index k) { return best[k]; });
-  Box out;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    out.sides[k] = best[order[at(k)]], out.axes.col(k) = axes.col(order[at(k)]);
-  return out;
+  std::ranges::sort(best, std::greater<>{});
+  return best;
 }
-
-}  // namespace
 
 }  // namespace kinemark::analysis

@@ -27,26 +27,19 @@ double thinned_distance(const PathMatrix& x, const PathMatrix& noise) {
   return (x.row(a * step) - noise.row(a * step) - x.row(b * step) + noise.row(b * step)).dot(way);
 }
 
-Eigen::Vector3d thinned_sides(const PathMatrix& place, const PathMatrix& value, const Eigen::Matrix3d& axes) {
-  const PathMatrix where = place * axes, how_much = value * axes;
-  Eigen::Vector3d out;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    Eigen::Index most = 0, least = 0;
-    where.col(k).maxCoeff(&most);
-    where.col(k).minCoeff(&least);
-    out[k] = how_much(most, k) - how_much(least, k);
-  }
-  return out;
-}
-
 }  // namespace
 
-ThinnedExtremes thinned_extremes(const PathMatrix& x, const PrincipalAxes& axes, const Eigen::Matrix3d& box,
-                                 const PathMatrix& noise) {
-  const PathMatrix place = x + noise, value = x - noise;
-  return {.extents = thinned_sides(place, value, axes.axes),
-          .box = thinned_sides(place, value, box),
-          .largest_distance = thinned_distance(x, noise)};
+ThinnedExtremes thinned_extremes(const PathMatrix& x, const PrincipalAxes& axes, const PathMatrix& noise) {
+  ThinnedExtremes out;
+  const PathMatrix place = (x + noise) * axes.axes, value = (x - noise) * axes.axes;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Eigen::Index most = 0, least = 0;
+    place.col(k).maxCoeff(&most);
+    place.col(k).minCoeff(&least);
+    out.extents[k] = value(most, k) - value(least, k);
+  }
+  out.largest_distance = thinned_distance(x, noise);
+  return out;
 }
 
 }  // namespace kinemark::analysis

@@ -17,15 +17,13 @@ namespace kinemark::analysis {
 /// Leiner et al. 2023).
 struct ThinnedExtremes {
   Eigen::Vector3d extents = Eigen::Vector3d::Zero();  ///< along the principal axes, m
-  Eigen::Vector3d box = Eigen::Vector3d::Zero();      ///< along the sides of the smallest box, m
   double largest_distance = 0.0;                      ///< between two samples, m; as of Diameters
 };
 
 /// @param x      n x 3, smoothed, m
 /// @param axes   of x
-/// @param box    columns: directions of a smallest box of a path that x is near to
 /// @param noise  n x 3, another draw of the noise that is left in x, m
 [[nodiscard]] ThinnedExtremes thinned_extremes(const PathMatrix& x, const PrincipalAxes& axes,
-                                               const Eigen::Matrix3d& box, const PathMatrix& noise);
+                                               const PathMatrix& noise);
 
 }  // namespace kinemark::analysis

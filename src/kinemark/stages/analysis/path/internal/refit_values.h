@@ -18,11 +18,10 @@ struct RefitValues {
   std::vector<double> less, least, raw, pilot;
   std::vector<std::vector<double>> by_less, by_least, by_raw;  // deviations of the refits
   std::vector<double> let_through;                             // noise of each refit behind the smoother
-  std::vector<double> thinned;                        // of extremes: of what was recorded, mean over refits
-  std::vector<std::vector<double>> by_thinned;        // of extremes: deviations
-  Eigen::Matrix3d box = Eigen::Matrix3d::Identity();  // sides of the pilot's smallest box
-  std::vector<double> wander;           // of what was recorded (PathDefinition::wander), 0: none
-  std::vector<double> wander_of_noise;  // what the refits' noise adds to the pilot's, mean over them
+  std::vector<double> thinned;                  // of extremes: of what was recorded, mean over refits
+  std::vector<std::vector<double>> by_thinned;  // of extremes: deviations
+  std::vector<double> wander;                   // of what was recorded (PathDefinition::wander), 0: none
+  std::vector<double> wander_of_noise;          // what the refits' noise adds to the pilot's, mean over them
 
   explicit RefitValues(std::vector<const PathDefinition*> asked);
 
