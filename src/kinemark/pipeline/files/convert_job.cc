@@ -42,8 +42,8 @@ Kind kind_of(const std::string& ending) {
   return Kind::markers;
 }
 
-/// What the input is taken for: a table of OpenSim may hold markers and nothing else, and stays a table all the
-/// same where it becomes one.
+/// What the input is taken for: a table of OpenSim may hold markers and nothing else, and stays a table all
+/// the same where it becomes one.
 Kind kind_of_input(const ConvertJob& job) {
   const Kind kind = kind_of(ending_of(job.in));
   const bool may_be_markers = kind == Kind::table && kind_of(ending_of(job.out)) != Kind::table;

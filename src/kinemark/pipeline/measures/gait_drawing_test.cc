@@ -88,7 +88,7 @@ TEST_F(GaitDrawingTest, WritesWhatIsAskedFor) {
     EXPECT_THAT(outcome.written, Contains(scratch_ / name));
     EXPECT_FALSE(text_of(name).empty()) << name;
   }
-  EXPECT_THAT(text_of("gait.html"), HasSubstr("Angles: a test."));
+  EXPECT_THAT(text_of("gait.html"), HasSubstr("\"angles_from\":\"a test\""));
   EXPECT_THAT(text_of("events.csv"), HasSubstr("walk.trc,,,walk,,Left,,Foot Strike"));
 }
 

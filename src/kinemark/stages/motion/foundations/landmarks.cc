@@ -66,7 +66,6 @@ Vector3d posture_of(BodyPart part) {
     case BodyPart::upper_arm:
       return Vector3d::Constant(0.010);
     case BodyPart::forearm:
-      return Vector3d::Constant(0.006);
     case BodyPart::hand:
       return Vector3d::Constant(0.006);
     default:

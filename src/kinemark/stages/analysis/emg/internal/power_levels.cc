@@ -110,7 +110,7 @@ bool is_valley(const std::vector<double>& power, const std::vector<char>& active
 }  // namespace
 
 std::vector<PowerLevel> power_levels(const std::vector<double>& power, double& freedom) {
-  const auto first = likeliest(power, freedom);
+  auto first = likeliest(power, freedom);
   const double within = freedom_within(power, first);
   if (!std::isfinite(within)) return first;
   freedom = within;

@@ -206,7 +206,9 @@ MatrixXd information_of(const Seen& seen, const Layout& layout, const std::vecto
   weighted << seen.by_pose, seen.by_shared.leftCols(layout.sites());
   weighted.array().colwise() /= seen.variance.array().sqrt();
   MatrixXd out = MatrixXd::Zero(P + S, P + S);
-  out.topLeftCorner(dense, dense).selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+  // A frame may show no marker; Eigen divides by the size of what is multiplied.
+  if (weighted.rows() > 0)
+    out.topLeftCorner(dense, dense).selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
   for (Eigen::Index m = 0; m < layout.markers; ++m) {
     const int row = rows[static_cast<std::size_t>(m)];
     if (row < 0) continue;

@@ -201,7 +201,8 @@ double share_seen(const StandingBody& body, const SharedPrior& prior, const Seen
     const Matrix3d weight = W.block<3, 3>(row, row);
     // Faces, edges and corners of a cube; the other side of each is the same.
     for (int k = 14; k < 27; ++k) {
-      const Vector3d shift = shift_m * Vector3d((k % 3) - 1.0, (k / 3 % 3) - 1.0, (k / 9) - 1.0).normalized();
+      const int across = k / 3 % 3, up = k / 9;
+      const Vector3d shift = shift_m * Vector3d(k % 3 - 1.0, across - 1.0, up - 1.0).normalized();
       const double fall = shift.dot(weight * shift);
       ++asked;
       if (fall >= least.fall && fall / misfit - price_of(shift, misfit * weight.inverse()) >= least.score)
