@@ -246,8 +246,6 @@ void append_cell(std::string& out, std::string_view cell, const Dialect& dialect
     const auto begin = out.size();
     out += inside;
     out[begin + inside.find(',')] = '.';
-  } else if (number != Number::none && dialect.quoted_numbers) {
-    out += inside;
   } else if (inside.find(separator) != std::string_view::npos) {
     out += '"';
     out += inside;

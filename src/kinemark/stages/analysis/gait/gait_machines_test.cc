@@ -19,7 +19,6 @@
 namespace kinemark::analysis {
 namespace {
 
-using data::Side;
 using ::testing::HasSubstr;
 using testing::KnownWalk;
 using ::testing::Not;
