@@ -86,7 +86,7 @@ int run_command(const CommonOptions& common, CleanArguments& arguments) {
     pipeline::CleanJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.input = input;
-    settle_rate(one, input);
+    drop_what_it_states(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_clean(one);

@@ -55,7 +55,7 @@ int run_command(const CommonOptions& common, ConvertArguments& arguments) {
     pipeline::ConvertJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.in = input;
-    settle_rate(one, input);
+    drop_what_it_states(one, input);
     one.out = output;
     return pipeline::run_convert(one);
   };

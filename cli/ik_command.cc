@@ -71,7 +71,7 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
     pipeline::IkJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.markers = input;
-    settle_rate(one, input);
+    drop_what_it_states(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_ik(one);

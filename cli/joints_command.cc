@@ -47,7 +47,7 @@ int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
     pipeline::JointsJob one = arguments.job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.input = input;
-    settle_rate(one, input);
+    drop_what_it_states(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_joints(one);

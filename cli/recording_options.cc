@@ -58,7 +58,7 @@ std::string finite_time(const std::string& text) {
              : std::string();
 }
 
-void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input) {
+void drop_what_it_states(pipeline::RecordingOptions& recording, const std::filesystem::path& input) {
   if (!io::needs_rate(input)) recording.rate_hz = 0.0;
   if (!recording.unit.empty() && !io::may_lack_unit(input)) recording.unit.clear();
 }

@@ -19,7 +19,7 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
 /// A check of options that take a time: empty, or what is wrong with the text.
 [[nodiscard]] std::string finite_time(const std::string& text);
 
-/// Of several recordings, those that store a rate have no use for the one that is given.
-void settle_rate(pipeline::RecordingOptions& recording, const std::filesystem::path& input);
+/// Of several recordings, those that state a rate or a unit have no use for the one that is given.
+void drop_what_it_states(pipeline::RecordingOptions& recording, const std::filesystem::path& input);
 
 }  // namespace kinemark::cli

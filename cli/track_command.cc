@@ -106,7 +106,7 @@ int run_command(const CommonOptions& common, const TrackArguments& arguments) {
     pipeline::TrackJob one = job;
     static_cast<pipeline::JobSettings&>(one) = settings;
     one.markers = input;
-    settle_rate(one, input);
+    drop_what_it_states(one, input);
     one.output = output;
     one.report = page;
     return pipeline::run_track(one);

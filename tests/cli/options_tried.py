@@ -62,7 +62,7 @@ TRIED = {
     "report": (["legs.trc", "--output", "o.html"],
                {**RECORDING, "--output": "other.html", "--skeleton": "absent.asf", "--geometry": "absent"}),
     "edit": (["legs.trc", "--cut", "LKNE"],
-             {"--edits": "other.jsonl", "--rate": 50, "--relabel": ["LKNE", "LEFT"], "--swap": ["LKNE", "RKNE"], "--cut": "RKNE",
+             {"--edits": "other.jsonl", "--rate": 50, "--unit": "mm", "--relabel": ["LKNE", "LEFT"], "--swap": ["LKNE", "RKNE"], "--cut": "RKNE",
               "--fill": "LKNE", "--unfill": "LKNE", "--crop": None, "--mark": "step", "--move": "step", "--delete": "step",
               "--region": "turn", "--exchanges": None, "--undo": 1, "--redo": 1, "--list": None, "--from": 10, "--to": 20,
               "--frames": "10-20", "--at": "0.2s", "--context": "Left", "--method": "linear", "--author": "me"}),

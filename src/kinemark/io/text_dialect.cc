@@ -246,7 +246,7 @@ void append_cell(std::string& out, std::string_view cell, const Dialect& dialect
     const auto begin = out.size();
     out += inside;
     out[begin + inside.find(',')] = '.';
-  } else if (inside.find(separator) != std::string_view::npos) {
+  } else if (inside.find(separator) != std::string_view::npos || inside.find('"') != std::string_view::npos) {
     out += '"';
     out += inside;
     out += '"';

@@ -43,6 +43,7 @@ TEST(TextDialect, SemicolonsBecomeCommasOrTabs) {
 
 TEST(TextDialect, TextWithACommaIsQuotedWhereCommasSeparate) {
   EXPECT_EQ(in_plain_dialect("t;name;x\n0;knee, left;1\n"), "t,name,x\n0,\"knee, left\",1\n");
+  EXPECT_EQ(in_plain_dialect("t;name;x\n0;\"so \"\"big\"\"\";1\n"), "t,name,x\n0,\"so \"\"big\"\"\",1\n");
   EXPECT_EQ(in_plain_dialect("t;name;x\n0;\"knee; left\";1\n"), "t,name,x\n0,knee; left,1\n");
 }
 

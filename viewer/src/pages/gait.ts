@@ -97,7 +97,7 @@ export function gaitPage({ summary, result }: GaitPage): Content {
   ].filter((s) => s !== null);
   const links = [["figures", "Figures"], ["measures", "Measures"], ["deviation", "Deviation"], ["events", "Events"], ["remarks", "Remarks"], ["reading", "How to read it"]] as const;
   return {
-    skip: ["measures", "Skip to the measures"],
+    skip: measures.length === 0 ? ["settings", "Skip to how it was made"] : ["measures", "Skip to the measures"],
     header: resultHeader("gait", `${feet.map((f) => f.in_words).join("; ")}. Angles: ${result.angles_from ?? "none"}.`, summary, [
       [number(feet[0].cycles), feet[0].cycles === 1 ? "left cycle" : "left cycles", "from strike to strike"],
       [number(feet[1].cycles), feet[1].cycles === 1 ? "right cycle" : "right cycles", "from strike to strike"],

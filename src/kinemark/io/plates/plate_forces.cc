@@ -73,8 +73,9 @@ std::vector<Plate> usable_plates(const data::Trial& trial, std::vector<std::stri
           found.number));
     if (const auto& unknown = wrench->unknown_units(); !unknown.empty())
       warnings.push_back(
-          fmt::format("force plate {} has {}, which is no unit of force or moment; taken as N and N x {}",
-                      found.number, join_some(unknown, 3), found.metres_per_unit == 1.0 ? "m" : "mm"));
+          fmt::format("force plate {} has {}, which is no unit of what these measure; forces are taken as N, "
+                      "moments as N times the file's unit of length",
+                      found.number, join_some(unknown, 3)));
     Plate plate{.name = fmt::format("plate {}", found.number),
                 .channel_idx = found.channel_idx,
                 .wrench = std::move(*wrench),

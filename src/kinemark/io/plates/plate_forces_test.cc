@@ -236,12 +236,12 @@ TEST(PlateForces, UnitsOfOtherLanguagesAndScalesAreOnes) {
         {"dN", 0.1, "N.cm", 1e-2}}) {
     const auto forces = forces_of_units(force, force_scale, moment, moment_scale);
     expect_truth(Setting{}, forces.wrenches.items.at(0), 1);
-    EXPECT_THAT(forces.warnings, Not(Contains(HasSubstr("no unit of force")))) << moment;
+    EXPECT_THAT(forces.warnings, Not(Contains(HasSubstr("no unit of what")))) << moment;
   }
   EXPECT_THAT(forces_of_units("furlong", 1.0, "Nmm", 1e-3).warnings,
               Contains(HasSubstr(
                   "force plate 1 has channel 1 in 'furlong', channel 2 in 'furlong', channel 3 in 'furlong', "
-                  "which is no unit of force or moment; taken as N and N x mm")));
+                  "which is no unit of what these measure; forces are taken as N, moments as N times")));
 }
 
 TEST(PlateForces, FramesAreNeitherEarlyNorLate) {

@@ -217,14 +217,7 @@ Status settle_time(const TrcHeader& header, const Tally& tally, std::int64_t fir
 /// Of the units that an unknown word may mean, the one that makes the recording as large as a body.
 Status settle_unit(const internal::TrcHeader& header, data::Trial& trial) {
   if (header.units_like.empty()) return {};
-  auto& x = trial.markers.x_in_world;
-  double extent = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t i = axis; i < x.size(); i += 3)
-      if (std::isfinite(x[i])) least = std::min(least, x[i]), most = std::max(most, x[i]);
-    extent = std::max(extent, most - least);
-  }
+  const double extent = internal::largest_extent(trial.markers);
   const auto unit = unit_of_body_size(header.units_like, extent);
   if (!unit)
     return fail(
@@ -233,7 +226,7 @@ Status settle_unit(const internal::TrcHeader& header, data::Trial& trial) {
             "line {}: unit '{}' is unknown, and the markers, which reach over {:.4g} of it, do not tell "
             "which is meant; expected mm, cm or m",
             header.units_line, internal::excerpt(header.units), extent));
-  for (double& coordinate : x) coordinate /= 1.0 / unit->metres;
+  for (double& coordinate : trial.markers.x_in_world) coordinate /= 1.0 / unit->metres;
   trial.warnings.push_back(
       fmt::format("line {}: unit '{}' is unknown; taken for {}, as the markers reach over {:.3g} m then",
                   header.units_line, internal::excerpt(header.units), unit->name, extent * unit->metres));

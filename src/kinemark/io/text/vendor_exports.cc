@@ -10,7 +10,6 @@
 #include <string>
 
 #include "kinemark/core/length_unit.h"
-#include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
@@ -65,15 +64,7 @@ void note_rest(Lines& lines, VendorExport which, data::Trial& trial) {
 
 /// Coordinates are as the file has them: of m, cm and mm the one that makes the recording as large as a body.
 Status settle_unit_by_size(data::Trial& trial) {
-  double extent = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = kNaN, most = kNaN;
-    for (std::size_t i = axis; i < trial.markers.x_in_world.size(); i += 3) {
-      least = std::fmin(least, trial.markers.x_in_world[i]);
-      most = std::fmax(most, trial.markers.x_in_world[i]);
-    }
-    extent = std::fmax(extent, most - least);
-  }
+  const double extent = internal::largest_extent(trial.markers);
   static const std::array<LengthUnitName, 3> kUnits{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}}};
   const auto unit = unit_of_body_size(kUnits, extent);
   if (!unit)
@@ -81,7 +72,7 @@ Status settle_unit_by_size(data::Trial& trial) {
         Code::bad_input,
         fmt::format(
             "states no unit of length, and its coordinates, which reach over {:.4g}, may be of several; give "
-            "it with --unit mm, cm or m",
+            "it with --unit mm, cm or m, or in the labels: 'A_X (mm)'",
             extent));
   for (double& coordinate : trial.markers.x_in_world) coordinate /= 1.0 / unit->metres;
   trial.units_in_file = unit->name;

@@ -310,8 +310,13 @@ TEST(CoordinateTables, TheUnitIsTheLabelsTheLinesTheUsersOrTheBodys) {
   EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\n[s],[mm],[mm],[mm]\n" + rows), 0.25);
   EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\n" + rows, "m"), 250.0);
   EXPECT_DOUBLE_EQ(x_of("time,A_X (mm),A_Y,A_Z\n" + rows, "m"), 0.25) << "what the file states wins";
+  EXPECT_THAT(bad_export("time,A_X (mm),A_Y (mm),A_Z (mm),B_X (cm),B_Y (cm),B_Z (cm)\n0,1,2,3,4,5,6\n",
+                         VendorExport::coordinates),
+              HasSubstr("some coordinates are in 'mm', others in 'cm'"));
+  EXPECT_DOUBLE_EQ(x_of("time,A_X,A_Y,A_Z\ns,mm,mm,mm\n" + rows), 0.25);
   const auto open = bad_export("time,A_X,A_Y,A_Z\n0,0,1,2\n0.01,700,1,2\n", VendorExport::coordinates);
-  EXPECT_THAT(open, HasSubstr("reach over 700, may be of several; give it with --unit mm, cm or m"));
+  EXPECT_THAT(open, HasSubstr("reach over 700, may be of several; give it with --unit mm, cm or m, or in the "
+                              "labels: 'A_X (mm)'"));
 }
 
 TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
@@ -327,8 +332,11 @@ TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
               HasSubstr("times are in milliseconds"));
   EXPECT_THAT(bad_export("time,A_x (furlong),A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
               HasSubstr("'furlong' is unknown"));
-  for (const char* other : {"frame,time_s,marker,x_m,y_m,z_m\n", "measure,subject,value\n",
-                            "time,A_x,B_y,A_z\n0,1,2,3\n", "time,angle\n0,1\n", "", "x,y,z\n1,2,3\n"})
+  for (const char* other :
+       {"frame,time_s,marker,x_m,y_m,z_m\n", "measure,subject,value\n", "time,A_x,B_y,A_z\n0,1,2,3\n",
+        "time,acc_x,acc_y,acc_z\n0,1,2,9.8\n", "t,wrist force X,wrist force Y,wrist force Z\n",
+        "t,Angular velocity_x,Angular velocity_y,Angular velocity_z\n", "time,angle\n0,1\n", "",
+        "x,y,z\n1,2,3\n"})
     EXPECT_NE(vendor_export_of(other), VendorExport::coordinates) << other;
 }
 

@@ -115,7 +115,7 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   if (!recording) return std::unexpected(recording.error());
   auto read = read_edits_of(outcome.journal, *recording, job.force);
   if (!read) return std::unexpected(read.error());
-  auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz});
+  auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .unit = job.unit});
   if (!input) return std::unexpected(input.error());
   outcome.list = std::move(read->list);
   outcome.warnings = std::move(read->notes);

@@ -20,6 +20,7 @@ struct EditJob : JobSettings {
   std::filesystem::path input;     ///< recording, which is only read
   std::filesystem::path edits;     ///< its journal; empty: edits_of(input)
   double rate_hz = 0.0;            ///< of a recording that tells none; 0: not given
+  std::string unit;                ///< of coordinates, of a table that states none; empty: not given
   std::optional<data::Edit> edit;  ///< to append; none: only look
   /// To append: an exchange back of each two markers that surely carry each other's label, with the author
   /// and the time of `edit`, whose kind does not matter then.

@@ -81,8 +81,29 @@ int axis_alone(std::string_view cell) {
   return axis == std::string_view::npos || !numbered ? -1 : static_cast<int>(axis);
 }
 
+/// Whether a name says that its x, y and z are no position: "acc", "wrist_force", "Angular velocity".
+bool is_no_position(std::string_view name) {
+  constexpr std::array<std::string_view, 14> kOthers{"acc",   "accel",  "gyr",    "gyro",  "mag",
+                                                     "vel",   "speed",  "angle",  "euler", "quat",
+                                                     "force", "moment", "torque", "grf"};
+  constexpr std::array<std::string_view, 6> kBegun{"accelerat", "gyroscop", "magnet",
+                                                   "velocit",   "angular",  "rotat"};
+  std::string word;
+  for (std::size_t i = 0; i <= name.size(); ++i) {
+    if (const char c = i < name.size() ? static_cast<char>(name[i] | 0x20) : ' '; c >= 'a' && c <= 'z') {
+      word += c;
+      continue;
+    }
+    if (std::ranges::find(kOthers, word) != kOthers.end() ||
+        std::ranges::any_of(kBegun, [&](std::string_view begun) { return word.starts_with(begun); }))
+      return true;
+    word.clear();
+  }
+  return false;
+}
+
 bool is_triple(const std::vector<Label>& labels, std::size_t c) {
-  if (c + 2 >= labels.size() || labels[c].name.empty()) return false;
+  if (c + 2 >= labels.size() || labels[c].name.empty() || is_no_position(labels[c].name)) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (labels[c + k].axis != static_cast<int>(k) || labels[c + k].name != labels[c].name) return false;
   return true;
@@ -136,22 +157,22 @@ std::vector<Label> read_labels(Lines& lines) {
   return labels;
 }
 
-/// A line of units below the labels: no cell of it is a number, one at least is a unit of length.
-std::string unit_of_line(Lines& lines) {
+/// Where a line of units stands below the labels, whose cells above coordinates all are units of length: its
+/// cells.
+std::vector<std::string> units_below(Lines& lines, const std::vector<MarkerColumns::Column>& columns) {
   Lines ahead = lines;
   std::string_view line;
   std::vector<std::string> cells;
   if (!ahead.next(line) || !check_header_line(line, ahead.number()) || !split(line, cells)) return {};
-  std::string unit;
-  for (const auto& cell : cells) {
-    if (parse_number(cell)) return {};
-    const auto word = cell.size() > 2 && (cell.front() == '(' || cell.front() == '[')
-                          ? cell.substr(1, cell.size() - 2)
-                          : cell;
-    if (unit.empty() && metres_per_unit(word)) unit = word;
+  cells.resize(columns.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    std::string& cell = cells[c];
+    if (cell.size() > 2 && (cell.front() == '(' || cell.front() == '['))
+      cell = cell.substr(1, cell.size() - 2);
+    if (columns[c].kind == Kind::coordinate && !metres_per_unit(cell)) return {};
   }
-  if (!unit.empty()) lines = ahead;
-  return unit;
+  lines = ahead;
+  return cells;
 }
 
 }  // namespace
@@ -166,7 +187,7 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
   if (labels.empty()) return fail(Code::bad_input, "line 1: labels no columns of x, y and z of a marker");
   const auto line = lines.number();
   VendorHeader out;
-  std::string stated;
+  std::vector<std::string> stated;  // of coordinates, where a label has one
   std::vector<std::string> unread;
   auto& columns = out.columns.columns;
   bool has_time = false;
@@ -177,7 +198,8 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
                            .marker = static_cast<std::int32_t>(out.columns.names.size()),
                            .axis = static_cast<std::int8_t>(k)});
       out.columns.names.push_back(name_of_bytes(labels[c].name));
-      if (stated.empty()) stated = labels[c].unit;
+      for (const std::size_t k : {c, c + 1, c + 2})
+        if (!labels[k].unit.empty()) stated.push_back(labels[k].unit);
       c += 2;
       continue;
     }
@@ -201,18 +223,22 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
         fmt::format("{} of {} columns are no coordinates of markers and are not read: {}", unread.size(),
                     labels.size(), join_some(unread, kNamed)));
   settle_marker_names(out.columns.names, line, trial);
-  const auto of_line = unit_of_line(lines);
-  if (stated.empty()) stated = of_line;
-  if (stated.empty()) stated = unit;
-  trial.units_in_file = stated;
-  if (stated.empty()) {
-    out.is_unit_open = true;
-    out.columns.units_per_metre = 1.0;
-  } else if (const auto per_metre = units_per_metre(stated, line)) {
+  const auto below = units_below(lines, columns);
+  for (std::size_t c = 0; c < below.size(); ++c)
+    if (columns[c].kind == Kind::coordinate) stated.push_back(below[c]);
+  if (stated.empty() && !unit.empty()) stated.emplace_back(unit);
+  out.is_unit_open = stated.empty();
+  out.columns.units_per_metre = 1.0;
+  for (const auto& word : stated) {
+    const auto per_metre = units_per_metre(word, line);
+    if (!per_metre) return std::unexpected(per_metre.error());
+    if (&word != stated.data() && *per_metre != out.columns.units_per_metre)
+      return fail(Code::bad_input,
+                  fmt::format("line {}: some coordinates are in '{}', others in '{}'; expected one unit",
+                              line, excerpt(stated.front()), excerpt(word)));
     out.columns.units_per_metre = *per_metre;
-  } else {
-    return std::unexpected(per_metre.error());
   }
+  if (!stated.empty()) trial.units_in_file = stated.front();
   // Separators are commas or tabs by now (text_dialect.h).
   Lines ahead = lines;
   std::string_view row;

@@ -203,6 +203,18 @@ Status bad_cell(std::int64_t line, std::int64_t column, std::string_view what, s
                                            what, cell.empty() ? "blank" : "'" + excerpt(cell) + "'"));
 }
 
+double largest_extent(const data::Trajectories& markers) {
+  double extent = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = kNaN, most = kNaN;
+    for (std::size_t i = axis; i < markers.x_in_world.size(); i += 3)
+      if (const double x = markers.x_in_world[i]; std::isfinite(x))
+        least = std::fmin(least, x), most = std::fmax(most, x);
+    extent = std::fmax(extent, most - least);
+  }
+  return extent;
+}
+
 void spread_rows(data::Trajectories& markers, const EvenClock& clock) {
   markers.time = clock.time;
   if (clock.frame.empty()) return;

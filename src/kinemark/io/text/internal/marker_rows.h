@@ -52,6 +52,9 @@ struct MarkerColumns {
 /// before and after the zeros lie within 5 mm of it. How many of marker `m` were turned.
 std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m);
 
+/// The largest of the three extents of all samples, in the unit that they are in; 0 without any.
+[[nodiscard]] double largest_extent(const data::Trajectories& markers);
+
 /// Rows that were read one after another, as the frames that they are by the clock; frames without a row are
 /// missing. Where rows and frames are the same nothing changes but the time base.
 void spread_rows(data::Trajectories& markers, const EvenClock& clock);

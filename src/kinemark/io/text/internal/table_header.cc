@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
@@ -150,15 +151,18 @@ std::string_view coordinate_in_path(std::string_view label) {
 void name_coordinates(std::vector<std::string>& labels, TableHeader& header) {
   std::size_t named = 0;
   std::string example;
+  std::unordered_set<std::string> taken(labels.begin(), labels.end());
   for (auto& label : labels) {
     const std::string name(coordinate_in_path(label));
-    if (name.empty() || std::ranges::find(labels, name) != labels.end()) continue;
+    if (name.empty() || !taken.insert(name).second) continue;
     if (named++ == 0) example = fmt::format("'{}' as '{}'", excerpt(label), excerpt(name));
     label = name;
   }
   if (named > 0)
-    header.warnings.push_back(fmt::format("{} labels are paths of an OpenSim state file; read is {}{}", named,
-                                          example, named > 1 ? ", the others likewise" : ""));
+    header.warnings.push_back(
+        fmt::format("{} of an OpenSim state file; read is {}{}",
+                    named == 1 ? "1 label is a path" : fmt::format("{} labels are paths", named), example,
+                    named > 1 ? ", the others likewise" : ""));
 }
 
 Status read_labels(std::string_view line, std::int64_t number, TableHeader& header) {

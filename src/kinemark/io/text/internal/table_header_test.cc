@@ -52,7 +52,7 @@ TEST(TableHeader, PathsOfStatesGetTheNamesOfTheirCoordinates) {
       "soleus\n");
   EXPECT_THAT(h.columns_named,
               ElementsAre("hip_flexion", "/jointset/hip/hip_flexion/speed", "/forceset/soleus"));
-  EXPECT_THAT(h.warnings, ElementsAre("1 labels are paths of an OpenSim state file; read is "
+  EXPECT_THAT(h.warnings, ElementsAre("1 label is a path of an OpenSim state file; read is "
                                       "'/jointset/hip/hip_flexion/value' as 'hip_flexion'"));
   const auto both =
       header_of("endheader\ntime\tknee\t/jointset/k/knee/value\t/jointset/value\t/jointset/a/b/c/value\n");
