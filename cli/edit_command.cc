@@ -226,7 +226,8 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
       ->type_name("NAME")
       ->group("Where and how");
   command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
-  command->add_option("--unit", job.unit, "Unit of a table of coordinates that states none: mm, cm or m");
+  command->add_option("--unit", job.unit, "Unit of a table of coordinates that states none: mm, cm or m")
+      ->type_name("UNIT");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_command(common, *arguments); }; });
 }

@@ -104,10 +104,9 @@ class Parser {
       return fail(
           Code::bad_input,
           fmt::format(
-              "line 1: no column is a position of a marker: '{}' is the first of {}. Need a time and columns "
-              "such as LASI_X, LASI_Y, LASI_Z, or a line a sample with frame, time_s, marker, x_m, y_m and "
-              "z_m",
-              excerpt(cells_.front()), columns_));
+              "line 1: none of its {} columns is a position of a marker. Need a time and columns such as "
+              "LASI_X, LASI_Y, LASI_Z, or a line a sample with frame, time_s, marker, x_m, y_m and z_m",
+              columns_));
     for (const Kind kind : {frame, time_s, marker, x, y, z})
       if (!column_[kind])
         return fail(Code::bad_input,
