@@ -42,7 +42,10 @@ struct ForcePlate {
   std::vector<int> channel_idx;                               ///< zero-based
   std::vector<double> calibration;  ///< CAL_MATRIX as the file gives it, column by column; may be empty
   int calibration_rows = 0;         ///< of `calibration`, 0 without
-  double metres_per_unit = 1e-3;    ///< of the lengths in channels, and moments, that state no unit
+  /// FPCOPPOLY, 2 x 6, column by column: how the centre of pressure of a Kistler plate is off, mm; may be
+  /// empty.
+  std::vector<double> pressure_correction;
+  double metres_per_unit = 1e-3;  ///< of the lengths in channels, and moments, that state no unit
 };
 
 /// What one marker file holds, in SI units.

@@ -90,14 +90,12 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
       plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
     plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
     read_calibration(calibrations, i, plate);
-    if (polynomials.size() >= 12 * (i + 1) &&
-        std::any_of(polynomials.begin() + static_cast<std::ptrdiff_t>(12 * i),
-                    polynomials.begin() + static_cast<std::ptrdiff_t>(12 * (i + 1)),
-                    [](double v) { return v != 0.0; }))
-      warnings.push_back(
-          fmt::format("force plate {} has a polynomial that corrects its centre of pressure (FPCOPPOLY); it "
-                      "is not applied",
-                      i + 1));
+    if (polynomials.size() >= 12 * (i + 1)) {
+      const auto begin = polynomials.begin() + static_cast<std::ptrdiff_t>(12 * i);
+      if (std::any_of(begin, begin + 12, [](double v) { return v != 0.0; }) &&
+          std::all_of(begin, begin + 12, [](double v) { return std::isfinite(v); }))
+        plate.pressure_correction.assign(begin, begin + 12);
+    }
     if (!std::ranges::all_of(plate.corners_in_world, near) || !near(plate.origin_in_plate))
       warnings.push_back(
           fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));

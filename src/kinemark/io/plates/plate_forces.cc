@@ -31,6 +31,7 @@ struct Plate {
   PlateWrench wrench;
   PlatePose pose;
   std::vector<Vector3d> corners_in_world;
+  std::vector<double> pressure_correction;  ///< as of data::ForcePlate
   PlateChannels baseline;
   std::vector<Vector6> measured;  ///< F; force and moment about the centre, plate axes
 };
@@ -76,11 +77,16 @@ std::vector<Plate> usable_plates(const data::Trial& trial, std::vector<std::stri
           fmt::format("force plate {} has {}, which is no unit of what these measure; forces are taken as N, "
                       "moments as N times the file's unit of length",
                       found.number, join_some(unknown, 3)));
+    if (!found.pressure_correction.empty())
+      warnings.push_back(fmt::format(
+          "force plate {}: its centre of pressure is corrected by the file's polynomial (FPCOPPOLY)",
+          found.number));
     Plate plate{.name = fmt::format("plate {}", found.number),
                 .channel_idx = found.channel_idx,
                 .wrench = std::move(*wrench),
                 .pose = *pose,
                 .corners_in_world = {found.corners_in_world.begin(), found.corners_in_world.end()},
+                .pressure_correction = found.pressure_correction,
                 .baseline = {},
                 .measured = {}};
     plate.baseline.setZero(static_cast<Eigen::Index>(std::min<std::size_t>(8, plate.channel_idx.size())));
@@ -179,6 +185,20 @@ void settle_sign(Plate& plate, double side, std::vector<std::string>& warnings) 
       fmt::format("{} stores the force of the body on the plate; its sign was reversed", plate.name));
 }
 
+/// Kistler's correction of the centre of pressure, in the plate's axes: less what a polynomial with six
+/// numbers an axis says of the bending of the top (as ezc3d 1.7 applies it; numbers are of millimetres).
+Vector3d corrected(const Vector3d& point, const std::vector<double>& numbers) {
+  if (numbers.size() != 12) return point;
+  const auto error_mm = [&](std::size_t axis, double along, double across) {
+    const double square = across * across, fourth = square * square;
+    const auto p = [&](std::size_t k) { return numbers[axis + 2 * k]; };
+    return (p(0) * fourth + p(1) * square + p(2)) * along * along * along +
+           (p(3) * fourth + p(4) * square + p(5)) * along;
+  };
+  const double x = 1e3 * point.x(), y = 1e3 * point.y();
+  return {1e-3 * (x - error_mm(0, x, y)), 1e-3 * (y - error_mm(1, y, x)), point.z()};
+}
+
 data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,
                      std::vector<std::string>& warnings) {
   data::Wrench wrench{.name = plate.name,
@@ -200,7 +220,7 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
       // A force that is not directed into the plate has no centre of pressure; the centre of the plate is
       // used.
       if (along >= 1.0) {
-        point = {-moment.y() / force.z(), moment.x() / force.z(), 0.0};
+        point = corrected({-moment.y() / force.z(), moment.x() / force.z(), 0.0}, plate.pressure_correction);
         moment = {0.0, 0.0, moment.z() - point.x() * force.y() + point.y() * force.x()};
         const bool inside = (point.head<2>().array().abs() < 1.2 * plate.pose.half_size.array() + 0.02).all();
         loaded += along >= kSurelyLoaded;

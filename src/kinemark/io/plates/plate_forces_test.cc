@@ -244,6 +244,27 @@ TEST(PlateForces, UnitsOfOtherLanguagesAndScalesAreOnes) {
                   "which is no unit of what these measure; forces are taken as N, moments as N times")));
 }
 
+TEST(PlateForces, ThePolynomialOfAKistlerPlateMovesItsCentreOfPressure) {
+  Setting setting;
+  setting.force = {0.0, 0.0, -700.0};
+  setting.position = {0.06, -0.05, 0.0};
+  auto trial = setting.trial(3, [](double) { return 1.0; });
+  const auto local = [&](const data::Trial& of) {
+    const auto forces = plate_forces(of).value();
+    return std::pair{Vector3d(setting.world_from_plate.transpose() *
+                              (of_frame(forces.wrenches.items.at(0).point, 1) - setting.centre)),
+                     forces.warnings};
+  };
+  EXPECT_LT((local(trial).first - setting.position).norm(), 1e-6);
+  EXPECT_THAT(local(trial).second, Not(Contains(HasSubstr("FPCOPPOLY"))));
+  // Of a real plate; ezc3d 1.7.2 finds (61.5, -45.8) mm.
+  trial.force_plates[0].pressure_correction = {
+      7.92062965e-15,  8.82868963e-15,  -5.82099979e-10, -2.48554011e-10, -2.77102004e-6, -1.76282003e-6,
+      -1.76082995e-10, -4.22186008e-10, 1.29694999e-5,   1.20909999e-5,   -4.13978994e-2, 5.16279005e-2};
+  EXPECT_LT((local(trial).first - Vector3d(0.0615, -0.0458, 0.0)).norm(), 1e-4);
+  EXPECT_THAT(local(trial).second, Contains(HasSubstr("corrected by the file's polynomial")));
+}
+
 TEST(PlateForces, FramesAreNeitherEarlyNorLate) {
   // A force that grows evenly must be found, in every frame but none at the rim, at the frame's own time.
   for (const std::int64_t S : {1, 2, 5, 8}) {
