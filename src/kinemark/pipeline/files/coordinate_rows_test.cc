@@ -95,7 +95,7 @@ TEST(CoordinateRows, APrescribedCoordinateNeedsNoColumn) {
   EXPECT_DOUBLE_EQ(read.q[0][1], 0.5 + 2.0 * 1.0);
   EXPECT_DOUBLE_EQ(read.q[1][1], 0.5 + 2.0 * 1.01);
   EXPECT_THAT(read.is_assumed, ElementsAre(false, false));
-  EXPECT_EQ(coordinate_rows(model, rows({"turn", "slide"}, {1, 0.3})).value().q[0][1], 0.3)
+  EXPECT_EQ(coordinate_rows(model, rows({"turn", "slide"}, {1, 0.3, 2, 0.4})).value().q[0][1], 0.3)
       << "what is written rules";
 }
 
