@@ -119,10 +119,11 @@ Status describe_model(const InfoJob& job, InfoOutcome& out) {
     facts.body_names.push_back(body.name);
   }
   for (const auto& coordinate : model->coordinates) facts.labels.push_back(coordinate.name);
-  out.facts = std::move(facts);
   out.warnings = std::move(model->warnings);
   if (const auto compiled = model::Model::compile(std::move(*model)))
-    for (const auto& fault : motion::find_mass_faults(*compiled)) out.warnings.push_back(fault.sentence());
+    for (const auto& fault : motion::find_mass_faults(*compiled))
+      (fault.matters ? out.warnings : facts.notes).push_back(fault.sentence());
+  out.facts = std::move(facts);
   return {};
 }
 

@@ -65,6 +65,7 @@ struct ModelFacts {
   double mass_kg = 0.0;                                                       ///< of all bodies
   std::vector<std::string> labels;                                            ///< of the coordinates
   std::vector<std::string> body_names;                                        ///< in the order of the file
+  std::vector<std::string> notes;  ///< inertias that no body has and that no torque shows
 };
 
 /// Of the counts in a recording.

@@ -125,6 +125,7 @@ void add(const ModelFacts& facts, Json& to) {
   to["mass_kg"] = facts.mass_kg;
   to["labels"] = facts.labels;
   to["body_names"] = facts.body_names;
+  if (!facts.notes.empty()) to["notes"] = facts.notes;
 }
 
 void add(const CountsFacts& facts, Json& to) {

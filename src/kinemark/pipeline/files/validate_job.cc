@@ -43,6 +43,7 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
       if (const auto* markers = std::get_if<MarkerFileFacts>(&*checked.facts);
           markers != nullptr && !markers->filtered.empty())
         checked.notes.push_back(markers->filtered);
+      if (const auto* model = std::get_if<ModelFacts>(&*checked.facts)) checked.notes = model->notes;
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
       std::ranges::move(find_changed(file), std::back_inserter(checked.warnings));
     } else {

@@ -24,8 +24,9 @@ struct CheckedFile {
   std::filesystem::path file;         ///< as asked
   std::optional<FileFacts> facts;     ///< what it holds, when it can be read
   std::vector<std::string> warnings;  ///< what is odd about it
-  std::vector<std::string> notes;     ///< what is good to know and not odd: that it was filtered
-  std::optional<Error> error;         ///< why it cannot be read
+  std::vector<std::string>
+      notes;  ///< what is good to know and not odd: that it was filtered, small faults of a model
+  std::optional<Error> error;  ///< why it cannot be read
 
   /// 0 nothing to say, 1 readable with warnings, 3 or 4 not readable.
   [[nodiscard]] int exit_status() const;

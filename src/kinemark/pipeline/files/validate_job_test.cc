@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/files/validate_job.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include "kinemark/io/file.h"
@@ -97,6 +98,43 @@ TEST_F(RunValidate, ThatARecordingWasSmoothedIsANoteAndNotOdd) {
   const auto json = validate_json(outcome);
   EXPECT_EQ(json[0]["notes"].size(), 1U);
   EXPECT_FALSE(json[1].contains("notes"));
+}
+
+TEST_F(RunValidate, AModelsSmallFaultsAreNotesAndThoseThatMatterAreOdd) {
+  const auto write = [&](const char* name, const char* trunk, const char* toe) {
+    const auto body = [](const char* of, const char* mass, const char* inertia) {
+      return fmt::format("<Body name='{}'><mass>{}</mass><inertia>{}</inertia></Body>", of, mass, inertia);
+    };
+    const auto joint = [](const char* parent, const char* child) {
+      return fmt::format(
+          "<PinJoint name='{0}_pin'><socket_parent_frame>{1}</socket_parent_frame>"
+          "<socket_child_frame>/bodyset/{0}</socket_child_frame></PinJoint>",
+          child, parent);
+    };
+    const auto path = scratch_ / name;
+    EXPECT_TRUE(io::write_text(
+        path,
+        "<OpenSimDocument Version='40000'><Model name='m'><BodySet><objects>" + body("trunk", "30", trunk) +
+            body("toe", "0.2", toe) + "</objects></BodySet><JointSet><objects>" + joint("/ground", "trunk") +
+            joint("/bodyset/trunk", "toe") +
+            "</objects></JointSet><MarkerSet><objects><Marker name='HEAD'><socket_parent_frame>/bodyset/trunk"
+            "</socket_parent_frame><location>0 1.5 0</location></Marker></objects></MarkerSet></Model>"
+            "</OpenSimDocument>",
+        false));
+    return path;
+  };
+  const auto outcome = validate({write("good.osim", "1 0.9 0.8 0 0 0", "0.0002 0.0002 0.0003 0 0 0"),
+                                 write("toe.osim", "1 0.9 0.8 0 0 0", "0.0001 0.0002 0.001 0 0 0"),
+                                 write("trunk.osim", "3 0.9 0.8 0 0 0", "0.0002 0.0002 0.0003 0 0 0")});
+  ASSERT_EQ(outcome.files.size(), 3U);
+  for (const auto& checked : outcome.files) EXPECT_FALSE(checked.error) << checked.file;
+  EXPECT_TRUE(outcome.files[0].notes.empty() && outcome.files[0].warnings.empty());
+  EXPECT_EQ(outcome.files[1].exit_status(), 0);
+  ASSERT_EQ(outcome.files[1].notes.size(), 1U);
+  EXPECT_THAT(outcome.files[1].notes[0], HasSubstr("body 'toe' has a moment of inertia that exceeds"));
+  EXPECT_EQ(outcome.files[2].exit_status(), 1);
+  ASSERT_EQ(outcome.files[2].warnings.size(), 1U);
+  EXPECT_THAT(outcome.files[2].warnings[0], HasSubstr("body 'trunk' has a moment of inertia that exceeds"));
 }
 
 }  // namespace
