@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <span>
 
@@ -19,52 +19,43 @@ namespace {
 constexpr std::size_t kBufferBytes = 512UL << 10;
 constexpr int kRange = 65536;
 constexpr int kJump = kRange / 4 * 3;  // between neighbours: a step through nearly the whole range
-constexpr int kAround = 4;  // a step goes on from the two around it when it is at most so often these
+constexpr int kAround = 8;  // a step that goes on is at most so often the smaller of those beside it
+constexpr std::uint64_t kSignOfSecond = std::uint64_t{0x8000} << 32;
 constexpr std::int64_t kLeastJumps = 4;  // fewer may be single wrong samples
-
-using Words = std::array<std::uint16_t, 4>;
 
 /// Steps of one channel through nearly the whole range in one reading.
 struct Jumps {
   std::int64_t all = 0;
-  std::int64_t closed =
-      0;  ///< of these the steps that are small and go on from those around in the other reading
+  std::int64_t closed = 0;  ///< of these, steps that go on from those beside them in the other reading
 };
 struct ChannelJumps {
   Jumps as_signed, as_unsigned;
-  Words last{};  ///< the four latest samples
-  int count = 0;
+  std::uint64_t latest = 0;  ///< four samples of 16 bits, the last one lowest
 };
 
-int number(std::uint16_t word, bool is_unsigned) {
-  return is_unsigned ? word : static_cast<std::int16_t>(word);
-}
-int step(const Words& words, std::size_t at, bool is_unsigned) {
-  return std::abs(number(words[at + 1], is_unsigned) - number(words[at], is_unsigned));
+/// The step from sample `at` of the four to the next, 0 the oldest.
+int step(std::uint64_t latest, int at, bool is_unsigned) {
+  const auto number = [&](int k) -> int {
+    const auto word = static_cast<std::uint16_t>(latest >> (16 * (3 - k)));
+    return is_unsigned ? word : static_cast<std::int16_t>(word);
+  };
+  return std::abs(number(at + 1) - number(at));
 }
 
-/// Counts the step from the second to the third of four samples. It is one through nearly the whole range in
-/// one reading only, when the words lie on both sides of the sign.
-void count_middle(const Words& words, ChannelJumps& channel) {
-  if (((words[1] ^ words[2]) & 0x8000) == 0) return;
-  const int as_unsigned = step(words, 1, true);
-  const bool jumps_unsigned = as_unsigned > kJump, jumps_signed = kRange - as_unsigned > kJump;
-  if (!jumps_unsigned && !jumps_signed) return;
-  const bool other = jumps_signed;  // in which it is small
-  const int small = step(words, 1, other), around = step(words, 0, other) + step(words, 2, other);
-  // Between the two ends of the range, where it stays: a channel that rails or one that nearly rests at the
-  // middle.
-  if (small == 1 && around == 0) return;
+/// Counts the step from the second to the third of four samples, which lie on both sides of the sign: only
+/// then is it one through nearly the whole range, in one reading alone.
+void count_middle(ChannelJumps& channel) {
+  const int as_unsigned = step(channel.latest, 1, true);
+  const bool jumps_signed = kRange - as_unsigned > kJump;
+  if (as_unsigned <= kJump && !jumps_signed) return;
+  // In the reading in which it is small.
+  const int small = step(channel.latest, 1, jumps_signed);
+  const int beside = std::min(step(channel.latest, 0, jumps_signed), step(channel.latest, 2, jumps_signed));
+  // From one end of the range to the other, where it stays, or one that nearly rests in the middle of it.
+  if (small == 1 && beside == 0) return;
   Jumps& jumps = jumps_signed ? channel.as_signed : channel.as_unsigned;
   ++jumps.all;
-  jumps.closed += small <= kAround * around;
-}
-
-void add(std::uint16_t word, ChannelJumps& channel) {
-  std::ranges::rotate(channel.last, channel.last.begin() + 1);
-  channel.last[3] = word;
-  channel.count = std::min(4, channel.count + 1);
-  if (channel.count == 4) count_middle(channel.last, channel);
+  jumps.closed += small <= kAround * beside;
 }
 
 /// Jumps of each channel.
@@ -72,6 +63,7 @@ Result<std::vector<ChannelJumps>> count_jumps(const ByteSource& source, const C3
   std::vector<ChannelJumps> out(static_cast<std::size_t>(layout.analog_channels));
   const auto block = static_cast<std::int64_t>(std::max<std::size_t>(1, kBufferBytes / layout.frame_bytes));
   Array<std::byte> buffer(static_cast<std::size_t>(std::min(block, layout.frames)) * layout.frame_bytes);
+  std::int64_t sample = 0;
   const std::size_t first = 8 * static_cast<std::size_t>(layout.points);
   for (std::int64_t f = 0; f < layout.frames; f += block) {
     const auto frames = static_cast<std::size_t>(std::min(block, layout.frames - f));
@@ -83,9 +75,11 @@ Result<std::vector<ChannelJumps>> count_jumps(const ByteSource& source, const C3
       return fail(Code::io, fmt::format("{}: became shorter while it was read", source.name()));
     for (std::size_t frame = 0; frame < frames; ++frame) {
       const std::byte* at = bytes.data() + frame * layout.frame_bytes + first;
-      for (std::int64_t s = 0; s < layout.samples_per_frame; ++s)
+      for (std::int64_t s = 0; s < layout.samples_per_frame; ++s, ++sample)
         for (ChannelJumps& channel : out) {
-          add(load_u16(at, layout.processor), channel);
+          channel.latest = channel.latest << 16 | load_u16(at, layout.processor);
+          if (sample >= 3 && ((channel.latest ^ channel.latest << 16) & kSignOfSecond) != 0)
+            count_middle(channel);
           at += 2;
         }
     }
@@ -115,18 +109,18 @@ Status settle_analog_format(const ByteSource& source, const C3dParameters& param
   if (!channels) return std::unexpected(channels.error());
   const auto stated = layout.analog_unsigned ? &ChannelJumps::as_unsigned : &ChannelJumps::as_signed;
   const auto other = layout.analog_unsigned ? &ChannelJumps::as_signed : &ChannelJumps::as_unsigned;
-  Jumps here;
-  std::int64_t there = 0;
+  Jumps here, there;
   std::vector<std::string> jumping;
   for (std::size_t c = 0; c < channels->size(); ++c) {
-    const ChannelJumps& channel = (*channels)[c];
-    here.all += (channel.*stated).all;
-    here.closed += (channel.*stated).closed;
-    there += (channel.*other).all;
-    if ((channel.*stated).all > 0) jumping.push_back(c < names.size() ? names[c] : fmt::to_string(c + 1));
+    const Jumps &mine = (*channels)[c].*stated, &others = (*channels)[c].*other;
+    here.all += mine.all;
+    here.closed += mine.closed;
+    there.all += others.all;
+    there.closed += others.closed;
+    if (mine.all > 0) jumping.push_back(c < names.size() ? names[c] : fmt::to_string(c + 1));
   }
-  // A reading is taken that joins nearly all the jumps of the other and makes next to none of its own.
-  if (here.closed < kLeastJumps || 10 * here.closed < 9 * here.all || 100 * there > here.closed) return {};
+  // A reading is taken that joins most jumps of the other, which joins next to none of its own.
+  if (here.closed < kLeastJumps || 2 * here.closed < here.all || 100 * there.closed > here.closed) return {};
   const auto word = [](bool is_unsigned) { return is_unsigned ? "unsigned" : "signed"; };
   const bool was = layout.analog_unsigned;
   exchange_reading(parameters, layout);
@@ -136,7 +130,8 @@ Status settle_analog_format(const ByteSource& source, const C3dParameters& param
       "whole range {} times from one sample to the next, as {} ones {}",
       format.empty() ? "is missing" : fmt::format("says '{}'", printable(format, 20)), word(!was), word(was),
       jumping.size() == 1 ? "1 channel jumps" : fmt::format("{} channels jump", jumping.size()),
-      join_some(jumping, 3), here.all, word(!was), there == 0 ? "never" : fmt::format("{} times", there)));
+      join_some(jumping, 3), here.all, word(!was),
+      there.all == 0 ? "never" : fmt::format("{} times", there.all)));
   return {};
 }
 

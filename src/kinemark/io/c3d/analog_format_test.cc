@@ -160,6 +160,15 @@ TEST(C3dAnalogFormat, TheJumpsOfEachReadingAreCounted) {
                                     "20 times from one sample to the next, as unsigned ones never")));
 }
 
+TEST(C3dAnalogFormat, SwitchesThatTrulyJumpAreNoEvidence) {
+  // Beside EMG that wraps: channels that go from one end to the other in any reading.
+  const Planted planted{.signals = {noise(700.0, 3), square(30'000.0, 4.0), noise(60.0, 9)},
+                        .middle = 32'768.0};
+  const auto read = read_planted(planted);
+  EXPECT_LT(worst(planted, read), 1e-9);
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("as unsigned ones 19 times")));
+}
+
 TEST(C3dAnalogFormat, SignedSamplesAreReadAsSuchWhereTheFileSaysUnsigned) {
   for (const double middle : {0.0, 100.0}) {
     const Planted planted{.signals = usual(), .middle = middle, .format = "UNSIGNED"};
@@ -186,6 +195,8 @@ TEST(C3dAnalogFormat, WithoutEvidenceWhatTheFileSaysStands) {
          "a clipped one");
   stands({[](std::int64_t i) { return sine(20'000.0, 500.0)(i) + (i % 400 == 9 ? 45'000.0 : 0.0); }},
          "wrapped spikes");
+  stands({[](std::int64_t i) { return i % 100 == 9 ? -30'000.0 : 20'000.0 + static_cast<double>(i % 5); }},
+         "single wrong samples");
   stands({noise(30'000.0, 4)}, "noise through the whole range, which jumps in both");
   stands({[](std::int64_t i) { return i % 7 == 0 ? 32'700.0 + static_cast<double>(i % 3) : 100.0; }},
          "one sign");
