@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/motion_arguments.h"
 
+#include <string>
+#include <vector>
+
 #include "cli/console.h"
 #include "cli/many_inputs.h"
 #include "kinemark/core/number.h"
+#include "kinemark/core/text.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
@@ -23,9 +27,22 @@ std::filesystem::path motion_beside(const std::vector<std::filesystem::path>& re
 }
 
 void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& outcome) {
+  // A line for each would hide the rest where hardly anything is determined; pages have them all.
+  constexpr std::size_t kLines = 6;
+  std::vector<std::string> never;
+  for (const auto& notice : outcome.summary.notices)
+    if (notice.level != report::Verdict::good && notice.about == "coordinate")
+      never.push_back(notice.subject);
   for (const auto& notice : outcome.summary.notices) {
     const bool note = notice.level == report::Verdict::good;
-    if (note && notice.about == "coordinate") continue;
+    if (notice.about == "coordinate") {
+      if (note || (never.size() > kLines && notice.subject != never.front())) continue;
+      if (never.size() > kLines) {
+        say(common, fmt::format("attention: {} coordinates are never determined by the visible markers: {}",
+                                never.size(), join_some(never, kLines)));
+        continue;
+      }
+    }
     say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
   say_written(common, outcome);

@@ -118,7 +118,7 @@ class VendorExports(CommandTest):
         self.write("bad.tsv", self.qtm().replace("FREQUENCY\t100", "FREQUENCY\tEXT"))
         self.refused(3, ["bad.tsv", "line 3", "FREQUENCY is 'EXT'"], "info", "bad.tsv")
         self.write("six.tsv", self.qtm().replace("DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D"))
-        self.refused(3, ["six.tsv", "6D"], "convert", "six.tsv", "six.c3d")
+        self.refused(3, ["six.tsv", "6D data, and no line BODY_NAMES"], "convert", "six.tsv", "six.c3d")
         self.write("bad.csv", self.vicon().replace("100\n", "fast\n", 1))
         self.refused(3, ["bad.csv", "line 2", "the frame rate is 'fast'"], "info", "bad.csv")
         self.write("bare.csv", self.motive().replace("Position", "Rotation"))

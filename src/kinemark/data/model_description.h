@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,12 @@ struct CoordinateDescription {
   double range_max = 1e30;     ///< rad or m
   bool clamped = false;        ///< whether the limits hold
   bool locked = false;         ///< whether it stays at default_value
+  /// Its value at a time in s, rad or m, where a function of time gives it instead of the markers; a locked
+  /// one has none.
+  std::optional<math::ScalarFunction> prescribed = std::nullopt;
+
+  /// Whether no marker moves it: locked or prescribed.
+  [[nodiscard]] bool held() const { return locked || prescribed.has_value(); }
 };
 
 /// One primitive motion of a joint: a rotation about or a translation along an axis by

@@ -128,7 +128,7 @@ class Compiler {
         int& count = axis.is_rotation ? rotations : translations;
         fits = fits && is_unit_slope(axis) && count < 3 &&
                uses[static_cast<std::size_t>(axis.coordinate_idx)] == 1 &&
-               !description().coordinates[static_cast<std::size_t>(axis.coordinate_idx)].locked;
+               !description().coordinates[static_cast<std::size_t>(axis.coordinate_idx)].held();
         if (!fits) break;
         auto& axes = axis.is_rotation ? free.rotation_axes : free.translation_axes;
         axes.col(count) = axis.axis.normalized() * axis.function.slope();

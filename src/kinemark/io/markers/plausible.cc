@@ -24,6 +24,7 @@ constexpr std::size_t kNamed = 6;  // samples in the warning
 constexpr std::size_t kNameCharacters = 40;
 constexpr std::int64_t kFramesOfBody = 101;  // whose extent is looked at
 constexpr double kUsualSteps = 5.0;
+constexpr double kOnePoint_m = 1e-6;  // no two markers lie so near
 constexpr double kStaysWithin_m = 20.0;
 
 /// Median of values that are there; NaN of none. Changes their order.
@@ -102,8 +103,12 @@ Extent find_extent(const Trajectories& markers) {
 /// Says that the unit is in doubt; false when the size is that of something alive.
 bool note_size(data::Trial& trial) {
   const Extent extent = find_extent(trial.markers);
-  if (!(extent.size_m > kLargestBody_m || (extent.size_m > 0.0 && extent.size_m < kSmallestBody_m)))
-    return false;
+  if (extent.size_m < kOnePoint_m) {
+    trial.warnings.push_back(
+        fmt::format("the markers of frame {} lie all at one point", trial.first_frame + extent.frame));
+    return true;
+  }
+  if (!(extent.size_m > kLargestBody_m || extent.size_m < kSmallestBody_m)) return false;
   trial.warnings.push_back(fmt::format(
       "the markers of frame {} span {:.3g} m; expected {} to {:.0f} m, so the unit ({}) is probably wrong",
       trial.first_frame + extent.frame, extent.size_m, kSmallestBody_m, kLargestBody_m,

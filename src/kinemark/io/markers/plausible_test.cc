@@ -88,6 +88,15 @@ TEST(RejectImplausible, TheUnitIsDoubtedInASmallBoxToo) {
   EXPECT_THAT(trial.warnings[0], HasSubstr("so the unit (mm) is probably wrong"));
 }
 
+TEST(RejectImplausible, MarkersAtOnePointAreSaid) {
+  auto trial = walk();
+  for (std::int64_t f = 0; f < 200; ++f)
+    for (std::int64_t m = 0; m < 4; ++m) trial.markers.x(f, m) = Eigen::Vector3d(1.0, 1.0, 1.0);
+  reject_implausible(trial, box_of(trial));
+  EXPECT_THAT(trial.warnings, ElementsAre(HasSubstr(" lie all at one point")));
+  EXPECT_EQ(trial.markers.count_missing(), 0);
+}
+
 TEST(RejectImplausible, WhatMovesOnIsLeftAlone) {
   for (auto trial :
        {walk(), walk(1.0, 10.0), walk(1.0, 40.0, 1000), walk(20.0), walk(0.01), walk(1.0, 1.3, 1)}) {

@@ -20,6 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 const Vector3d X = Vector3d::UnitX(), Y = Vector3d::UnitY(), Z = Vector3d::UnitZ();
 
@@ -269,15 +270,29 @@ TEST(OsimJoint, CouplersWithScaleAndSplineAndDisabledOnes) {
                                           "PointOnLineConstraint 'rail' is not enforced"));
 }
 
-TEST(OsimJoint, APrescribedCoordinateIsLockedAndSaidSo) {
-  const auto model = parse(model_4(joint_ab("UniversalJoint", R"(<coordinates>
-    <Coordinate name="u"><prescribed>true</prescribed><prescribed_function><Constant><value>1</value></Constant>
-      </prescribed_function></Coordinate>
-    <Coordinate name="v"><prescribed>true</prescribed><prescribed_function/></Coordinate></coordinates>)")));
-  EXPECT_TRUE(model.coordinates[0].locked);
-  EXPECT_FALSE(model.coordinates[1].locked) << "OpenSim ignores the flag without a function";
-  ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_THAT(model.warnings[0], HasSubstr("'u' is prescribed"));
+TEST(OsimJoint, APrescribedCoordinateHasItsFunctionOfTime) {
+  const auto coordinate = [](std::string_view name, std::string_view inside) {
+    return fmt::format(R"(<Coordinate name="{}">{}</Coordinate>)", name, inside);
+  };
+  const std::string one = "<prescribed_function><Constant><value>1</value></Constant></prescribed_function>";
+  const std::string wave =
+      "<prescribed_function><Sine><amplitude>0.4</amplitude><omega>6</omega><phase>0.5</phase>"
+      "<offset>0.1</offset></Sine></prescribed_function>";
+  const auto model = parse(model_4(
+      joint_ab("BallJoint", "<coordinates>" + coordinate("u", "<prescribed>true</prescribed>" + wave) +
+                                coordinate("v", "<prescribed>true</prescribed><prescribed_function/>") +
+                                coordinate("w", "<locked>true</locked><prescribed>true</prescribed>" + one) +
+                                "</coordinates>")));
+  ASSERT_TRUE(model.coordinates[0].prescribed);
+  EXPECT_DOUBLE_EQ((*model.coordinates[0].prescribed)(0.3).f, 0.1 + 0.4 * std::sin(6 * 0.3 + 0.5));
+  EXPECT_TRUE(model.coordinates[0].held());
+  EXPECT_FALSE(model.coordinates[0].locked);
+  EXPECT_FALSE(model.coordinates[1].held()) << "OpenSim ignores the flag without a function";
+  EXPECT_FALSE(model.coordinates[2].prescribed) << "a lock takes precedence";
+  EXPECT_THAT(model.warnings, IsEmpty());
+  const auto idle = parse(model_4(joint_ab(
+      "UniversalJoint", "<coordinates>" + coordinate("u", one) + coordinate("v", "") + "</coordinates>")));
+  EXPECT_FALSE(idle.coordinates[0].held()) << "a function without the flag";
 }
 
 TEST(OsimJoint, TheFirstVersions) {

@@ -144,6 +144,17 @@ ModelDescription rewritten(const ModelDescription& model) {
   return again.value_or(ModelDescription{});
 }
 
+TEST(OsimWriter, APrescribedCoordinateKeepsItsFunction) {
+  auto model =
+      one_joint({.type = "PinJoint", .axes = {{.axis = Eigen::Vector3d::UnitZ(), .coordinate_idx = 0}}}, 1);
+  EXPECT_FALSE(rewritten(model).coordinates[0].prescribed);
+  model.coordinates[0].prescribed = math::ScalarFunction::sine(0.4, 6.0, 0.5, 0.1).scaled(2.0);
+  const auto again = rewritten(model);
+  ASSERT_TRUE(again.coordinates[0].prescribed);
+  for (const double t : {-1.0, 0.0, 0.7})
+    EXPECT_EQ((*again.coordinates[0].prescribed)(t).f, (*model.coordinates[0].prescribed)(t).f);
+}
+
 TEST(OsimWriter, TypesKeepTheirNames) {
   for (const char* type : {"PinJoint", "SliderJoint", "UniversalJoint", "PlanarJoint", "BallJoint",
                            "GimbalJoint", "FreeJoint"}) {

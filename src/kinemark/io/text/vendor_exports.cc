@@ -8,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "kinemark/core/length_unit.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
@@ -82,6 +84,43 @@ Status settle_unit_by_size(data::Trial& trial) {
   return {};
 }
 
+/// Markers behind the real ones become channels, in the file's own numbers.
+Status move_outputs(const VendorHeader& header, data::Trial& trial) {
+  const auto outputs = std::ssize(header.outputs);
+  if (outputs == 0) return {};
+  data::Trajectories all = std::exchange(trial.markers, {});
+  const auto bodies = all.markers() - outputs, frames = all.frames();
+  const auto first = all.names.begin() + bodies;
+  trial.markers = data::Trajectories::all_missing({all.names.begin(), first}, all.time);
+  auto& channels = trial.channels;
+  channels.names.assign(first, all.names.end());
+  channels.rate_hz = all.time.rate_hz;
+  channels.frames = frames;
+  channels.values.assign(static_cast<std::size_t>(3 * frames * outputs), kNaN);
+  for (const auto& output : header.outputs) {
+    channels.kinds.push_back(output.kind);
+    channels.units.push_back(output.unit);
+  }
+  for (std::int64_t f = 0; f < frames; ++f) {
+    for (std::int64_t b = 0; b < bodies; ++b) {
+      if (!all.present(f, b)) continue;
+      trial.markers.x(f, b) = all.x(f, b);
+      trial.markers.state[trial.markers.index(f, b)] = all.state[all.index(f, b)];
+    }
+    for (std::int64_t k = 0; k < outputs; ++k) {
+      if (!all.present(f, header.outputs[static_cast<std::size_t>(k)].body) || !all.present(f, bodies + k))
+        continue;
+      const Eigen::Vector3d value = all.x(f, bodies + k) * header.columns.units_per_metre;
+      std::copy_n(value.data(), 3, channels.values.begin() + 3 * (f * outputs + k));
+    }
+  }
+  trial.warnings.push_back(
+      fmt::format("positions are the origins of {} rigid bod{}, which the recorder "
+                  "computed from several markers; angles and axes are channels",
+                  bodies, bodies == 1 ? "y" : "ies"));
+  return trial.validate();
+}
+
 Result<data::Trial> parse(std::string_view text, VendorExport which, std::string_view unit, double rate_hz) {
   Lines lines(text);
   data::Trial trial;
@@ -91,6 +130,7 @@ Result<data::Trial> parse(std::string_view text, VendorExport which, std::string
   if (auto s = internal::read_marker_rows(lines, header->columns, text.size(), trial); !s)
     return std::unexpected(s.error());
   note_rest(lines, which, trial);
+  if (auto s = move_outputs(*header, trial); !s) return std::unexpected(s.error());
   if (header->is_unit_open)
     if (auto s = settle_unit_by_size(trial); !s) return std::unexpected(s.error());
   for (std::int64_t m = 0; m < std::ssize(header->state); ++m) {

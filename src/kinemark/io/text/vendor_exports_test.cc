@@ -104,9 +104,69 @@ TEST(QtmText, SaysWhatIsWrong) {
   EXPECT_THAT(bad(with(kQtm, "FREQUENCY\t100", "FREQUENCY\t-1")), HasSubstr("FREQUENCY"));
   EXPECT_THAT(bad(kQtmKeys), HasSubstr("without MARKER_NAMES"));
   EXPECT_THAT(bad(kQtmKeys + "MARKER_NAMES\tA\n"), HasSubstr("before the first row"));
-  EXPECT_THAT(bad_export(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D"), VendorExport::qtm,
+  EXPECT_THAT(bad(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t6D")),
+              HasSubstr("line 9: the file holds 6D data, and no line BODY_NAMES names its bodies"));
+  EXPECT_THAT(bad_export(with(kQtm, "DATA_INCLUDED\t3D", "DATA_INCLUDED\t2D"), VendorExport::qtm,
                          Code::not_supported),
-              HasSubstr("holds 6D data"));
+              HasSubstr("holds 2D data"));
+}
+
+const std::string kBodyRows =
+    "100\t200\t300\t0\t0\t0\t0.3\t1\t0\t0\t0\t1\t0\t0\t0\t1\t"
+    "400\t500\t600\t10\t20\t30\t0.5\t0.8\t0.6\t0\t-0.6\t0.8\t0\t0\t0\t1\n"
+    "110\t200\t300\t0\t0\t90\t0.3\t0\t1\t0\t-1\t0\t0\t0\t0\t1\t"
+    "0.000\t0.000\t0.000\t0\t0\t0\t-1\t0\t0\t0\t0\t0\t0\t0\t0\t0\n";
+const std::string kBodyLabels =
+    "stick X\tY\tZ\tRoll\tPitch\tYaw\tResidual\tRot[0]\tRot[1]\tRot[2]\tRot[3]\tRot[4]\tRot[5]\tRot[6]"
+    "\tRot[7]\tRot[8]\t"
+    "hand X\tY\tZ\tRoll\tPitch\tYaw\tResidual\tRot[0]\tRot[1]\tRot[2]\tRot[3]\tRot[4]\tRot[5]\tRot[6]"
+    "\tRot[7]\tRot[8]\n";
+const std::string kBodyKeys =
+    "NO_OF_FRAMES\t2\nNO_OF_CAMERAS\t4\nNO_OF_BODIES\t2\nFREQUENCY\t100\nDATA_INCLUDED\t6D\n"
+    "BODY_NAMES\tstick\thand\n";
+
+TEST(QtmText, RigidBodiesAreTheirOriginsWithAnglesAndAxesAsChannels) {
+  const std::string numbered = "1\t0.00000\t" + kBodyRows;
+  const auto lines = numbered.find('\n') + 1;
+  for (const std::string& text : {kBodyKeys + kBodyLabels + kBodyRows, kBodyKeys + kBodyRows,
+                                  kBodyKeys + "Frame\tTime\t" + kBodyLabels + numbered.substr(0, lines) +
+                                      "2\t0.01000\t" + numbered.substr(lines)}) {
+    const auto trial = good_export(text, VendorExport::qtm);
+    EXPECT_THAT(trial.markers.names, ElementsAre("stick", "hand"));
+    EXPECT_EQ(trial.markers.x(1, 0), Eigen::Vector3d(0.11, 0.2, 0.3));
+    EXPECT_FALSE(trial.markers.present(1, 1));
+    const auto& channels = trial.channels;
+    EXPECT_THAT(channels.names, ElementsAre("stick_angles", "stick_axis_x", "stick_axis_y", "stick_axis_z",
+                                            "hand_angles", "hand_axis_x", "hand_axis_y", "hand_axis_z"));
+    EXPECT_EQ(channels.units[4], "deg");
+    EXPECT_EQ(channels.kinds[4], data::ChannelKind::angle);
+    EXPECT_EQ(channels.rate_hz, 100.0);
+    const auto value = [&](std::size_t f, std::size_t c) {
+      const auto* at = channels.values.data() + 3 * (8 * f + c);
+      return Eigen::Vector3d(at[0], at[1], at[2]);
+    };
+    EXPECT_EQ(value(0, 0), Eigen::Vector3d::Zero()) << "angles of zero are angles";
+    EXPECT_TRUE(value(0, 4).isApprox(Eigen::Vector3d(10, 20, 30), 1e-15));
+    EXPECT_TRUE(value(0, 6).isApprox(Eigen::Vector3d(-0.6, 0.8, 0), 1e-15)) << "the second column";
+    EXPECT_EQ(value(1, 1), Eigen::Vector3d::UnitY()) << "yaw of 90 deg takes x to y";
+    for (std::size_t c = 4; c < 8; ++c) EXPECT_TRUE(value(1, c).array().isNaN().all()) << c;
+    EXPECT_THAT(trial.warnings, Contains(HasSubstr("positions are the origins of 2 rigid bodies")));
+  }
+  EXPECT_THAT(good_export(kQtm, VendorExport::qtm).warnings,
+              testing::Not(Contains(HasSubstr("positions are the origins of"))));
+}
+
+TEST(QtmText, SaysWhatIsWrongWithRigidBodies) {
+  const auto bad = [](const std::string& text, Code code = Code::not_supported) {
+    return bad_export(text, VendorExport::qtm, code);
+  };
+  EXPECT_THAT(bad(with(kBodyKeys, "stick\thand", "stick\thand\tfoot") + kBodyRows),
+              HasSubstr("line 7: 32 columns for 3 rigid bodies; need 16 for each"));
+  EXPECT_THAT(bad(kBodyKeys + "MARKER_NAMES\tA\n" + kBodyRows),
+              HasSubstr("line 7: names bodies and markers; export them in files of their own"));
+  EXPECT_THAT(bad(kBodyKeys + with(kBodyRows, "0.8\t0.6", "0.8\tx"), Code::bad_input),
+              HasSubstr("line 7, column 25: y of marker 'hand_axis_x' is 'x'"));
+  EXPECT_THAT(bad(kBodyKeys, Code::bad_input), HasSubstr("before the first row of data"));
 }
 
 const std::string kMotiveKeys =

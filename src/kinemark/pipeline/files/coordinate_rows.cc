@@ -170,6 +170,10 @@ Result<CoordinateRows> coordinate_rows(const model::Model& model, const data::Ta
     const std::string& name = description.coordinates[at(c)].name;
     const auto column = table.find(name);
     if (model.coordinates()[at(c)].source >= 0) continue;
+    if (const auto& prescribed = description.coordinates[at(c)].prescribed; column < 0 && prescribed) {
+      for (std::int64_t r = 0; r < table.rows(); ++r) out.q[at(r)][c] = (*prescribed)(time->time_s(r)).f;
+      continue;
+    }
     if (column < 0) {
       out.is_assumed[at(c)] = !description.coordinates[at(c)].locked;
       absent.push_back(name);

@@ -87,6 +87,18 @@ TEST(CoordinateRows, WhatIsAssumedIsMarkedUnlessItCannotMove) {
   EXPECT_THAT(coordinate_rows(locked, rows({"turn"}, {1, 2})).value().is_assumed, ElementsAre(false, false));
 }
 
+TEST(CoordinateRows, APrescribedCoordinateNeedsNoColumn) {
+  auto description = chain().description();
+  description.coordinates[1].prescribed = math::ScalarFunction::linear(2.0, 0.5);
+  const auto model = model::Model::compile(description).value();
+  const auto read = coordinate_rows(model, rows({"turn"}, {1, 2})).value();
+  EXPECT_DOUBLE_EQ(read.q[0][1], 0.5 + 2.0 * 1.0);
+  EXPECT_DOUBLE_EQ(read.q[1][1], 0.5 + 2.0 * 1.01);
+  EXPECT_THAT(read.is_assumed, ElementsAre(false, false));
+  EXPECT_EQ(coordinate_rows(model, rows({"turn", "slide"}, {1, 0.3})).value().q[0][1], 0.3)
+      << "what is written rules";
+}
+
 TEST(CoordinateRows, AColumnThatDoesNotFollowItsCouplingIsSaid) {
   auto description = chain().description();
   description.couplings.push_back({.name = "c",

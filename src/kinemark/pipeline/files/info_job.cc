@@ -16,6 +16,8 @@
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/dynamics/masses.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
@@ -119,6 +121,8 @@ Status describe_model(const InfoJob& job, InfoOutcome& out) {
   for (const auto& coordinate : model->coordinates) facts.labels.push_back(coordinate.name);
   out.facts = std::move(facts);
   out.warnings = std::move(model->warnings);
+  if (const auto compiled = model::Model::compile(std::move(*model)))
+    for (const auto& fault : motion::find_mass_faults(*compiled)) out.warnings.push_back(fault.sentence());
   return {};
 }
 

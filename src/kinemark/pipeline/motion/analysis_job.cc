@@ -206,6 +206,9 @@ Result<AnalysisOutcome> run_analysis(const AnalysisJob& job) {
   if (!found) return std::unexpected(found.error());
   out.facts = std::move(found->facts);
   std::ranges::move(found->remarks.warnings, std::back_inserter(out.warnings));
+  out.gates = std::move(found->remarks.gates);
+  for (const auto& gate : out.gates)
+    if (!gate.passed) out.warnings.push_back(gate.sentence);
   // Write.
   const Results results(*plan, model->description(), *found, rows);
   auto names = results.names();

@@ -121,7 +121,7 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   for (const auto& coordinate : model.coordinates)
     if (coordinate.locked)
       run.locked_coordinates.push_back(coordinate.name);
-    else if (coordinate.clamped)
+    else if (coordinate.clamped && !coordinate.prescribed)
       run.limits.push_back({coordinate.name, coordinate.range_min, coordinate.range_max});
   double mass_kg = 0.0;
   for (const auto& body : model.bodies) mass_kg += body.mass;

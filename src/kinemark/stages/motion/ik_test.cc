@@ -45,6 +45,49 @@ TEST(SolveIk, RecoversEveryCoordinateFromPerfectMarkers) {
   EXPECT_LE(result.iterations, 12 * 40 + 200 * 4) << "a few Newton steps a frame";
 }
 
+/// The body whose elbow the model prescribes as it moves in record().
+model::Model prescribed_body() {
+  auto described = description();
+  described.coordinates[9].prescribed =
+      math::ScalarFunction::sine(0.5, 2.0 * (0.4 + 0.07 * 9), 0.9 * 9, 0.15 * 9 - 0.6);
+  described.coordinates[9].default_value = -2.0;
+  return model::Model::compile(described).value();
+}
+
+TEST(SolveIk, APrescribedCoordinateFollowsItsFunctionOfTime) {
+  const auto model = prescribed_body();
+  auto markers = record(model, 150, 0.003);
+  for (std::int64_t f = 70; f < 75; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.set_missing(f, m);
+  const auto result = solve_ik(model, markers, {.first_time_s = 0.2}).value();
+  ASSERT_EQ(result.fit.first_frame, 20);
+  for (std::int64_t f = 0; f < result.motion.frames(); ++f) {
+    const auto i = result.motion.index(f, 9);
+    EXPECT_NEAR(result.motion.q[i], coordinates(model, f + 20)[9], 1e-12) << f;
+    EXPECT_EQ(result.motion.status[static_cast<std::size_t>(f)] == FrameStatus::no_markers,
+              f >= 50 && f < 55);
+    if (f >= 50 && f < 55) continue;
+    EXPECT_EQ(result.motion.q_sd[i], 0.0) << f;
+    EXPECT_TRUE(result.motion.determined[i]) << f;
+  }
+  EXPECT_LT(result.fit.rms_error_m, 0.006);
+  EXPECT_THAT(result.fit.warnings,
+              testing::Contains(HasSubstr("'elbow' follows the function of time that the model prescribes")));
+  for (const char* absent : {"follows the function of time that the model prescribes"})
+    EXPECT_THAT(solve_ik(body(), markers).value().fit.warnings,
+                testing::Not(testing::Contains(HasSubstr(absent))));
+}
+
+TEST(SolveIk, AFunctionWithoutAValueIsOneSentence) {
+  auto described = description();
+  described.coordinates[9].prescribed = math::ScalarFunction::polynomial({0.0, 1e308, 1e308, 1e308});
+  const auto model = model::Model::compile(described).value();
+  auto markers = record(body(), 5);
+  markers.time.t0_s = 10.0;
+  EXPECT_THAT(solve_ik(model, markers).error().message,
+              HasSubstr("the function that prescribes coordinate 'elbow' has no finite value at 10 s"));
+}
+
 TEST(SolveIk, FindsTheFirstFrameFromAnyStartingPose) {
   Random random(11, 0);
   for (int trial = 0; trial < 20; ++trial) {

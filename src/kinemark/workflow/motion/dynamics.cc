@@ -100,6 +100,7 @@ Result<DynamicsFound> dynamics(const model::Model& model, const GivenMotion& giv
     if (!torques) return std::unexpected(torques.error());
     std::ranges::move(torques->account.facts, std::back_inserter(found.facts));
     std::ranges::move(torques->account.warnings, std::back_inserter(found.remarks.warnings));
+    std::ranges::move(torques->account.gates, std::back_inserter(found.remarks.gates));
   }
   if (follow.error_bars)
     for (int order = 0; order < 3; ++order) found.sd[at(order)] = deviations_of(model, *rated, order);

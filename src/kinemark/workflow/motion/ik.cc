@@ -152,6 +152,7 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   std::ranges::move(data::describe_all(fit.findings, motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(gates, options, model, markers, found.result);
+  std::ranges::copy(found.torques.gates, std::back_inserter(gates));
   return found;
 }
 

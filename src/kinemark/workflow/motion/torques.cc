@@ -13,6 +13,8 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/dynamics/masses.h"
+#include "kinemark/workflow/motion/gates.h"
 #include "kinemark/workflow/prepare/turn.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
@@ -169,6 +171,22 @@ void tell_roots(const motion::DynamicsSummary& dynamics, bool with_forces, Torqu
   }
 }
 
+/// Torques are no better than the masses behind them.
+void judge_masses(const model::Model& model, TorqueAccount& account) {
+  std::int64_t matter = 0;
+  for (const auto& fault : motion::find_mass_faults(model)) {
+    account.warnings.push_back(fault.sentence() +
+                               (fault.matters ? "" : "; it is too small to show in the torques"));
+    matter += fault.matters;
+  }
+  add_gate(account.gates, "masses", static_cast<double>(matter), 0.0, "",
+           matter == 0
+               ? "Masses and inertias of the model are those that bodies of its size can have."
+               : fmt::format("{} of the model's masses and inertias cannot be so (see the notes): its "
+                             "torques are not those of a body.",
+                             matter));
+}
+
 }  // namespace
 
 Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& motion,
@@ -186,6 +204,7 @@ Result<TorqueAccount> add_torques(const model::Model& model, data::JointMotion& 
     check_posture(model, *dynamics, account);
   }
   tell_roots(*dynamics, forces != nullptr, account);
+  judge_masses(model, account);
   return account;
 }
 

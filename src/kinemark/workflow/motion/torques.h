@@ -9,6 +9,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
+#include "kinemark/data/run_record.h"
 #include "kinemark/data/wrenches.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
@@ -21,6 +22,7 @@ struct TorqueAccount {
       facts;  ///< which plate acted on which body and when; how long forces are unknown; the residual of the
               ///< root
   std::vector<std::string> warnings;  ///< one sentence each
+  std::vector<data::Gate> gates;      ///< masses that no body has
 };
 
 /// Fill tau (and tau_sd) of a motion by inverse dynamics. Fails as motion::inverse_dynamics().

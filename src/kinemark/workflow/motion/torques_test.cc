@@ -292,5 +292,36 @@ TEST(Torques, ABodyThatTheModelLacksIsNamed) {
             "wrench 'a' names body 'tail', which the model does not have");
 }
 
+TEST(Torques, OfMassesThatNoBodyHasMissAGate) {
+  const auto sound = statue();
+  auto motion = stand(sound, 40);
+  const auto good = add_torques(sound, motion, nullptr, {}).value();
+  ASSERT_EQ(good.gates.size(), 1U);
+  EXPECT_TRUE(good.gates[0].passed);
+  EXPECT_THAT(good.gates[0].sentence, HasSubstr("are those that bodies of its size can have"));
+  EXPECT_THAT(good.gates[0].sentence, Not(HasSubstr("its torques are not those of a body")));
+  for (const char* absent : {"; it is too small to show in the torques", "exceeds the other two together"})
+    EXPECT_THAT(good.warnings, Not(Contains(HasSubstr(absent))));
+
+  auto description = sound.description();
+  description.bodies[0].inertia_about_com(2, 2) = 3.0;
+  const auto odd = model::Model::compile(description).value();
+  const auto bad = add_torques(odd, motion, nullptr, {}).value();
+  ASSERT_EQ(bad.gates.size(), 1U);
+  EXPECT_FALSE(bad.gates[0].passed);
+  EXPECT_EQ(bad.gates[0].value, 1.0);
+  EXPECT_THAT(bad.gates[0].sentence, HasSubstr("its torques are not those of a body"));
+  EXPECT_THAT(bad.gates[0].sentence, Not(HasSubstr("are those that bodies of its size can have")));
+  EXPECT_THAT(bad.warnings, Contains(HasSubstr("body 'foot' has a moment of inertia that exceeds")));
+
+  description.bodies[0].inertia_about_com = Eigen::Matrix3d::Identity();
+  description.bodies.push_back(
+      {.name = "toe", .mass = 0.2, .inertia_about_com = Vector3d(0.0001, 0.0002, 0.001).asDiagonal()});
+  description.joints.push_back({.name = "toe", .parent_body_idx = 0, .child_body_idx = 1});
+  const auto small = add_torques(model::Model::compile(description).value(), motion, nullptr, {}).value();
+  EXPECT_TRUE(small.gates[0].passed);
+  EXPECT_THAT(small.warnings, Contains(HasSubstr("; it is too small to show in the torques")));
+}
+
 }  // namespace
 }  // namespace kinemark::workflow

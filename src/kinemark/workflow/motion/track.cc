@@ -97,6 +97,7 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   std::ranges::move(data::describe_all(fit.findings, found.result.motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(found.remarks.gates, options.bounds, found.result);
+  std::ranges::copy(found.torques.gates, std::back_inserter(found.remarks.gates));
   return found;
 }
 

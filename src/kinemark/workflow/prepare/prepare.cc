@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/stages/motion/foundations/body_size.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 #include "kinemark/workflow/prepare/resample_forces.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
@@ -49,6 +50,13 @@ void turn_axes(const AxesChoice& axes, data::Recording& recording) {
   recording.notes.push_back(fmt::format("the recording was turned: {}", axes.rotate));
 }
 
+void note_size(data::Recording& recording) {
+  const auto& markers = recording.trial.markers;
+  if (const auto size = motion::size_of_body(motion::body_of_names(markers.names), markers);
+      size && size->is_nobodys())
+    recording.notes.push_back(size->sentence());
+}
+
 }  // namespace
 
 Status PrepareOptions::check() const {
@@ -62,6 +70,7 @@ Result<data::Recording> prepare(data::Recording recording, const PrepareOptions&
   if (auto s = take_selection(options.selection, recording.trial); !s) return std::unexpected(s.error());
   follow_frames(recording);
   turn_axes(options.axes, recording);
+  note_size(recording);
   return recording;
 }
 

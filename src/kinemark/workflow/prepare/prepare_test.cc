@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/stages/motion/foundations/testing/walking_body.h"
 #include "kinemark/stages/trajectory/edits/testing/edited.h"
 #include "kinemark/workflow/prepare/turn.h"
 
@@ -16,9 +17,11 @@ namespace {
 
 using data::EditKind;
 using Eigen::Vector3d;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// A recording with a force on each frame that grows by 1 N a frame.
 data::Recording walk() {
@@ -89,6 +92,18 @@ TEST(Prepare, WhoStatesTheVerticalIsHeard) {
   EXPECT_EQ(stated_vertical(options.axes)->up, Vector3d::UnitY());
   EXPECT_FALSE(stated_vertical({.up = "auto"}));
   EXPECT_FALSE(stated_vertical({}));
+}
+
+TEST(Prepare, ABodyOfNobodysSizeIsSaid) {
+  const std::vector<std::string> names = {"LASI", "RASI", "LPSI", "RPSI", "LKNE", "LANK", "LHEE", "LTOE",
+                                          "RKNE", "RANK", "RHEE", "RTOE", "LTHI", "RTHI", "LTIB", "RTIB"};
+  data::Recording walk;
+  walk.trial.markers = motion::testing::walking_body(names, 30);
+  for (const char* absent : {"the unit of length is another one, or this is no human body"})
+    EXPECT_THAT(prepare(walk).value().notes, Not(Contains(HasSubstr(absent))));
+  for (double& x : walk.trial.markers.x_in_world) x *= 10.0;
+  EXPECT_THAT(prepare(walk).value().notes,
+              ElementsAre(HasSubstr("the unit of length is another one, or this is no human body")));
 }
 
 TEST(Prepare, WhatCannotBeDoneIsRefused) {

@@ -135,6 +135,10 @@ void write_coordinate(pugi::xml_node coordinates, const data::CoordinateDescript
     append_numbers(node, "range", {c.range_min, c.range_max});
   append_flag(node, "clamped", c.clamped);
   append_flag(node, "locked", c.locked);
+  if (c.prescribed) {
+    write_function(node, "prescribed_function", *c.prescribed);
+    append_flag(node, "prescribed", true);
+  }
 }
 
 bool is_identity(const math::SE3& frame) {

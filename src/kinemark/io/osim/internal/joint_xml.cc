@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxCoordinates = 6;
 
-CoordinateDescription read_coordinate(XmlFile& file, pugi::xml_node node, ModelDescription& description) {
+CoordinateDescription read_coordinate(XmlFile& file, pugi::xml_node node) {
   CoordinateDescription c{.name = name_of(node),
                           .default_value = file.number(node, "default_value", 0.0),
                           .clamped = file.flag(node, "clamped", false),
@@ -41,12 +41,10 @@ CoordinateDescription read_coordinate(XmlFile& file, pugi::xml_node node, ModelD
   } else if (c.clamped) {
     c.range_min = -10.0, c.range_max = 10.0;  // OpenSim's own default
   }
-  // A prescribed coordinate without a function is free, as in OpenSim.
-  if (file.flag(node, "prescribed", false) && first_element(node.child("prescribed_function"))) {
-    c.locked = true;
-    description.warnings.push_back(fmt::format(
-        "coordinate '{}' is prescribed by a function of time; it is locked at its default value", c.name));
-  }
+  // As in OpenSim: a prescribed coordinate without a function is free, and a locked one stays.
+  if (const auto function = first_element(node.child("prescribed_function"));
+      function && !c.locked && file.flag(node, "prescribed", false))
+    c.prescribed = read_function(file, function);
   return c;
 }
 
@@ -68,7 +66,7 @@ class JointCoordinates {
       file.note(joint, fmt::format("has {} coordinates; a joint has at most six", nodes.size()));
       return;
     }
-    for (const pugi::xml_node node : nodes) add(read_coordinate(file, node, description), node);
+    for (const pugi::xml_node node : nodes) add(read_coordinate(file, node), node);
     listed_ = !nodes.empty();
   }
 
@@ -86,7 +84,7 @@ class JointCoordinates {
       file_.note(joint_, fmt::format("moves by the coordinate {}, which it does not list", in_quotes(name)));
       return indices_.front();
     }
-    return add(node ? read_coordinate(file_, node, description_) : CoordinateDescription{.name = name}, node);
+    return add(node ? read_coordinate(file_, node) : CoordinateDescription{.name = name}, node);
   }
 
   /// Exactly n coordinates, the missing ones named after the joint.

@@ -58,7 +58,9 @@ struct Comparison {
   [[nodiscard]] bool operator()(const data::CoordinateDescription& a,
                                 const data::CoordinateDescription& b) const {
     return a.is_rotation == b.is_rotation && same(a.default_value, b.default_value) &&
-           a.clamped == b.clamped && a.locked == b.locked;
+           a.clamped == b.clamped && a.locked == b.locked &&
+           a.prescribed.has_value() == b.prescribed.has_value() &&
+           (!a.prescribed || values_agree(*a.prescribed, *b.prescribed));
   }
   [[nodiscard]] bool operator()(const data::AxisDescription& a, const data::AxisDescription& b) const {
     return a.is_rotation == b.is_rotation && same_numbers(a.axis, b.axis) &&

@@ -166,10 +166,10 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
   return {};
 }
 
-void take_zeros_as_missing(data::Trial& trial) {
+void take_zeros_as_missing(data::Trial& trial, std::int64_t others) {
   std::vector<std::string> names;
   std::int64_t zeros = 0;
-  for (std::int64_t m = 0; m < trial.markers.markers(); ++m) {
+  for (std::int64_t m = 0; m < trial.markers.markers() - others; ++m) {
     const std::int64_t removed = remove_zeros(trial.markers, m);
     if (removed == 0) continue;
     names.push_back("'" + excerpt(trial.markers.names[static_cast<std::size_t>(m)]) + "'");
@@ -284,7 +284,7 @@ Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t 
   warn(columns, rows, static_cast<std::int64_t>(count), trial);
   if (auto s = settle_time(columns, rows, first_line, static_cast<std::int64_t>(most_frames), trial); !s)
     return s;
-  if (columns.zeros_are_missing) take_zeros_as_missing(trial);
+  if (columns.zeros_are_missing) take_zeros_as_missing(trial, columns.others);
   return {};
 }
 

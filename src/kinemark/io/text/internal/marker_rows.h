@@ -38,6 +38,7 @@ struct MarkerColumns {
   std::vector<double> rates_hz;     ///< stated rates, in order of trust; without a time column, one at least
   std::int64_t stated_frames = -1;  ///< of the header; negative: not stated
   bool zeros_are_missing = false;   ///< (0, 0, 0) is not seen, except where a path goes through it
+  std::int64_t others = 0;          ///< how many of the last names are no positions: their zeros are numbers
 };
 
 /// Reads rows up to a blank line or the end of the text into `trial`: markers, their time base, first_frame

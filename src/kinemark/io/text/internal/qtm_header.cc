@@ -42,7 +42,13 @@ struct Keywords {
   std::int64_t frames = -1, markers = -1;
   std::int64_t names_line = 0;
   std::vector<std::string> names, types;
+  bool is_of_bodies = false;     ///< names are those of rigid bodies
+  std::int64_t bodies_line = 0;  ///< that says that data of bodies are included, 0 without
 };
+
+// A rigid body's columns: X Y Z, three angles, residual, and the rotation matrix column by column.
+constexpr std::size_t kColumnsOfBody = 16;
+constexpr std::size_t kAngles = 3, kRotation = 7;  // where they begin
 
 Status read_number(const std::vector<std::string_view>& cells, std::int64_t line, double& out) {
   const auto number = cells.size() > 1 ? parse_number(cells[1]) : std::nullopt;
@@ -78,14 +84,16 @@ Status read_keyword(const std::vector<std::string_view>& cells, std::int64_t lin
     if (auto s = read_number(cells, line, found.rate_hz); !s) return s;
     return check_rate(found.rate_hz, fmt::format("line {}: FREQUENCY", line));
   }
-  if (key == "DATA_INCLUDED" && cells.size() > 1 && cells[1] != "3D")
-    return fail(Code::not_supported,
-                fmt::format("line {}: the file holds {} data; 3D data are read", line, excerpt(cells[1])));
-  if (key == "BODY_NAMES")
-    return fail(Code::not_supported,
-                fmt::format("line {}: the file holds rigid bodies (6DOF); 3D data are read", line));
+  if (key == "DATA_INCLUDED" && cells.size() > 1 && cells[1] != "3D" && cells[1] != "6D")
+    return fail(Code::not_supported, fmt::format("line {}: the file holds {} data; 3D and 6D data are read",
+                                                 line, excerpt(cells[1])));
+  if (key == "DATA_INCLUDED" && cells.size() > 1 && cells[1] == "6D") found.bodies_line = line;
   if (key == "EVENT") read_event(cells, line, trial);
-  if (key == "MARKER_NAMES") {
+  if (key == "MARKER_NAMES" || key == "BODY_NAMES") {
+    if (found.names_line > 0)
+      return fail(Code::not_supported,
+                  fmt::format("line {}: names bodies and markers; export them in files of their own", line));
+    found.is_of_bodies = key == "BODY_NAMES";
     found.names_line = line;
     for (std::size_t i = 1; i < cells.size(); ++i) found.names.push_back(name_of_bytes(cells[i]));
   }
@@ -111,8 +119,8 @@ std::vector<data::SampleState> states_of(const Keywords& found, data::Trial& tri
   return out;
 }
 
-/// How many columns stand before the coordinates: 0, 1 (frame) or 2 (frame and time).
-Result<std::size_t> count_lead(Lines& lines, std::size_t names) {
+/// How many columns stand before the `width` others: 0, 1 (frame) or 2 (frame and time).
+Result<std::size_t> count_lead(Lines& lines, std::size_t width) {
   std::string_view line;
   Lines ahead = lines;
   if (!ahead.next(line))
@@ -125,7 +133,52 @@ Result<std::size_t> count_lead(Lines& lines, std::size_t names) {
     return cells.size() > 1 && lower(cells[1]) == "time" ? 2 : 1;
   }
   // Without column names the width says it; trailing blank cells do not count.
-  return std::min<std::size_t>(cells.size() > 3 * names ? cells.size() - 3 * names : 0, 2);
+  return std::min<std::size_t>(cells.size() > width ? cells.size() - width : 0, 2);
+}
+
+/// Code::not_supported unless the row of names or numbers ahead has as many cells as the bodies need.
+Status check_body_columns(Lines ahead, std::size_t bodies) {
+  std::string_view line;
+  if (!ahead.next(line)) return {};
+  const std::size_t cells = split_tabs(line).size(), need = bodies * kColumnsOfBody;
+  if (cells >= need && cells <= need + 2) return {};
+  return fail(Code::not_supported,
+              fmt::format("line {}: {} columns for {} rigid bodies; need 16 for each: X, Y, Z, three angles, "
+                          "residual and the nine numbers of the rotation",
+                          ahead.number(), cells, bodies));
+}
+
+/// Origins of bodies, then what becomes channels: three angles and the three axes of each.
+void set_body_columns(std::vector<std::string> bodies, VendorHeader& out) {
+  const auto count = std::ssize(bodies);
+  const auto place = [](std::size_t column, std::int64_t marker) {
+    return MarkerColumns::Column{.kind = Kind::coordinate,
+                                 .marker = static_cast<std::int32_t>(marker),
+                                 .axis = static_cast<std::int8_t>(column % 3)};
+  };
+  auto& names = out.columns.names;
+  names = std::move(bodies);
+  for (std::int64_t b = 0; b < count; ++b) {
+    const std::string body = names[static_cast<std::size_t>(b)];
+    const std::int64_t first = count + 4 * b;
+    for (std::size_t c = 0; c < kColumnsOfBody; ++c) {
+      if (c < kAngles)
+        out.columns.columns.push_back(place(c, b));
+      else if (c < kAngles + 3)
+        out.columns.columns.push_back(place(c - kAngles, first));
+      else if (c < kRotation)
+        out.columns.columns.push_back({.kind = Kind::unread});
+      else
+        out.columns.columns.push_back(
+            place(c - kRotation, first + 1 + static_cast<std::int64_t>((c - kRotation) / 3)));
+    }
+    names.push_back(body + "_angles");
+    out.outputs.push_back({.body = b, .kind = data::ChannelKind::angle, .unit = "deg"});
+    for (const char axis : {'x', 'y', 'z'}) {
+      names.push_back(fmt::format("{}_axis_{}", body, axis));
+      out.outputs.push_back({.body = b, .kind = data::ChannelKind::other, .unit = ""});
+    }
+  }
 }
 
 }  // namespace
@@ -142,23 +195,35 @@ Result<VendorHeader> parse_qtm_header(Lines& lines, data::Trial& trial) {
   }
   if (found.names.empty())
     return fail(Code::bad_input,
-                fmt::format("line {}: the header ends without MARKER_NAMES; export 3D data with "
-                            "a header",
+                fmt::format("line {}: the header ends without MARKER_NAMES or BODY_NAMES; export "
+                            "data with a header",
                             lines.number() + 1));
   if (found.markers >= 0 && found.markers != std::ssize(found.names))
     trial.warnings.push_back(fmt::format("header says {} markers, {} are named; the names are used",
                                          found.markers, found.names.size()));
+  if (found.bodies_line > 0 && !found.is_of_bodies)
+    return fail(Code::bad_input,
+                fmt::format("line {}: the file holds 6D data, and no line BODY_NAMES names its bodies",
+                            found.bodies_line));
   VendorHeader out;
   out.state = states_of(found, trial);
   settle_marker_names(found.names, found.names_line, trial);
-  const auto lead = count_lead(lines, found.names.size());
+  const std::size_t width = found.names.size() * (found.is_of_bodies ? kColumnsOfBody : 3);
+  if (found.is_of_bodies)
+    if (auto s = check_body_columns(lines, found.names.size()); !s) return std::unexpected(s.error());
+  const auto lead = count_lead(lines, width);
   if (!lead) return std::unexpected(lead.error());
   if (*lead > 0) out.columns.columns.push_back({.kind = Kind::frame});
   if (*lead > 1) out.columns.columns.push_back({.kind = Kind::time});
-  for (std::int32_t m = 0; m < static_cast<std::int32_t>(found.names.size()); ++m)
-    for (std::int8_t axis = 0; axis < 3; ++axis)
-      out.columns.columns.push_back({.kind = Kind::coordinate, .marker = m, .axis = axis});
-  out.columns.names = std::move(found.names);
+  if (found.is_of_bodies) {
+    set_body_columns(std::move(found.names), out);
+    out.columns.others = std::ssize(out.outputs);
+  } else {
+    for (std::int32_t m = 0; m < static_cast<std::int32_t>(found.names.size()); ++m)
+      for (std::int8_t axis = 0; axis < 3; ++axis)
+        out.columns.columns.push_back({.kind = Kind::coordinate, .marker = m, .axis = axis});
+    out.columns.names = std::move(found.names);
+  }
   if (found.rate_hz > 0.0) out.columns.rates_hz.push_back(found.rate_hz);
   out.columns.stated_frames = found.frames;
   out.columns.zeros_are_missing = true;

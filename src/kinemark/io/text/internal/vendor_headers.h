@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/channels.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/marker_rows.h"
@@ -17,6 +19,14 @@ struct VendorHeader {
   MarkerColumns columns;
   /// State of each marker's samples; empty: all measured.
   std::vector<data::SampleState> state;
+  /// What was read as markers behind the real ones, three numbers a frame, and is no position: each becomes a
+  /// channel. Missing where its body is.
+  struct Output {
+    std::int64_t body = 0;  ///< index of the marker that is the body's origin
+    data::ChannelKind kind = data::ChannelKind::other;
+    std::string unit;
+  };
+  std::vector<Output> outputs;
   bool is_unit_open = false;  ///< coordinates are left as they stand: no unit is known
 };
 

@@ -14,7 +14,9 @@
 namespace kinemark::motion::internal {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
 
@@ -36,6 +38,19 @@ TEST(Plan, OmegaTimesStepMayBeHalfAndNoMore) {
   // Stiff with little damping is as unstable as stiff: kp step <= kd.
   EXPECT_TRUE(plan_of(model, {.kp = 1000.0, .kd = 10.0, .step_s = 0.01}));
   EXPECT_FALSE(plan_of(model, {.kp = 1010.0, .kd = 10.0, .step_s = 0.01}));
+}
+
+TEST(Plan, APrescribedCoordinateIsHeldAtTheRestPoseAndSaid) {
+  auto described = testing_body::description();
+  described.coordinates[9].prescribed = math::ScalarFunction::sine(0.3, 4.0, 0.2, 0.1);
+  const auto model = model::Model::compile(described).value();
+  const auto plan = plan_of(model, {}).value();
+  const int speed = plan.problem.speed_of(9);
+  EXPECT_TRUE(plan.problem.fixed_speed[static_cast<std::size_t>(speed)]);
+  EXPECT_TRUE(plan.problem.prescribed.empty());
+  EXPECT_THAT(plan.problem.fit.warnings, Contains(HasSubstr("'elbow' is prescribed by a function of time")));
+  for (const char* absent : {"is prescribed by a function of time; tracking holds it at the rest pose"})
+    EXPECT_THAT(plan_of(body(), {}).value().problem.fit.warnings, Not(Contains(HasSubstr(absent))));
 }
 
 TEST(Plan, WithoutAStepItTakesTheLongestThatFitsIntoAFrame) {

@@ -101,7 +101,7 @@ Matrix3d standing_axes(const data::ModelDescription& model, const model::Workspa
 bool turns(const data::ModelDescription& model, const data::JointDescription& joint) {
   return std::ranges::any_of(joint.axes, [&](const data::AxisDescription& axis) {
     if (!axis.is_rotation || axis.coordinate_idx < 0) return false;
-    if (model.coordinates[at(axis.coordinate_idx)].locked) return false;
+    if (model.coordinates[at(axis.coordinate_idx)].held()) return false;
     return std::ranges::none_of(model.couplings,
                                 [&](const auto& c) { return c.dependent_idx == axis.coordinate_idx; });
   });

@@ -196,6 +196,7 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
   for (const auto& c : model_.coordinates())  // a start outside the limits is moved inside first
     if (c.speed_idx >= 0 && !problem_.fixed_speed[at(c.speed_idx)])
       x[c.state_idx] = std::clamp(x[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
+  problem_.prescribe(frame, x);
 
   double merit_now = visit(y, weight, frame, x);
   double damping = 0.0;

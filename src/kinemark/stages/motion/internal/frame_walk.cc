@@ -77,6 +77,7 @@ bool FrameWalk::walk(const data::Trajectories& markers, std::int64_t first, std:
     problem_.observe(markers, f, y_, weight_);
     const auto visible = (weight_.array() > 0.0).count();
     if (visible == 0) {
+      problem_.prescribe(f, x_);
       solved.states.col(f) = x_;
       steady = 0;
       continue;
@@ -254,6 +255,7 @@ void FrameWalk::solve_stretch(const data::Trajectories& markers, std::int64_t fr
     problem_.observe(markers, f, y_, weight_);
     if (!(weight_.array() > 0.0).any()) {
       x_ = near;
+      problem_.prescribe(f, x_);
       store(f, false, solved);
       continue;
     }
@@ -280,6 +282,7 @@ void FrameWalk::follow(const data::Trajectories& markers, std::int64_t from, int
     problem_.observe(markers, f, y_, weight_);
     if (!(weight_.array() > 0.0).any()) {
       solved.states.col(f) = solved.states.col(f - direction);
+      problem_.prescribe(f, solved.states.col(f));
       continue;
     }
     x_ = solved.states.col(f - direction);

@@ -120,12 +120,31 @@ void find_limits(const model::Model& model, const IkOptions& options, Problem& p
     const auto& described = model.description().coordinates[static_cast<std::size_t>(c)];
     const int speed = model.coordinates()[static_cast<std::size_t>(c)].speed_idx;
     if (speed < 0) continue;
-    if (described.locked) problem.fixed_speed[static_cast<std::size_t>(speed)] = 1;
-    if (options.limits && described.clamped && !described.locked) {
+    if (described.held()) problem.fixed_speed[static_cast<std::size_t>(speed)] = 1;
+    if (options.limits && described.clamped && !described.held()) {
       problem.lower[speed] = described.range_min;
       problem.upper[speed] = described.range_max;
     }
   }
+}
+
+Status find_prescribed(const model::Model& model, const TimeBase& time, Problem& problem) {
+  for (int c = 0; c < model.coordinate_count(); ++c) {
+    const auto& described = model.description().coordinates[at(c)];
+    const auto& coordinate = model.coordinates()[at(c)];
+    if (!described.prescribed || coordinate.speed_idx < 0) continue;
+    Problem::Prescribed values{.state = coordinate.state_idx, .values = {}};
+    for (std::int64_t f = 0; f < problem.frames; ++f) {
+      const double t = time.time_s(problem.first_frame + f), value = (*described.prescribed)(t).f;
+      if (!std::isfinite(value))
+        return fail(Code::bad_input,
+                    fmt::format("the function that prescribes coordinate '{}' has no finite value at {} s",
+                                described.name, t));
+      values.values.push_back(value);
+    }
+    problem.prescribed.push_back(std::move(values));
+  }
+  return {};
 }
 
 void name_bodies(const model::Model& model, data::MarkerFit& fit) {
@@ -178,6 +197,10 @@ int Problem::speed_of(int coordinate) const {
   return coordinates[static_cast<std::size_t>(coordinate)].speed_idx;
 }
 
+void Problem::prescribe(std::int64_t frame, Eigen::Ref<Eigen::VectorXd> x) const {
+  for (const auto& one : prescribed) x[one.state] = one.values[at(frame)];
+}
+
 void Problem::observe(const data::Trajectories& markers, std::int64_t f, Eigen::Matrix3Xd& y,
                       Eigen::VectorXd& w) const {
   for (std::size_t m = 0; m < data_marker.size(); ++m) {
@@ -227,6 +250,8 @@ Result<Problem> make_problem(const model::Model& model, const data::Trajectories
   problem.fit.first_frame = problem.first_frame;
   name_bodies(problem.model, problem.fit);
   find_limits(problem.model, options, problem);
+  if (auto status = find_prescribed(problem.model, markers.time, problem); !status)
+    return std::unexpected(status.error());
   if (auto status = check_units(problem, markers); !status) return std::unexpected(status.error());
   return problem;
 }

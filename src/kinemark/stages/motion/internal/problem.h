@@ -31,9 +31,17 @@ struct Problem {
     }
   };
   std::vector<CoordinateTarget> coordinate_tasks;
+  /// A coordinate that a function of time gives: its row of the state, and its value in each frame.
+  struct Prescribed {
+    int state = 0;
+    std::vector<double> values;
+  };
+  std::vector<Prescribed> prescribed;
+  /// Put prescribed coordinates of a state to their values in `frame` (0: first solved).
+  void prescribe(std::int64_t frame, Eigen::Ref<Eigen::VectorXd> x) const;
   /// Speed behind a plain or coupled coordinate, or -1 (free joints, coordinates that drive nothing).
   [[nodiscard]] int speed_of(int coordinate) const;
-  std::vector<std::uint8_t> fixed_speed;  ///< 1: locked
+  std::vector<std::uint8_t> fixed_speed;  ///< 1: locked or prescribed
   Eigen::VectorXd lower, upper;           ///< per speed; +-infinity where unlimited
   std::int64_t first_frame = 0, frames = 0;
 

@@ -31,6 +31,7 @@ Result<data::Trajectories> average(const data::Trajectories& trial, const PlaceO
     for (std::int64_t f = 0; f < trial.frames(); ++f) {
       const double t = trial.time.time_s(f);
       if (t < options.ik.first_time_s - slack || t > options.ik.last_time_s + slack) continue;
+      if (!any) mean.time.t0_s = t;
       any = true;
       if (!trial.present(f, m)) continue;
       sum += trial.x(f, m);

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "kinemark/core/check.h"
@@ -42,6 +43,20 @@ void couple_rates(const model::Model& model, data::JointMotion& motion) {
   }
 }
 
+/// Rates of a prescribed coordinate whose values are those of its function; false where they are others.
+bool prescribed_rates(const math::ScalarFunction& function, const data::JointMotion& motion, std::int64_t c,
+                      Array<double>& v, Array<double>& a) {
+  constexpr double kSame = 1e-6;  // rad or m: digits of a motion file
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const auto i = motion.index(f, c);
+    const auto value = function(motion.time.time_s(f));
+    if (!(std::abs(value.f - motion.q[i]) <= kSame)) return false;
+    v[i] = value.df;
+    a[i] = value.ddf;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& motion) {
@@ -58,10 +73,10 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
   std::vector<double> y(at(F)), sd;
   for (std::int64_t c = 0; c < n; ++c) {
     const auto& coordinate = model.coordinates()[at(c)];
-    const bool still = model.description().coordinates[at(c)].locked ||
-                       (coordinate.speed_idx < 0 && coordinate.free_joint < 0);
+    const auto& described = model.description().coordinates[at(c)];
+    const bool still = described.locked || (coordinate.speed_idx < 0 && coordinate.free_joint < 0);
     if (coordinate.source >= 0) continue;
-    if (still) {
+    if (still || (described.prescribed && prescribed_rates(*described.prescribed, motion, c, v, a))) {
       for (std::int64_t f = 0; f < F; ++f)
         std::fill_n(errors.covariance.begin() + 6 * static_cast<std::ptrdiff_t>(motion.index(f, c)), 6, 0.0);
       continue;

@@ -103,6 +103,23 @@ TEST(Rates, LockedCoordinatesHaveNone) {
   EXPECT_EQ(errors.covariance[6 * motion.index(25, 9) + 5], 0.0);
 }
 
+TEST(Rates, PrescribedCoordinatesHaveThoseOfTheirFunction) {
+  auto description = testing_body::description();
+  const auto elbow = math::ScalarFunction::sine(0.3, 4.0, 0.2, 0.1);
+  description.coordinates[9].prescribed = elbow;
+  const auto model = model::Model::compile(description).value();
+  auto motion = noisy_motion(model, 50, 0.001);
+  auto other = motion;  // of a motion file that somebody made by hand: it is measured as it is
+  for (std::int64_t f = 0; f < 50; ++f) motion.q[motion.index(f, 9)] = elbow(motion.time.time_s(f)).f;
+  const auto errors = estimate_rates(model, motion).value();
+  EXPECT_EQ(motion.qd[motion.index(25, 9)], elbow(motion.time.time_s(25)).df);
+  EXPECT_EQ(motion.qdd[motion.index(25, 9)], elbow(motion.time.time_s(25)).ddf);
+  EXPECT_EQ(errors.covariance[6 * motion.index(25, 9) + 5], 0.0);
+  const auto of_other = estimate_rates(model, other).value();
+  EXPECT_NE(other.qd[other.index(25, 9)], elbow(other.time.time_s(25)).df);
+  EXPECT_GT(of_other.covariance[6 * other.index(25, 9) + 5], 0.0);
+}
+
 TEST(Rates, NeedEightFrames) {
   const auto model = body();
   auto motion = noisy_motion(model, 7, 0.001);

@@ -163,6 +163,7 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   const auto solving = std::chrono::steady_clock::now();
   const Problem& problem = prepared.problem;
   MatrixXd states = bridged_states(problem.model, prepared.start.motion);
+  for (std::int64_t f = 0; f < problem.frames; ++f) problem.prescribe(f, states.col(f));
   const VectorXd variance = step_variances(problem.model, prepared.start.motion, states, noise.raised);
   SmootherResult result = begin_result(prepared.start, problem.model);
   result.start_seconds = prepared.seconds;

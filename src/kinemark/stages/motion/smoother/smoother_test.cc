@@ -89,6 +89,27 @@ TEST(Smoother, RatesAreThoseOfTheMotion) {
               0.6 * smooth.motion.qd[smooth.motion.index(50, 11)], 1e-9);
 }
 
+TEST(Smoother, APrescribedCoordinateIsWhatItsFunctionSays) {
+  auto described = testing_body::description();
+  const auto elbow = math::ScalarFunction::sine(0.5, 2.0 * (0.4 + 0.07 * 9), 0.9 * 9, 0.15 * 9 - 0.6);
+  described.coordinates[9].prescribed = elbow;
+  const auto model = model::Model::compile(described).value();
+  auto markers = testing_body::record(model, kFrames, kNoise_m);
+  for (std::int64_t f = 90; f < 95; ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.set_missing(f, m);
+  const auto result = smooth_motion(model, markers).value();
+  for (std::int64_t f = 0; f < kFrames; ++f) {
+    const auto i = result.motion.index(f, 9);
+    const auto value = elbow(0.01 * static_cast<double>(f));
+    EXPECT_NEAR(result.motion.q[i], value.f, 1e-12) << f;
+    EXPECT_EQ(result.motion.q_sd[i], 0.0) << f;
+    if (f < 2 || f >= kFrames - 2) continue;
+    EXPECT_NEAR(result.motion.qd[i], value.df, 1e-5) << f;
+    EXPECT_NEAR(result.motion.qdd[i], value.ddf, 1e-3) << f;
+  }
+  EXPECT_LT(angle_rms(model, result.motion), 0.01);
+}
+
 TEST(Smoother, BridgesMarkersThatAreMissing) {
   const auto model = body();
   auto markers = testing_body::record(model, kFrames, kNoise_m, 3);

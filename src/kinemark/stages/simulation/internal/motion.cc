@@ -75,7 +75,7 @@ void Motion::draw_coordinate(int c) {
   const auto& coordinate = model_.description().coordinates[at(c)];
   Wave& wave = waves_[at(c)];
   wave.centre = coordinate.default_value;
-  if (model_.coordinates()[at(c)].state_idx < 0 || coordinate.locked) return;
+  if (model_.coordinates()[at(c)].state_idx < 0 || coordinate.held()) return;
 
   Random random = stream(options_.seed, Draw::motion, at(c));
   double amplitude = excursion(options_.motion, coordinate) * random.uniform(0.6, 1.0);
@@ -156,7 +156,10 @@ void Motion::draw_root(std::size_t which) {
 Eigen::VectorXd Motion::state(double t_s) const {
   Eigen::VectorXd x = default_state_;
   for (int c = 0; c < model_.coordinate_count(); ++c)
-    if (const int i = model_.coordinates()[at(c)].state_idx; i >= 0) x[i] = waves_[at(c)](t_s);
+    if (const int i = model_.coordinates()[at(c)].state_idx; i >= 0) {
+      const auto& prescribed = model_.description().coordinates[at(c)].prescribed;
+      x[i] = prescribed ? (*prescribed)(t_s).f : waves_[at(c)](t_s);
+    }
 
   const double heading = kTwoPi * options_.full_turns * t_s / options_.duration_s;
   const Vector3d up = vertical(model_);

@@ -69,7 +69,7 @@ analysis::BodyRecord record_of(const model::Model& model, const data::JointMotio
   out.is_root = root_coordinates(model.description());
   for (std::int64_t c = 0; c < n; ++c) {
     const bool moves =
-        model.coordinates()[at(c)].source < 0 && !model.description().coordinates[at(c)].locked;
+        model.coordinates()[at(c)].source < 0 && !model.description().coordinates[at(c)].held();
     out.measured.push_back(moves);
     out.driven.push_back(moves && !out.is_root[at(c)]);
   }

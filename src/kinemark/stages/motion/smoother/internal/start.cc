@@ -131,7 +131,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     const auto& coordinate = model.coordinates()[at(c)];
     if (coordinate.speed_idx < 0) continue;
     is_rotation[at(coordinate.speed_idx)] = motion.is_rotation[at(c)];
-    if (model.description().coordinates[at(c)].locked) continue;  // locked: any number will do
+    if (model.description().coordinates[at(c)].held()) continue;  // any number will do
     for (std::int64_t f = 0; f < F; ++f) {
       y[at(f)] = states(coordinate.state_idx, f);
       sd[at(f)] =
