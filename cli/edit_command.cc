@@ -225,7 +225,8 @@ void add_edit(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--author", arguments->author, "Who edits, for the journal")
       ->type_name("NAME")
       ->group("Where and how");
-  command->add_option("--rate", job.rate_hz, "Frame rate of a marker file that stores none (.v3d, .amc), Hz");
+  command->add_option("--rate", job.rate_hz,
+                      "Frame rate of a marker file that stores none (.v3d, .amc, tables without times), Hz");
   command->add_option("--unit", job.unit, "Unit of a table of coordinates that states none: mm, cm or m")
       ->type_name("UNIT");
   command->callback(

@@ -21,7 +21,8 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
     add(name, value, type, text)->delimiter(',')->allow_extra_args(false);
   };
   auto& part = recording.selection;
-  add("--rate", recording.rate_hz, "HZ", "Frame rate of a file that stores none (.v3d, .amc)");
+  add("--rate", recording.rate_hz, "HZ",
+      "Frame rate of a file that stores none (.v3d, .amc, tables without times)");
   add("--unit", recording.unit, "UNIT", "Unit of a table of coordinates that states none: mm, cm or m");
   add("--edits", recording.edits, "FILE",
       "Journal of edits to apply first: that beside the recording where there is one, none, or a FILE")

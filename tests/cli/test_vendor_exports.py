@@ -70,6 +70,30 @@ class VendorExports(CommandTest):
         rows = [",".join([str(f + 1), "0", *self.cells(f, 1000.0, "")]) for f in range(self.frames)]
         return "\n".join([*head, *rows]) + "\n"
 
+    def frames_alone(self, label):
+        head = ",".join([label, *(f"{name}_{axis}" for name in self.names for axis in "xyz")])
+        rows = [",".join([str(f), *self.cells(f, 1000.0, "")]) for f in range(self.frames)]
+        return "\n".join([head, *rows]) + "\n"
+
+    def test_a_table_of_frames_without_times_needs_a_rate(self):
+        for label in ("frame", "Frame #", ""):
+            with self.subTest(label=label):
+                self.write("t.csv", self.frames_alone(label))
+                self.refused(3, ["t.csv", "line 1", "without a column of times; give its frame rate with --rate HZ"],
+                             "convert", "t.csv", "t.c3d", "--unit", "mm")
+                self.good("info", "t.csv", "--unit", "mm")
+                self.good("convert", "t.csv", "from_t.csv", "--rate", "100", "--unit", "mm", "--force")
+                facts = json.loads(self.good("info", "from_t.csv", "--json").out)
+                self.assertEqual((facts["points"], facts["frames"], facts["rate_hz"]), (len(self.names), self.frames, 100.0))
+                found = rows_of(self.folder / "from_t.csv")
+                for marker in self.names:
+                    for a, b in zip(self.known[marker], found[marker], strict=True):
+                        self.assertEqual(a is None, b is None)
+                        if a is not None:
+                            self.assertLess(max(abs(p - q) for p, q in zip(a, b, strict=True)), 1e-9)
+        self.write("timed.csv", self.frames_alone("time"))
+        self.refused(2, "the file stores its own rate", "info", "timed.csv", "--rate", "100", "--unit", "mm")
+
     def test_each_holds_what_the_c3d_holds(self):
         for name, text in (("q.tsv", self.qtm()), ("m.csv", self.motive()), ("v.csv", self.vicon())):
             with self.subTest(name=name):

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace kinemark::data {
@@ -27,11 +28,19 @@ Status Trial::validate() const {
   if (!analog.units.empty() && analog.units.size() != analog.names.size())
     return fail(Code::bad_input, fmt::format("trial names {} analog units for {} channels",
                                              analog.units.size(), analog.names.size()));
-  for (const ForcePlate& plate : force_plates)
+  for (const ForcePlate& plate : force_plates) {
     for (const int channel : plate.channel_idx)
       if (channel < 0 || channel >= static_cast<int>(analog.names.size()))
         return fail(Code::bad_input, fmt::format("a force plate uses analog channel {}; the file has {}",
                                                  channel + 1, analog.names.size()));
+    const auto& polynomial = plate.pressure_correction;
+    if (!polynomial.empty() && !(polynomial.size() == 12 &&
+                                 std::ranges::all_of(polynomial, [](double v) { return std::isfinite(v); })))
+      return fail(Code::bad_input,
+                  fmt::format("force plate {} corrects its centre of pressure by {} numbers; need 12 that "
+                              "are finite, or none",
+                              plate.number, polynomial.size()));
+  }
   if (!std::isfinite(unloaded_s[0]) || !std::isfinite(unloaded_s[1]))
     return fail(Code::bad_input,
                 fmt::format("trial has its plates unloaded from {} to {} s", unloaded_s[0], unloaded_s[1]));

@@ -48,6 +48,13 @@ TEST(Trial, ValidateNamesTheArrayThatDoesNotFit) {
   t.force_plates[0].channel_idx = {1};
   EXPECT_THAT(t.validate().error().message, HasSubstr("analog channel 2"));
   t = small();
+  t.force_plates[0].pressure_correction.assign(12, 0.5);
+  EXPECT_TRUE(t.validate());
+  t.force_plates[0].pressure_correction[7] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(t.validate().error().message, HasSubstr("force plate 1 corrects its centre of pressure by 12"));
+  t.force_plates[0].pressure_correction.assign(11, 0.5);
+  EXPECT_THAT(t.validate().error().message, HasSubstr("by 11 numbers; need 12 that are finite, or none"));
+  t = small();
   t.unloaded_s[1] = std::numeric_limits<double>::infinity();
   EXPECT_THAT(t.validate().error().message, HasSubstr("plates unloaded from 0 to inf s"));
   t = small();

@@ -28,10 +28,15 @@ std::size_t channels_of_type(int type, std::size_t rows) {
     case 5:
     case 7:
       return std::min<std::size_t>(8, rows);
+    case 6:
+      return std::min<std::size_t>(12, rows);
     default:
       return rows;
   }
 }
+
+/// Types whose number of channels is known; of others those that the file names.
+bool knows_channels(int type) { return type >= 1 && type <= 7; }
 
 Eigen::Vector3d metres3(const std::vector<double>& values, std::size_t at, double metres) {
   return at + 3 <= values.size()
@@ -48,6 +53,7 @@ std::vector<int> find_channels(const C3dParameter* channels, std::size_t i, int 
   for (std::size_t r = 0; r < channels_of_type(type, rows); ++r) {
     const std::size_t at = i * rows + r;
     const double channel = at < channels->numbers.size() ? channels->numbers[at] : 0.0;
+    if (channel == 0.0 && !knows_channels(type)) break;
     if (!(channel >= 1.0 && channel <= static_cast<double>(analog_channels))) return {};
     found.push_back(static_cast<int>(channel) - 1);
   }
@@ -64,6 +70,30 @@ void read_calibration(const C3dParameter* calibrations, std::size_t i, data::For
   plate.calibration_rows = calibrations->dims[0];
 }
 
+/// Kistler's polynomial, six numbers for x and then six for y; zeros, which correct nothing, are none.
+void read_pressure_correction(const C3dParameter* polynomials, std::size_t i, data::ForcePlate& plate,
+                              std::vector<std::string>& warnings) {
+  constexpr std::size_t kNumbers = 12;
+  if (polynomials == nullptr || i * kNumbers >= polynomials->numbers.size()) return;
+  const auto& numbers = polynomials->numbers;
+  const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(i * kNumbers);
+  const auto end = begin + static_cast<std::ptrdiff_t>(std::min(kNumbers, numbers.size() - i * kNumbers));
+  if (std::all_of(begin, end, [](double v) { return v == 0.0; })) return;
+  const auto& dims = polynomials->dims;
+  if (dims.size() >= 2 && dims[0] == 6 && dims[1] == 2 && end - begin == kNumbers &&
+      std::all_of(begin, end, [](double v) { return std::isfinite(v); })) {
+    for (std::ptrdiff_t k = 0; k < 6; ++k) {
+      plate.pressure_correction.push_back(begin[k]);
+      plate.pressure_correction.push_back(begin[6 + k]);
+    }
+    return;
+  }
+  warnings.push_back(
+      fmt::format("force plate {}: what corrects its centre of pressure (FPCOPPOLY) is not 6 x 2 finite "
+                  "numbers; it is not corrected",
+                  i + 1));
+}
+
 }  // namespace
 
 std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters, const C3dLayout& layout,
@@ -75,7 +105,7 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
   const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
-  const std::vector<double> polynomials = p.numbers("FORCE_PLATFORM", "FPCOPPOLY");
+  const C3dParameter* polynomials = p.find("FORCE_PLATFORM", "FPCOPPOLY");
   std::vector<data::ForcePlate> plates;
   for (std::size_t i = 0; i < used; ++i) {
     data::ForcePlate plate{.number = static_cast<int>(i) + 1, .metres_per_unit = layout.metres_per_unit};
@@ -90,12 +120,7 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
       plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
     plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
     read_calibration(calibrations, i, plate);
-    if (polynomials.size() >= 12 * (i + 1)) {
-      const auto begin = polynomials.begin() + static_cast<std::ptrdiff_t>(12 * i);
-      if (std::any_of(begin, begin + 12, [](double v) { return v != 0.0; }) &&
-          std::all_of(begin, begin + 12, [](double v) { return std::isfinite(v); }))
-        plate.pressure_correction.assign(begin, begin + 12);
-    }
+    read_pressure_correction(polynomials, i, plate, warnings);
     if (!std::ranges::all_of(plate.corners_in_world, near) || !near(plate.origin_in_plate))
       warnings.push_back(
           fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));

@@ -31,8 +31,8 @@ constexpr std::array<std::string_view, 11> kPoint = {"USED",   "FRAMES",       "
 constexpr std::array<std::string_view, 13> kAnalog = {
     "USED",  "RATE",         "GEN_SCALE", "SCALE", "OFFSET", "OFFSETS", "LABELS",
     "UNITS", "DESCRIPTIONS", "FORMAT",    "BITS",  "GAIN",   "RATIO"};
-constexpr std::array<std::string_view, 7> kForcePlatform = {"USED",   "TYPE",    "ZERO",      "CORNERS",
-                                                            "ORIGIN", "CHANNEL", "CAL_MATRIX"};
+constexpr std::array<std::string_view, 8> kForcePlatform = {"USED",   "TYPE",    "ZERO",       "CORNERS",
+                                                            "ORIGIN", "CHANNEL", "CAL_MATRIX", "FPCOPPOLY"};
 constexpr std::array<std::string_view, 8> kEvent = {"USED",         "TIMES",    "LABELS",   "CONTEXTS",
                                                     "DESCRIPTIONS", "SUBJECTS", "ICON_IDS", "GENERIC_FLAGS"};
 constexpr std::array<std::string_view, 2> kTrial = {"ACTUAL_START_FIELD", "ACTUAL_END_FIELD"};

@@ -199,6 +199,18 @@ void add_calibrations(C3dGroup& group, const std::vector<data::ForcePlate>& plat
               all);
 }
 
+/// The polynomials of all plates, of each x before y; zeros correct nothing.
+void add_pressure_corrections(C3dGroup& group, const std::vector<data::ForcePlate>& plates) {
+  if (std::ranges::all_of(plates, [](const auto& plate) { return plate.pressure_correction.empty(); }))
+    return;
+  std::vector<double> all;
+  for (const auto& plate : plates)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      for (std::size_t k = 0; k < 6; ++k)
+        all.push_back(plate.pressure_correction.empty() ? 0.0 : plate.pressure_correction[axis + 2 * k]);
+  add_numbers(group, "FPCOPPOLY", C3dType::float32, {6, 2}, all);
+}
+
 /// Frames in which nobody loads the plates, counted from 1.
 void add_zero(C3dGroup& group, const data::Trial& trial) {
   constexpr std::int64_t kMaxInteger = 32'767;
@@ -228,6 +240,7 @@ void add_force_plates(C3dPlan& plan, const data::Trial& trial) {
   add_numbers(group, "ORIGIN", C3dType::float32, {3}, origins);
   add_numbers(group, "CHANNEL", C3dType::int16, {static_cast<int>(rows)}, channels);
   add_calibrations(group, trial.force_plates);
+  add_pressure_corrections(group, trial.force_plates);
 }
 
 void add_events(C3dPlan& plan, const data::Trial& trial) {

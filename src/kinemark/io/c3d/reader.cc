@@ -12,6 +12,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/io/c3d/analog_format.h"
 #include "kinemark/io/c3d/describe.h"
 #include "kinemark/io/c3d/foreign_groups.h"
 #include "kinemark/io/c3d/point_types.h"
@@ -121,6 +122,10 @@ Result<C3dReader> C3dReader::open(std::unique_ptr<ByteSource> source) {
   trial.source = name;
   describe_trial(reader.header_, reader.parameters_, reader.layout_, trial);
   sort_points(reader.parameters_, reader.layout_, trial);
+  if (auto s = settle_analog_format(*source, reader.parameters_, trial.analog.names, reader.layout_,
+                                    trial.warnings);
+      !s)
+    return std::unexpected(s.error());
   trial.foreign = find_foreign_groups(reader.parameters_, trial.warnings);
   reader.source_ = std::move(source);
   return reader;

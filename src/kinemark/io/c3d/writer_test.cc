@@ -189,12 +189,20 @@ TEST(C3dWriter, ForcePlatesKeepGeometryChannelsAndCalibration) {
   for (int i = 0; i < 36; ++i) plate.calibration.push_back(0.5 * i);
   trial.force_plates.push_back(plate);
   trial.force_plates.push_back({.type = 3, .channel_idx = {6, 7, 8, 9, 10, 11, 12, 13}});
+  for (int i = 0; i < 12; ++i) trial.force_plates[1].pressure_correction.push_back(0.25 * i - 1.0);
   const Trial back = round_trip(trial, {.units = "m"});
   EXPECT_EQ(back.units_in_file, "m");
   ASSERT_EQ(back.force_plates.size(), 2U);
   EXPECT_THAT(back.force_plates[0].channel_idx, ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_THAT(back.force_plates[1].channel_idx, ElementsAre(6, 7, 8, 9, 10, 11, 12, 13));
   EXPECT_EQ(back.force_plates[0].calibration, plate.calibration);
+  EXPECT_THAT(back.force_plates[0].pressure_correction, ElementsAre());
+  EXPECT_EQ(back.force_plates[1].pressure_correction, trial.force_plates[1].pressure_correction);
+  // Of a copy whose first plate is left out, too.
+  Trial second = back;
+  second.force_plates.erase(second.force_plates.begin());
+  const Trial again = round_trip(second);
+  EXPECT_EQ(again.force_plates.at(0).pressure_correction, trial.force_plates[1].pressure_correction);
   for (std::size_t c = 0; c < 4; ++c)
     EXPECT_NEAR((back.force_plates[0].corners_in_world[c] - plate.corners_in_world[c]).norm(), 0.0, 1e-7);
   EXPECT_NEAR((back.force_plates[0].origin_in_plate - plate.origin_in_plate).norm(), 0.0, 1e-8);

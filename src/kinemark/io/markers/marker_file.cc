@@ -117,8 +117,14 @@ bool may_lack_unit(const std::filesystem::path& path) {
 
 bool needs_rate(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  return std::ranges::any_of(
-      marker_formats(), [&](const MarkerFormat& f) { return !f.stores_rate && f.extension == extension; });
+  const auto begin = read_plain_begin(path);
+  if (const MarkerFormat* format = begin ? format_of(*begin, extension) : nullptr)
+    return !format->stores_rate;
+  // A file that is not there, or not what its ending says: as all files of this ending.
+  const auto of_ending = [&](const MarkerFormat& f) { return f.extension == extension; };
+  return std::ranges::any_of(marker_formats(), of_ending) &&
+         std::ranges::none_of(marker_formats(),
+                              [&](const MarkerFormat& f) { return of_ending(f) && f.stores_rate; });
 }
 
 Result<data::Trial> read_markers(const std::filesystem::path& path, const MarkerReadOptions& options) {

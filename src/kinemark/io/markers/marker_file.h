@@ -13,7 +13,8 @@ namespace kinemark::io {
 
 /// Options of read_markers().
 struct MarkerReadOptions {
-  double rate_hz = 0.0;   ///< of the frames, for files that store none (Visual3D text, AMC); 0: not given
+  double rate_hz = 0.0;   ///< of the frames, for files that store none (Visual3D text, AMC, tables without
+                          ///< times); 0: not given
   std::string unit = {};  ///< of coordinates, for tables that state none: "mm"; empty: not given
   std::filesystem::path skeleton = {};  ///< .asf of an AMC; empty: the one beside it. Other formats have none
 };
@@ -30,7 +31,8 @@ struct MarkerReadOptions {
 [[nodiscard]] Result<data::Trial> read_markers(const std::filesystem::path& path,
                                                const MarkerReadOptions& options = {});
 
-/// True for a file format without a frame rate, by its extension: read_markers() then needs one.
+/// True for a file without a frame rate, by its content, or by its ending where that tells nothing:
+/// read_markers() then needs one.
 [[nodiscard]] bool needs_rate(const std::filesystem::path& path);
 
 /// True for a file whose content, whatever its ending, says that it holds markers.

@@ -133,6 +133,21 @@ TEST(MarkerFile, Visual3dTextNeedsARateAndOthersRefuseOne) {
   EXPECT_THAT(twice.error().message, HasSubstr("the file stores its own rate"));
 }
 
+TEST(MarkerFile, ATableWithoutTimesNeedsARateAndOneWithTimesRefusesIt) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_text(scratch / "a.csv", "frame,A_x,A_y,A_z\n1,0,0,1\n2,0,0,1.5\n", false));
+  ASSERT_TRUE(write_text(scratch / "b.csv", "time,A_x,A_y,A_z\n0,0,0,1\n0.5,0,0,1.5\n", false));
+  EXPECT_TRUE(needs_rate(scratch / "a.csv"));
+  EXPECT_FALSE(needs_rate(scratch / "b.csv"));
+  EXPECT_FALSE(needs_rate(scratch / "absent.csv"));
+  EXPECT_THAT(read_markers(scratch / "a.csv", {.unit = "m"}).error().message, HasSubstr("with --rate HZ"));
+  EXPECT_EQ(read_markers(scratch / "a.csv", {.rate_hz = 200.0, .unit = "m"}).value().markers.time,
+            (TimeBase{200.0, 0.0, 2}));
+  EXPECT_EQ(read_markers(scratch / "b.csv", {.unit = "m"}).value().markers.time.rate_hz, 2.0);
+  EXPECT_THAT(read_markers(scratch / "b.csv", {.rate_hz = 2.0, .unit = "m"}).error().message,
+              HasSubstr("stores its own rate"));
+}
+
 TEST(MarkerFile, AnglesOfAVisual3dTextGoAlongAsChannels) {
   const testing_support::ScratchFolder scratch;
   const std::string head =

@@ -100,7 +100,7 @@ Result<data::Trial> read_v3d_trial(const fs::path& path, ReadOptions options, Bo
 
 template <VendorExport which>
 Result<data::Trial> read_export(const fs::path& path, ReadOptions options, Box) {
-  return read_vendor_export(path, which, options.unit);
+  return read_vendor_export(path, which, options.unit, options.rate_hz);
 }
 
 /// Several files: pipeline::write_motion_bids() lets them appear together.
@@ -193,6 +193,12 @@ constexpr std::array kFormats = {
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::phasespace>,
                  .read = read_export<VendorExport::phasespace>},
+    MarkerFormat{.name = "table of coordinates without times",
+                 .extension = ".csv",
+                 .begins = lacks_times,
+                 .read = read_export<VendorExport::coordinates>,
+                 .stores_rate = false,
+                 .may_lack_unit = true},
     MarkerFormat{.name = "table of coordinates",
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::coordinates>,

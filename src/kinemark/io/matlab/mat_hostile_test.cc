@@ -174,6 +174,23 @@ TEST(HostileMat, UnitsAndTimesThatSayOtherwiseAreRefused) {
   EXPECT_THAT(said({two_frames("start", mat_number(5))}), HasSubstr("is 0 s in row 1"));
 }
 
+TEST(HostileMat, APolynomialOfAPlateIsTwoBySixFiniteNumbers) {
+  using namespace internal;
+  const auto said_of = [](const std::vector<double>& numbers, const MatDims& dims) {
+    return said({two_frames(
+        "force_plates",
+        mat_structs({"type", "corners", "origin", "pressure_correction"},
+                    {{mat_number(3), mat_numbers(std::vector<double>(12, 0.5), {4, 3}),
+                      mat_numbers(std::vector<double>(3, 0.1), {1, 3}), mat_numbers(numbers, dims)}}))});
+  };
+  std::vector<double> numbers(12, 0.25);
+  EXPECT_EQ(said_of(numbers, {2, 6}), "read");
+  EXPECT_EQ(said_of({}, {0, 0}), "read");
+  EXPECT_THAT(said_of(numbers, {6, 2}), HasSubstr("pressure_correction: is 6 x 2; expected 2 x 6 numbers"));
+  numbers[3] = kNaN;
+  EXPECT_THAT(said_of(numbers, {2, 6}), HasSubstr("pressure_correction: holds a value that is no finite"));
+}
+
 TEST(HostileMat, OfSeveralRecordingsTheFirstIsReadAndTheOthersSaid) {
   using namespace internal;
   EXPECT_THAT(said({two_frames("units", mat_text("m"), "walk"), two_frames("units", mat_text("m"), "jog")}),

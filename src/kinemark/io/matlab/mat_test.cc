@@ -77,6 +77,7 @@ void expect_same(const Trial& a, const Trial& b) {
     EXPECT_EQ(a.force_plates[i].origin_in_plate, b.force_plates[i].origin_in_plate);
     EXPECT_EQ(a.force_plates[i].channel_idx, b.force_plates[i].channel_idx);
     EXPECT_EQ(a.force_plates[i].calibration, b.force_plates[i].calibration);
+    EXPECT_EQ(a.force_plates[i].pressure_correction, b.force_plates[i].pressure_correction);
   }
 }
 

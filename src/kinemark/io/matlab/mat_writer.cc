@@ -131,9 +131,12 @@ std::string force_plates(const std::vector<data::ForcePlate>& all) {
          mat_numbers(std::span(plate.origin_in_plate.data(), 3), {1, 3}),
          mat_numbers(from_one, {1, static_cast<std::int64_t>(from_one.size())}),
          mat_numbers(plate.calibration, size % rows == 0 ? MatDims{rows, size / rows} : MatDims{size, 1}),
+         mat_numbers(plate.pressure_correction,
+                     plate.pressure_correction.empty() ? MatDims{0, 0} : MatDims{2, 6}),
          mat_number(plate.metres_per_unit)});
   }
-  return mat_structs({"number", "type", "corners", "origin", "channels", "calibration", "metres_per_unit"},
+  return mat_structs({"number", "type", "corners", "origin", "channels", "calibration", "pressure_correction",
+                      "metres_per_unit"},
                      out);
 }
 

@@ -30,6 +30,7 @@ void expect_same(const data::ForcePlate& got, const data::ForcePlate& wanted) {
   EXPECT_EQ(got.channel_idx, wanted.channel_idx);
   EXPECT_THAT(got.calibration, ::testing::Pointwise(::testing::NanSensitiveDoubleEq(), wanted.calibration));
   EXPECT_EQ(got.calibration_rows, wanted.calibration_rows);
+  EXPECT_EQ(got.pressure_correction, wanted.pressure_correction);
   EXPECT_EQ(got.metres_per_unit, wanted.metres_per_unit);
 }
 
@@ -295,6 +296,17 @@ TEST_F(HostileSignals, EventsAndPlatesThatDoNotFit) {
   EXPECT_THAT(replaced("force_plates/calibration_values", {3}, 5.0),
               HasSubstr("expected whole numbers from 0 to 4"));
   EXPECT_THAT(replaced("force_plates/calibration_rows", {3}, 1e9), HasSubstr("calibration_rows: holds"));
+  EXPECT_THAT(replaced("force_plates/pressure_correction", {3, 11}),
+              HasSubstr("force_plates/pressure_correction: does not hold 12 numbers for each of 3 rows"));
+  EXPECT_EQ(replaced("force_plates/pressure_correction", {3, 12}, NAN), "was read");
+  EXPECT_EQ(without("force_plates/pressure_correction"), "was read");
+  EXPECT_THAT(after([](hid_t m) {
+                std::vector<double> numbers(36, NAN);
+                numbers[12] = 0.5;
+                const Handle column(H5Dopen2(m, "force_plates/pressure_correction", H5P_DEFAULT), H5Dclose);
+                H5Dwrite(column.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+              }),
+              HasSubstr("force_plates/pressure_correction: has 1 of 12 numbers in row 2"));
   EXPECT_THAT(replaced("/intervals/plates_unloaded/stop_time", {1}, NAN), HasSubstr("unloaded from"));
   EXPECT_THAT(replaced("markers/first_frame", {5}, 1e300),
               HasSubstr("first_frame: holds no number of a frame"));

@@ -77,19 +77,25 @@ std::vector<Plate> usable_plates(const data::Trial& trial, std::vector<std::stri
           fmt::format("force plate {} has {}, which is no unit of what these measure; forces are taken as N, "
                       "moments as N times the file's unit of length",
                       found.number, join_some(unknown, 3)));
+    // Other types have moments, or the point itself, that the maker's program has computed.
+    const bool sensors = found.type == 3 || found.type == 7;
     if (!found.pressure_correction.empty())
       warnings.push_back(fmt::format(
-          "force plate {}: its centre of pressure is corrected by the file's polynomial (FPCOPPOLY)",
-          found.number));
+          "force plate {}: {}", found.number,
+          sensors
+              ? "its centre of pressure is corrected by the file's polynomial (FPCOPPOLY)"
+              : fmt::format("its polynomial of the centre of pressure (FPCOPPOLY), which is for plates of "
+                            "types 3 and 7, is not applied to one of type {}",
+                            found.type)));
     Plate plate{.name = fmt::format("plate {}", found.number),
                 .channel_idx = found.channel_idx,
                 .wrench = std::move(*wrench),
                 .pose = *pose,
                 .corners_in_world = {found.corners_in_world.begin(), found.corners_in_world.end()},
-                .pressure_correction = found.pressure_correction,
+                .pressure_correction = sensors ? found.pressure_correction : std::vector<double>(),
                 .baseline = {},
                 .measured = {}};
-    plate.baseline.setZero(static_cast<Eigen::Index>(std::min<std::size_t>(8, plate.channel_idx.size())));
+    plate.baseline.setZero(static_cast<Eigen::Index>(internal::channels_needed(found.type)));
     plates.push_back(std::move(plate));
   }
   return plates;

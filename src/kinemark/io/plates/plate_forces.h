@@ -31,9 +31,9 @@ struct PlateForces {
   std::vector<std::string> warnings;  ///< irregularities and repairs, one sentence each
 };
 
-/// Forces of the plates of types 1, 2, 3, 4 and 7, from any format that keeps their channels. Each frame gets
-/// the mean of the analog samples from half a frame before it to half a frame after it. A force is NaN where
-/// a sample was not a number.
+/// Forces of the plates of types 1, 2, 3, 4, 6 and 7, from any format that keeps their channels. Each frame
+/// gets the mean of the analog samples from half a frame before it to half a frame after it. A force is NaN
+/// where a sample was not a number.
 ///
 /// Fails when no plate has forces that can be computed: Code::bad_input. O(samples); memory 48 bytes per
 /// frame and plate.

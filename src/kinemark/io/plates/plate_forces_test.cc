@@ -46,7 +46,7 @@ struct Setting {
       (Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Eigen::AngleAxisd(3.14159265358979, Vector3d::UnitX()))
           .toRotationMatrix();
   Vector3d origin{0.002, -0.003, -0.04};  ///< from the plate's origin to the middle of its surface
-  double a = 0.12, b = 0.2;               ///< of the four sensors of type 3
+  double a = 0.12, b = 0.2;               ///< of the four sensors of types 3 and 6
   std::int64_t samples_per_frame = 4;
   bool markers_below = false;
 
@@ -55,11 +55,26 @@ struct Setting {
   double twist = 4.0;
 
   std::vector<std::string> units = {"N", "N", "N", "Nmm", "Nmm", "Nmm"};
-  Eigen::MatrixXd calibration;  ///< of type 4
+  Eigen::MatrixXd calibration;  ///< of types 4 and 6
   bool origin_flipped = false;
 
   [[nodiscard]] Vector3d moment_about_origin(const Vector3d& f) const {
     return (position + origin).cross(f) + Vector3d(0.0, 0.0, twist * f.z() / force.z());
+  }
+
+  [[nodiscard]] bool has_sensors() const { return type == 3 || type == 6; }
+
+  /// Three components of each of four sensors that have this sum and moment, of the many that do.
+  [[nodiscard]] Eigen::VectorXd of_sensors(const Vector3d& f, const Vector3d& m) const {
+    const Vector3d at[4] = {{a, b, 0.0}, {-a, b, 0.0}, {-a, -b, 0.0}, {a, -b, 0.0}};
+    Eigen::MatrixXd equations(6, 12);
+    for (int c = 0; c < 12; ++c)
+      equations.col(c) << Vector3d::Unit(c % 3), at[c / 3].cross(Vector3d::Unit(c % 3));
+    const auto solver = equations.completeOrthogonalDecomposition();
+    Eigen::VectorXd wanted(6);
+    wanted << f, m;
+    const Eigen::VectorXd any = Eigen::VectorXd::LinSpaced(12, -20.0, 35.0);
+    return any + solver.solve(wanted - equations * any);
   }
 
   [[nodiscard]] std::vector<double> channels(double scale) const {
@@ -79,8 +94,9 @@ struct Setting {
     }
     Eigen::VectorXd out(6);
     out << f, 1e3 * m;
-    if (type == 4) out = calibration.inverse() * out;
-    return {out.data(), out.data() + 6};
+    if (type == 6) out = of_sensors(f, m);
+    if (type == 4 || type == 6) out = calibration.inverse() * out;
+    return {out.data(), out.data() + out.size()};
   }
 
   /// A recording whose force follows `course` (1: as above), by analog sample.
@@ -91,9 +107,9 @@ struct Setting {
       t.markers.x(f, 0) = centre + Vector3d(0.3, 0.1, markers_below ? -1.0 : 1.0);
       t.markers.state[t.markers.index(f, 0)] = data::SampleState::measured;
     }
-    const std::size_t channel_count = type == 3 ? 8 : 6;
+    const std::size_t channel_count = type == 3 ? 8 : type == 6 ? 12 : 6;
     data::ForcePlate plate{.type = type, .origin_in_plate = origin_flipped ? Vector3d(-origin) : origin};
-    if (type == 3) plate.origin_in_plate = {a, b, origin_flipped ? -origin.z() : origin.z()};
+    if (has_sensors()) plate.origin_in_plate = {a, b, origin_flipped ? -origin.z() : origin.z()};
     const double corners[4][2] = {{0.25, 0.3}, {-0.25, 0.3}, {-0.25, -0.3}, {0.25, -0.3}};
     for (std::size_t c = 0; c < 4; ++c)
       plate.corners_in_world[c] = centre + world_from_plate * Vector3d(corners[c][0], corners[c][1], 0.0);
@@ -104,7 +120,7 @@ struct Setting {
     for (std::size_t c = 0; c < channel_count; ++c) {
       plate.channel_idx.push_back(static_cast<int>(c) + 1);
       t.analog.names.push_back("ch" + std::to_string(c));
-      t.analog.units.push_back(type != 3 && c < units.size() ? units[c] : "N");
+      t.analog.units.push_back(!has_sensors() && c < units.size() ? units[c] : "N");
     }
     t.force_plates.push_back(plate);
     t.analog.samples = frames * samples_per_frame;
@@ -161,17 +177,21 @@ void expect_truth(const Setting& setting, const data::Wrench& wrench, std::int64
 
 TEST(PlateForces, AForceAtAPointIsFoundForEveryType) {
   Random random(5, 0);
-  for (const int type : {1, 2, 3, 4}) {
+  for (const int type : {1, 2, 3, 4, 6}) {
     SCOPED_TRACE(type);
     Setting setting;
     setting.type = type;
-    if (type == 3) setting.origin.head<2>().setZero();  // sensors lie evenly about the middle
+    if (setting.has_sensors()) setting.origin.head<2>().setZero();  // sensors lie evenly about the middle
     if (type == 1) setting.units = {"N", "N", "N", "mm", "mm", "Nmm"};
     if (type == 4) {
       setting.units.assign(6, "V");
       setting.calibration = Eigen::MatrixXd::Zero(6, 6);
       for (double& v : setting.calibration.reshaped()) v = random.uniform(-0.05, 0.05);
       setting.calibration.diagonal() << 1.5, 1.6, 6.0, 740.0, 741.0, 390.0;
+    }
+    if (type == 6) {
+      setting.calibration = 12.0 * Eigen::MatrixXd::Identity(12, 12);
+      for (double& v : setting.calibration.reshaped()) v += random.uniform(-0.2, 0.2);
     }
     const auto forces = through_a_file(setting.trial(9, [](double) { return 1.0; })).value();
     ASSERT_EQ(forces.wrenches.items.size(), 1u);
@@ -246,6 +266,8 @@ TEST(PlateForces, UnitsOfOtherLanguagesAndScalesAreOnes) {
 
 TEST(PlateForces, ThePolynomialOfAKistlerPlateMovesItsCentreOfPressure) {
   Setting setting;
+  setting.type = 3;
+  setting.origin.head<2>().setZero();
   setting.force = {0.0, 0.0, -700.0};
   setting.position = {0.06, -0.05, 0.0};
   auto trial = setting.trial(3, [](double) { return 1.0; });
@@ -263,6 +285,19 @@ TEST(PlateForces, ThePolynomialOfAKistlerPlateMovesItsCentreOfPressure) {
       -1.76082995e-10, -4.22186008e-10, 1.29694999e-5,   1.20909999e-5,   -4.13978994e-2, 5.16279005e-2};
   EXPECT_LT((local(trial).first - Vector3d(0.0615, -0.0458, 0.0)).norm(), 1e-4);
   EXPECT_THAT(local(trial).second, Contains(HasSubstr("corrected by the file's polynomial")));
+  // Kept by every format that keeps plates.
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_mat(scratch / "p.mat", trial, {}));
+  ASSERT_TRUE(write_c3d(scratch / "p.c3d", trial));
+  EXPECT_LT((local(read_mat(scratch / "p.mat").value()).first - local(trial).first).norm(), 1e-12);
+  EXPECT_LT((local(read_c3d(scratch / "p.c3d").value()).first - local(trial).first).norm(), 1e-6);
+  // Of a plate whose moments are computed already it is not taken again.
+  Setting six;
+  auto other = six.trial(3, [](double) { return 1.0; });
+  other.force_plates[0].pressure_correction = trial.force_plates[0].pressure_correction;
+  const auto as_is = plate_forces(other).value();
+  expect_truth(six, as_is.wrenches.items.at(0), 1);
+  EXPECT_THAT(as_is.warnings, ElementsAre(HasSubstr("is not applied to one of type 2")));
 }
 
 TEST(PlateForces, FramesAreNeitherEarlyNorLate) {
@@ -356,6 +391,31 @@ TEST(PlateForces, CalibrationsOfSeveralSizesAreKept) {
   ASSERT_EQ(forces.wrenches.items.size(), 2U);
   expect_truth(setting, forces.wrenches.items[0], 3);
   expect_truth(beside, forces.wrenches.items[1], 3);
+}
+
+TEST(PlateForces, TheFormulasOfTwelveChannelsAreThoseOfTheirMaker) {
+  // As Visual3D writes them of FP_Type_6, from twelve numbers that nothing connects.
+  Random random(11, 0);
+  Setting setting;
+  setting.type = 6;
+  setting.calibration = Eigen::MatrixXd::Identity(12, 12);
+  auto trial = setting.trial(3, [](double) { return 1.0; });
+  double v[12];
+  for (double& x : v) x = random.uniform(-60.0, 60.0);
+  for (const int z : {2, 5, 8, 11}) v[z] = random.uniform(-300.0, -100.0);
+  for (std::int64_t i = 0; i < trial.analog.samples; ++i)
+    std::copy_n(v, 12, &trial.analog.values[13 * i + 1]);
+  const double a = 0.12, b = 0.2, az0 = -0.04;
+  const Vector3d force(v[0] + v[3] + v[6] + v[9], v[1] + v[4] + v[7] + v[10], v[2] + v[5] + v[8] + v[11]);
+  const double mx = b * (v[2] + v[5] - v[8] - v[11]), my = a * (-v[2] + v[5] + v[8] - v[11]),
+               mz = b * (-v[0] - v[3] + v[6] + v[9]) + a * (v[1] - v[4] - v[7] + v[10]);
+  const double x = (az0 * force.x() - my) / force.z(), y = (mx + az0 * force.y()) / force.z();
+  const auto wrench = plate_forces(trial).value().wrenches.items.at(0);
+  const Matrix3d& R = setting.world_from_plate;
+  EXPECT_LT((of_frame(wrench.force, 1) - R * force).norm(), 1e-9);
+  EXPECT_LT((of_frame(wrench.point, 1) - setting.centre - R * Vector3d(x, y, 0.0)).norm(), 1e-12);
+  EXPECT_LT((of_frame(wrench.moment, 1) - R * Vector3d(0, 0, mz - x * force.y() + y * force.x())).norm(),
+            1e-9);
 }
 
 TEST(PlateForces, AnEmptyPlateDoesNothing) {
@@ -462,8 +522,14 @@ TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {
   EXPECT_EQ(message(trial), "p.c3d: has no force plate whose forces can be read");
   trial = setting.trial(3, flat);
   trial.force_plates[0].type = 5;
-  EXPECT_THAT(message(trial),
-              HasSubstr("plate 1 is left out: it is of type 5; forces are read from types 1, 2, 3, 4 and 7"));
+  EXPECT_THAT(
+      message(trial),
+      HasSubstr("plate 1 is left out: it is of type 5; forces are read from types 1, 2, 3, 4, 6 and 7"));
+  for (const int type : {11, 12, 21}) {
+    trial.force_plates[0].type = type;
+    EXPECT_THAT(message(trial),
+                HasSubstr(fmt::format("plate 1 is left out: it is of type {}; forces", type)));
+  }
   trial.force_plates[0].type = 4;
   EXPECT_THAT(message(trial), HasSubstr("is of type 4 but has no CAL_MATRIX of 6 x 6 numbers"));
   trial.force_plates[0].calibration.assign(36, 0.0);
@@ -471,6 +537,13 @@ TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {
   EXPECT_THAT(message(trial), HasSubstr("CAL_MATRIX of zeros"));
   trial.force_plates[0].type = 3;
   EXPECT_THAT(message(trial), HasSubstr("has 6 analog channels; type 3 needs 8"));
+  Setting twelve;
+  twelve.type = 6;
+  twelve.calibration = Eigen::MatrixXd::Identity(12, 12);
+  auto six = twelve.trial(3, flat);
+  six.force_plates[0].calibration.resize(36);
+  six.force_plates[0].calibration_rows = 6;
+  EXPECT_THAT(message(six), HasSubstr("is of type 6 but has no CAL_MATRIX of 12 x 12 numbers"));
   trial = setting.trial(3, flat);
   trial.force_plates[0].corners_in_world[0] = trial.force_plates[0].corners_in_world[2];
   trial.force_plates[0].corners_in_world[1] = trial.force_plates[0].corners_in_world[3];

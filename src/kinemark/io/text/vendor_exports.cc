@@ -40,7 +40,7 @@ std::string_view format_name(VendorExport which) {
   return "";
 }
 
-Result<VendorHeader> parse_header(Lines& lines, VendorExport which, std::string_view unit,
+Result<VendorHeader> parse_header(Lines& lines, VendorExport which, std::string_view unit, double rate_hz,
                                   data::Trial& trial) {
   switch (which) {
     case VendorExport::qtm:
@@ -52,7 +52,7 @@ Result<VendorHeader> parse_header(Lines& lines, VendorExport which, std::string_
     case VendorExport::phasespace:
       return internal::parse_phasespace_header(lines, trial);
     case VendorExport::coordinates:
-      return internal::parse_coordinates_header(lines, trial, unit);
+      return internal::parse_coordinates_header(lines, trial, unit, rate_hz);
   }
   return fail(Code::usage, "no such text");
 }
@@ -121,11 +121,11 @@ Status move_outputs(const VendorHeader& header, data::Trial& trial) {
   return trial.validate();
 }
 
-Result<data::Trial> parse(std::string_view text, VendorExport which, std::string_view unit) {
+Result<data::Trial> parse(std::string_view text, VendorExport which, std::string_view unit, double rate_hz) {
   Lines lines(text);
   data::Trial trial;
   trial.format = format_name(which);
-  const auto header = parse_header(lines, which, unit, trial);
+  const auto header = parse_header(lines, which, unit, rate_hz, trial);
   if (!header) return std::unexpected(header.error());
   if (auto s = internal::read_marker_rows(lines, header->columns, text.size(), trial); !s)
     return std::unexpected(s.error());
@@ -179,19 +179,24 @@ std::optional<VendorExport> vendor_export_of(std::string_view begin) {
   return std::nullopt;
 }
 
+bool lacks_times(std::string_view begin) {
+  return vendor_export_of(begin) == VendorExport::coordinates &&
+         internal::begins_coordinates_without_times(begin);
+}
+
 Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name, VendorExport which,
-                                        std::string_view unit) {
-  auto trial = parse(text, which, unit);
+                                        std::string_view unit, double rate_hz) {
+  auto trial = parse(text, which, unit, rate_hz);
   if (!trial) return fail_at(name, trial.error());
   trial->source = name;
   return trial;
 }
 
 Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which,
-                                       std::string_view unit) {
+                                       std::string_view unit, double rate_hz) {
   const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
-  return parse_vendor_export(*text, path.string(), which, unit);
+  return parse_vendor_export(*text, path.string(), which, unit, rate_hz);
 }
 
 }  // namespace kinemark::io

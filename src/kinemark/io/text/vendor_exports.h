@@ -24,6 +24,9 @@ enum class VendorExport : std::uint8_t {
 /// Which of them a text is that begins like this (the labels of a table are in it); none: another text.
 [[nodiscard]] std::optional<VendorExport> vendor_export_of(std::string_view begin);
 
+/// Whether a text begins as a table of coordinates that has no column of times: its rate must be given.
+[[nodiscard]] bool lacks_times(std::string_view begin);
+
 /// Read the markers of such an export, in metres.
 ///
 /// - QTM: lines of a keyword and its values up to MARKER_NAMES and TRAJECTORY_TYPES, then, where they were
@@ -44,20 +47,22 @@ enum class VendorExport : std::uint8_t {
 ///
 /// - Tables of coordinates: labels in one line ("LASI_X", "LASI.x", "LASI X (mm)"), or names above a line of
 /// X, Y, Z;
-///   commas, tabs or semicolons between cells. A column of time is needed, in seconds unless it says ms. The
-///   unit of length is that of the labels, of a line of units below them, or `unit`; without any it is the
-///   one of m, cm and mm that makes the recording as large as a body, with a warning, and Code::bad_input
-///   where several do. Other columns are not read (warning).
+///   commas, tabs or semicolons between cells. A column of time, in seconds, or `rate_hz`: then rows are
+///   frames in a row, or those that a column of frame numbers says. The unit of length is that of the labels,
+///   of a line of units below them, or `unit`; without any it is the one of m, cm and mm that makes the
+///   recording as large as a body, with a warning, and Code::bad_input where several do. Other columns are
+///   not read (warning).
 ///
 /// Blank cells and what is no finite number are missing samples. Names that stand twice get a number. Frame
 /// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.
 /// Axes stay as they are. Code::bad_input, with line and column, for what does not fit; Code::io when it
 /// cannot be read. O(bytes); memory at most 16 times the text + 125 MB.
 [[nodiscard]] Result<data::Trial> read_vendor_export(const std::filesystem::path& path, VendorExport which,
-                                                     std::string_view unit = {});
+                                                     std::string_view unit = {}, double rate_hz = 0.0);
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
 [[nodiscard]] Result<data::Trial> parse_vendor_export(std::string_view text, std::string_view name,
-                                                      VendorExport which, std::string_view unit = {});
+                                                      VendorExport which, std::string_view unit = {},
+                                                      double rate_hz = 0.0);
 
 }  // namespace kinemark::io

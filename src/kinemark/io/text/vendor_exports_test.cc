@@ -379,6 +379,40 @@ TEST(CoordinateTables, TheUnitIsTheLabelsTheLinesTheUsersOrTheBodys) {
                               "labels: 'A_X (mm)'"));
 }
 
+TEST(CoordinateTables, WithoutTimesTheRateIsGiven) {
+  const auto read = [](const std::string& text) {
+    EXPECT_TRUE(lacks_times(text)) << text;
+    return parse_vendor_export(text, "t", VendorExport::coordinates, "m", 50.0).value();
+  };
+  for (const char* label :
+       {"frame", "Frame #", "Frame No.", "frame_number", "FNUM", "", "Unnamed: 0", "index"}) {
+    const auto trial = read(std::string(label) + ",A_x,A_y,A_z\n3,1,2,3\n4,1.5,2,3\n6,2,2,3\n");
+    EXPECT_EQ(trial.markers.time, (TimeBase{50.0, 0.04, 4})) << label;
+    EXPECT_EQ(trial.first_frame, 3);
+    EXPECT_DOUBLE_EQ(trial.markers.x(1, 0).x(), 1.5);
+    EXPECT_FALSE(trial.markers.present(2, 0)) << "frame 5 has no row";
+    EXPECT_THAT(trial.warnings, ElementsAre("1 frames between the rows have no row and are missing"));
+  }
+  // Rows alone, one after another; frames from 0; as anipose writes them.
+  EXPECT_EQ(read("A_x,A_y,A_z\n1,2,3\n2,2,3\n").markers.time, (TimeBase{50.0, 0.0, 2}));
+  EXPECT_EQ(read("frame,A_x,A_y,A_z\n0,1,2,3\n1,2,2,3\n").markers.time, (TimeBase{50.0, 0.0, 2}));
+  const auto pose = read(
+      "knee_x,knee_y,knee_z,knee_error,knee_ncams,knee_score,M_00,center_0,fnum\n"
+      "1,2,3,0.5,3,0.9,1,0,0\n,,,,0,,1,0,1\n2,2,3,0.5,3,0.9,1,0,2\n");
+  EXPECT_EQ(pose.markers.names, std::vector<std::string>{"knee"});
+  EXPECT_EQ(pose.markers.time, (TimeBase{50.0, 0.0, 3}));
+  EXPECT_FALSE(pose.markers.present(1, 0));
+  EXPECT_FALSE(lacks_times("time,A_x,A_y,A_z\n0,1,2,3\n"));
+  EXPECT_FALSE(lacks_times("frame,time_ms,A_x,A_y,A_z\n1,0,1,2,3\n"));
+  const auto bad = parse_vendor_export("A_x,A_y,A_z\n1,2,3\n", "t", VendorExport::coordinates, "m", -3.0);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().code, Code::usage);
+  const auto back =
+      parse_vendor_export("frame,A_x,A_y,A_z\n2,0,0,0\n1,0,0,0\n", "t", VendorExport::coordinates, "m", 50.0);
+  ASSERT_FALSE(back);
+  EXPECT_THAT(back.error().message, HasSubstr("the frame number does not increase; expected more than 2"));
+}
+
 TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
   const auto trial = good_export("frame,time,A_x,A_y,A_z,A_error,mood\n5,0,1,0,0,9,1\n6,0.01,1.5,0,0,9,1\n",
                                  VendorExport::coordinates);
@@ -386,8 +420,10 @@ TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
   EXPECT_THAT(trial.warnings,
               Contains(HasSubstr(
                   "2 of 7 columns are no coordinates of markers and are not read: 'A_error', 'mood'")));
-  EXPECT_THAT(bad_export("frame,A_x,A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
-              HasSubstr("without a column of times"));
+  EXPECT_THAT(
+      bad_export("frame,A_x,A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
+      HasSubstr("line 1: is a table of coordinates without a column of times; give its frame rate with "
+                "--rate HZ, or a column called 'time'"));
   EXPECT_THAT(bad_export("time_ms,A_x,A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),
               HasSubstr("times are in milliseconds"));
   EXPECT_THAT(bad_export("time,A_x (furlong),A_y,A_z\n1,0,0,0\n", VendorExport::coordinates),

@@ -222,6 +222,17 @@ Status read_plate_context(const MatPlace& in, std::int64_t i, data::ForcePlate& 
   return {};
 }
 
+/// What corrects the centre of pressure; empty, or absent in files of older versions: nothing does.
+Status read_pressure_correction(const MatPlace& in, data::ForcePlate& out) {
+  if (!in || in.array->count() == 0) return {};
+  const auto numbers = in.numbers({2, 6});
+  if (!numbers) return std::unexpected(numbers.error());
+  if (!std::ranges::all_of(*numbers, [](double v) { return std::isfinite(v); }))
+    return in.bad("holds a value that is no finite number");
+  out.pressure_correction.assign(numbers->begin(), numbers->end());
+  return {};
+}
+
 /// First and last time in which nobody loads the plates.
 Status read_unloaded(const MatPlace& in, std::array<double, 2>& out) {
   if (!in) return {};
@@ -254,6 +265,7 @@ Status read_plate(const MatPlace& in, std::int64_t i, std::int64_t channels, dat
   out.calibration.assign(numbers.begin(), numbers.end());
   if (!numbers.empty() && !calibration.array->dims.empty())
     out.calibration_rows = static_cast<int>(std::min<std::int64_t>(calibration.array->dims[0], 255));
+  if (auto s = read_pressure_correction(in("pressure_correction", i), out); !s) return s;
   return read_plate_context(in, i, out);
 }
 

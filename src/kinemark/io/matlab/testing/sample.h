@@ -70,6 +70,7 @@ inline data::Trial full_trial() {
                          .metres_per_unit = 1.0};
   for (int c = 0; c < 4; ++c) plate.corners_in_world[c] = Eigen::Vector3d(c, 0.5 * c, -0.25 * c);
   for (int i = 0; i < 36; ++i) plate.calibration.push_back(i);
+  for (int i = 0; i < 12; ++i) plate.pressure_correction.push_back(0.1 * i - 0.3);
   t.force_plates = {plate, {.number = 3, .type = 2}};
   t.unloaded_s = {0.25, 0.5};
   return t;

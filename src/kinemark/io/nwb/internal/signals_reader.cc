@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -289,6 +290,23 @@ Status read_calibration(const TableIn& table, std::vector<data::ForcePlate>& pla
   return {};
 }
 
+/// What corrects the centre of pressure, 12 numbers; rows of NaN, or no such column: nothing does.
+Status read_pressure_correction(const TableIn& table, std::vector<data::ForcePlate>& plates) {
+  constexpr const char* kColumn = "pressure_correction";
+  constexpr std::size_t kNumbers = 12;
+  if (!table.has(kColumn)) return {};
+  const auto values = table.numbers(kColumn, plates.size(), kNumbers);
+  if (!values) return std::unexpected(values.error());
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    const std::span row(values->data() + kNumbers * i, kNumbers);
+    const auto known = std::ranges::count_if(row, [](double v) { return std::isfinite(v); });
+    if (known > 0 && std::cmp_less(known, kNumbers))
+      return table.bad(kColumn, fmt::format("has {} of {} numbers in row {}", known, kNumbers, i + 1));
+    if (known > 0) plates[i].pressure_correction.assign(row.begin(), row.end());
+  }
+  return {};
+}
+
 Status read_plates(Input& in, std::size_t channels, std::vector<data::ForcePlate>& out) {
   const TableIn table = module_table(in, kPlatesTable);
   if (!table) return {};
@@ -299,7 +317,8 @@ Status read_plates(Input& in, std::size_t channels, std::vector<data::ForcePlate
   out.resize(static_cast<std::size_t>(shape->front()));
   if (auto s = read_geometry(table, out); !s) return s;
   if (auto s = read_wiring(table, channels, out); !s) return s;
-  return read_calibration(table, out);
+  if (auto s = read_calibration(table, out); !s) return s;
+  return read_pressure_correction(table, out);
 }
 
 Status read_unloaded(Input& in, std::array<double, 2>& out) {

@@ -255,6 +255,12 @@ void add_wiring(const std::vector<data::ForcePlate>& plates, std::vector<Column>
   if (!values.numbers.empty()) columns.push_back(std::move(values));
   columns.push_back(std::move(count));
   columns.push_back(std::move(rows));
+  Column polynomials{.name = "pressure_correction",
+                     .description =
+                         "polynomials of the error of the centre of pressure, 2 x 6 column by "
+                         "column, mm; NaN: none"};
+  add_ragged(plates, &data::ForcePlate::pressure_correction, kNaN, polynomials.numbers, polynomials);
+  if (!polynomials.numbers.empty()) columns.push_back(std::move(polynomials));
 }
 
 void write_plates(Output& out, hid_t module, const std::vector<data::ForcePlate>& plates) {

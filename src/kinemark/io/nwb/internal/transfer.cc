@@ -214,6 +214,7 @@ void pass_plate(Pipe& pipe, Plate& plate) {
   pass_each(pipe, plate.channel_idx, [&](auto& channel) { pass(pipe, channel); });
   pass_each(pipe, plate.calibration, [&](auto& number) { pass(pipe, number); });
   pass(pipe, plate.calibration_rows);
+  pass_each(pipe, plate.pressure_correction, [&](auto& number) { pass(pipe, number); });
   pass(pipe, plate.metres_per_unit);
 }
 

@@ -89,6 +89,7 @@ inline std::vector<data::ForcePlate> sample_plates() {
                               .calibration = {1.5, std::numeric_limits<double>::quiet_NaN(), -2.0, 0.1},
                               .calibration_rows = 2,
                               .metres_per_unit = 1.0};
+  for (int i = 0; i < 12; ++i) calibrated.pressure_correction.push_back(0.1 * i - 0.3);
   return {plate, calibrated, {.number = 3, .type = 1}};
 }
 

@@ -45,8 +45,6 @@ struct ChannelUnits {
   }
 };
 
-std::size_t channels_needed(int type) { return type == 3 || type == 7 ? 8 : 6; }
-
 /// Force and moment about the plate's origin from the eight channels fx12 fx34 fy14 fy23 fz1 fz2 fz3 fz4 of
 /// four sensors at (+-a, +-b).
 Eigen::MatrixXd of_four_sensors(double a, double b) {
@@ -57,6 +55,18 @@ Eigen::MatrixXd of_four_sensors(double a, double b) {
   m.row(3) << 0, 0, 0, 0, b, b, -b, -b;
   m.row(4) << 0, 0, 0, 0, -a, a, a, -a;
   m.row(5) << -b, b, a, -a, 0, 0, 0, 0;
+  return m;
+}
+
+/// The same from the three components of each of these four sensors in turn.
+Eigen::MatrixXd of_four_triaxial_sensors(double a, double b) {
+  constexpr double kSides[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  Eigen::MatrixXd m(6, 12);
+  for (int sensor = 0; sensor < 4; ++sensor) {
+    const double x = kSides[sensor][0] * a, y = kSides[sensor][1] * b;
+    m.block<3, 3>(0, 3 * sensor).setIdentity();
+    m.block<3, 3>(3, 3 * sensor) << 0, 0, y, 0, 0, -x, -y, x, 0;
+  }
   return m;
 }
 
@@ -78,13 +88,29 @@ Result<Eigen::MatrixXd> calibration(const data::ForcePlate& plate, std::size_t s
 
 }  // namespace
 
+std::size_t channels_needed(int type) {
+  switch (type) {
+    case 1:
+    case 2:
+    case 4:
+      return 6;
+    case 3:
+    case 7:
+      return 8;
+    case 6:
+      return 12;
+    default:
+      return 0;
+  }
+}
+
 Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
                                         const std::vector<std::string>& units) {
   const int type = plate.type;
-  if (!(type >= 1 && type <= 4) && type != 7)
-    return fail(Code::not_supported,
-                fmt::format("is of type {}; forces are read from types 1, 2, 3, 4 and 7", type));
   const std::size_t n = channels_needed(type);
+  if (n == 0)
+    return fail(Code::not_supported,
+                fmt::format("is of type {}; forces are read from types 1, 2, 3, 4, 6 and 7", type));
   if (plate.channel_idx.size() < n)
     return fail(Code::bad_input,
                 fmt::format("has {} analog channels; type {} needs {}", plate.channel_idx.size(), type, n));
@@ -94,7 +120,7 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
   // that give the opposite vector are recognised by its sign.
   wrench.centre_ = plate.origin_in_plate;
   wrench.origin_flipped_ = wrench.centre_.z() > 0.0;
-  const bool sensors = type == 3 || type == 7;
+  const bool sensors = type == 3 || type == 6 || type == 7, calibrated = type == 4 || type == 6 || type == 7;
   if (wrench.origin_flipped_ && sensors) wrench.centre_.z() *= -1.0;
   if (wrench.origin_flipped_ && !sensors) wrench.centre_ *= -1.0;
 
@@ -110,20 +136,21 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
       scale = of.newton_metres(c);
   }
   // The matrix of these turns volts, or whatever else comes in, into forces.
-  if (type != 4 && type != 7) wrench.unknown_units_ = std::move(of.unknown);
-  if (type == 4 || type == 7) {
+  if (!calibrated) wrench.unknown_units_ = std::move(of.unknown);
+  const double a = wrench.centre_.x(), b = wrench.centre_.y();
+  if (type == 6)
+    wrench.matrix_ = of_four_triaxial_sensors(a, b);
+  else if (sensors)
+    wrench.matrix_ = of_four_sensors(a, b);
+  else
+    wrench.matrix_ = Eigen::MatrixXd::Identity(6, 6);
+  if (calibrated) {
     auto matrix = calibration(plate, n);
     if (!matrix) return std::unexpected(matrix.error());
     // The matrix, not the channels, carries the units.
-    if (type == 4) matrix->bottomRows(3).array().colwise() *= wrench.scale_.tail(3).array();
+    if (!sensors) matrix->bottomRows(3).array().colwise() *= wrench.scale_.tail(3).array();
     wrench.scale_.setOnes();
-    wrench.matrix_ = type == 4
-                         ? *matrix
-                         : Eigen::MatrixXd(of_four_sensors(wrench.centre_.x(), wrench.centre_.y()) * *matrix);
-  } else if (type == 3) {
-    wrench.matrix_ = of_four_sensors(wrench.centre_.x(), wrench.centre_.y());
-  } else {
-    wrench.matrix_ = Eigen::MatrixXd::Identity(6, 6);
+    wrench.matrix_ = Eigen::MatrixXd(wrench.matrix_ * *matrix);
   }
   // Sensors lie evenly about the middle: the remaining component of ORIGIN is the depth.
   if (sensors) wrench.centre_.head<2>().setZero();

@@ -14,7 +14,10 @@ namespace kinemark::io::internal {
 
 /// Force and moment.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using PlateChannels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;  ///< 6 or 8
+using PlateChannels = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 12, 1>;  ///< 6, 8 or 12
+
+/// Whether forces are read from plates of that type of C3D, and how many channels they have: 0 where not.
+[[nodiscard]] std::size_t channels_needed(int type);
 
 /// What one sample of a plate's channels gives: force (N) and moment (N m) about the centre of its surface,
 /// in the plate's axes and with the sign of the file.
@@ -41,7 +44,7 @@ class PlateWrench {
   bool origin_flipped_ = false;
   std::vector<std::string> unknown_units_;
   PlateChannels scale_;  ///< of each channel, to N, N m and m
-  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 8> matrix_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 12> matrix_;
   Eigen::Vector3d centre_ =
       Eigen::Vector3d::Zero();  ///< of the surface, in the axes and from the origin of the plate
 };

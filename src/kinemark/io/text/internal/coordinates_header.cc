@@ -10,6 +10,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/io/rate.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/vendor_headers.h"
 
@@ -52,9 +53,19 @@ Label label_of(std::string_view cell) {
 
 enum class Clock : std::uint8_t { none, frame, seconds, milliseconds };
 
+/// "frameno" of "Frame No.".
+std::string letters_of(std::string_view text) {
+  std::string out;
+  for (const char c : lower(text))
+    if (c >= 'a' && c <= 'z') out += c;
+  return out;
+}
+
 Clock clock_of(const Label& label) {
   const std::string word = lower(label.name);
-  if (word == "frame" || word == "frame#" || word == "frames" || word == "fnum") return Clock::frame;
+  constexpr std::array<std::string_view, 7> kFrames{"frame",   "frames",   "framenumber", "frameno",
+                                                    "frameid", "frameidx", "fnum"};
+  if (std::ranges::find(kFrames, letters_of(word)) != kFrames.end()) return Clock::frame;
   constexpr std::array<std::string_view, 6> kTimes{"time", "t", "time_s", "times", "timestamp", "seconds"};
   if (std::ranges::find(kTimes, word) == kTimes.end() && word != "time_ms") return Clock::none;
   const std::string unit = lower(label.unit);
@@ -132,11 +143,18 @@ std::vector<Label> labels_of(const std::vector<std::string>& names, const std::v
   return out;
 }
 
+/// Of a column; rows that a program has numbered stand first, under no label or "Unnamed: 0".
+Clock clock_of(const std::vector<Label>& labels, std::size_t c) {
+  const std::string word = lower(labels[c].name);
+  const bool counts = labels[c].axis < 0 && (word.empty() || word == "index" || word == "unnamed: 0");
+  return c == 0 && counts ? Clock::frame : clock_of(labels[c]);
+}
+
 /// Times and frames first, then a marker.
 bool holds_markers(const std::vector<Label>& labels) {
   for (std::size_t c = 0; c < labels.size(); ++c) {
     if (is_triple(labels, c)) return true;
-    if (clock_of(labels[c]) == Clock::none) return false;
+    if (clock_of(labels, c) == Clock::none) return false;
   }
   return false;
 }
@@ -182,7 +200,17 @@ bool begins_coordinates(std::string_view begin) {
   return !read_labels(lines).empty();
 }
 
-Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, std::string_view unit) {
+bool begins_coordinates_without_times(std::string_view begin) {
+  Lines lines(begin);
+  const auto labels = read_labels(lines);
+  return !labels.empty() && std::ranges::none_of(labels, [](const Label& label) {
+    const Clock clock = clock_of(label);
+    return clock == Clock::seconds || clock == Clock::milliseconds;
+  });
+}
+
+Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, std::string_view unit,
+                                              double rate_hz) {
   const auto labels = read_labels(lines);
   if (labels.empty()) return fail(Code::bad_input, "line 1: labels no columns of x, y and z of a marker");
   const auto line = lines.number();
@@ -203,7 +231,7 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
       c += 2;
       continue;
     }
-    const Clock clock = clock_of(labels[c]);
+    const Clock clock = clock_of(labels, c);
     if (clock == Clock::milliseconds)
       return fail(
           Code::bad_input,
@@ -214,10 +242,13 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
     if (!is_time && clock != Clock::frame && !labels[c].name.empty())
       unread.push_back(fmt::format("'{}'", excerpt(labels[c].name)));
   }
-  if (!has_time)
-    return fail(Code::bad_input, fmt::format("line {}: is a table of coordinates without a column of times; "
-                                             "expected one called 'time', in seconds",
-                                             line));
+  if (!has_time && !is_rate(rate_hz))
+    return fail(
+        rate_hz == 0.0 ? Code::bad_input : Code::usage,
+        fmt::format("line {}: is a table of coordinates without a column of times; give its frame rate "
+                    "with --rate HZ, or a column called 'time', in seconds",
+                    line));
+  if (!has_time) out.columns.rates_hz.push_back(rate_hz);
   if (!unread.empty())
     trial.warnings.push_back(
         fmt::format("{} of {} columns are no coordinates of markers and are not read: {}", unread.size(),

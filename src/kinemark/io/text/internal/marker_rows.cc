@@ -123,8 +123,9 @@ Result<EvenClock> numbered_clock(const MarkerColumns& columns, const Rows& rows,
   if (columns.rates_hz.empty())
     return fail(Code::bad_input, "the header states no frame rate and the rows hold no times");
   const double rate = columns.rates_hz.front();
-  EvenClock out{
-      .time = {.rate_hz = rate, .t0_s = static_cast<double>(trial.first_frame - 1) / rate, .frames = count}};
+  // Where frames count from 0 the first is at 0, as where they count from 1.
+  const auto before = static_cast<double>(trial.first_frame == 0 ? 0 : trial.first_frame - 1);
+  EvenClock out{.time = {.rate_hz = rate, .t0_s = before / rate, .frames = count}};
   if (rows.number.empty()) return out;
   for (std::size_t i = 1; i < rows.number.size(); ++i)
     if (rows.number[i] <= rows.number[i - 1])

@@ -36,12 +36,15 @@ struct VendorHeader {
 [[nodiscard]] Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_phasespace_header(Lines& lines, data::Trial& trial);
 
-/// A table of coordinates; `unit` is the one that the user gives, or empty.
+/// A table of coordinates; `unit` is the one that the user gives, or empty, and `rate_hz` that of a table
+/// without times, or 0.
 [[nodiscard]] Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial,
-                                                            std::string_view unit);
+                                                            std::string_view unit, double rate_hz);
 /// Whether a text begins as one: x, y and z of a marker are the first columns that are neither time nor
 /// frame.
 [[nodiscard]] bool begins_coordinates(std::string_view begin);
+/// Whether it begins as one that has no column of times.
+[[nodiscard]] bool begins_coordinates_without_times(std::string_view begin);
 
 /// 1000 for "mm" or "Millimeters". Code::bad_input, naming
 /// the line, for any other word.
