@@ -60,12 +60,12 @@ std::string MassFault::sentence() const {
           body, size);
     case Kind::gyration:
       return fmt::format(
-          "the inertia of body '{}' is that of a mass {:.3g} m from its centre, and half of the model "
+          "the inertia of body '{}' is that of a mass {:.3g} m from its centre, and the whole model "
           "spans {:.3g} m",
           body, size, bound);
     case Kind::centre:
       return fmt::format(
-          "the mass centre of body '{}' lies {:.3g} m from its origin, and half of the model spans "
+          "the mass centre of body '{}' lies {:.3g} m from its origin, and the whole model spans "
           "{:.3g} m",
           body, size, bound);
     case Kind::mass:
@@ -78,7 +78,7 @@ std::string MassFault::sentence() const {
 
 std::vector<MassFault> find_mass_faults(const model::Model& model) {
   std::vector<MassFault> out;
-  const double span = span_of(model), half = 0.5 * span;
+  const double span = span_of(model);
   double mass = 0.0, largest = 0.0;
   for (const auto& body : model.description().bodies) {
     mass += body.mass;
@@ -87,10 +87,10 @@ std::vector<MassFault> find_mass_faults(const model::Model& model) {
     judge_moments(body.name, moments, out);
     if (body.mass > 0.0 && span > 0.0) {
       const double gyration = std::sqrt(std::max(0.0, moments[2]) / body.mass);
-      if (gyration > half)
-        out.push_back({.kind = Kind::gyration, .body = body.name, .size = gyration, .bound = half});
-      if (const double away = body.com_in_body.norm(); away > half)
-        out.push_back({.kind = Kind::centre, .body = body.name, .size = away, .bound = half});
+      if (gyration > span)
+        out.push_back({.kind = Kind::gyration, .body = body.name, .size = gyration, .bound = span});
+      if (const double away = body.com_in_body.norm(); away > span)
+        out.push_back({.kind = Kind::centre, .body = body.name, .size = away, .bound = span});
     }
     if (out.size() == before) largest = std::max(largest, moments[2]);
   }

@@ -12,7 +12,7 @@ namespace kinemark::motion {
 
 /// One of them.
 struct MassFault {
-  /// centre and gyration: beyond half of what the whole model spans; mass: of all bodies, above that of a
+  /// centre and gyration: beyond what the whole model spans; mass: of all bodies, above that of a
   /// ball of water which is twice as wide.
   enum class Kind { negative_moment, triangle, gyration, centre, mass };
   Kind kind = Kind::triangle;
