@@ -156,14 +156,14 @@ class Plate:
 
     def sensors(self, force, moment):
         """Forces of sensors at (+a, +b), (-a, +b), (-a, -b), (+a, -b) with that sum and moment, of the many that have it."""
-        places = [[sx * self.a, sy * self.b, 0.0] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
-        forces = [[self.dice.uniform(-20, 20) for _ in range(3)] for _ in places]
+        positions = [[sx * self.a, sy * self.b, 0.0] for sx, sy in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+        forces = [[self.dice.uniform(-20, 20) for _ in range(3)] for _ in positions]
         sums = plus(*forces)
         forces = [plus(f, [(want - have) / 4 for want, have in zip(force, sums)]) for f in forces]
-        mx, my, mz = plus(moment, [-v for v in plus(*(cross(p, f) for p, f in zip(places, forces)))])
+        mx, my, mz = plus(moment, [-v for v in plus(*(cross(p, f) for p, f in zip(positions, forces)))])
         share = mz / (4 * (self.a**2 + self.b**2))
         return [plus(f, [-share * y, share * x, mx / (4 * self.b) * math.copysign(1, y) - my / (4 * self.a) * math.copysign(1, x)])
-                for f, (x, y, _) in zip(forces, places)]
+                for f, (x, y, _) in zip(forces, positions)]
 
     def units(self):
         if self.kind == 1:
@@ -194,9 +194,9 @@ def written(path, dice, plates, length, mips):
     zero = dice.choice((None, (0, 0), (0, EMPTY - 2), (1, EMPTY - 2)))
     metres = LENGTHS[length]
     total = sum(CHANNELS[p.kind] for p in plates) + 3
-    places = list(range(total))
-    dice.shuffle(places)
-    taken = iter(places)
+    positions = list(range(total))
+    dice.shuffle(positions)
+    taken = iter(positions)
     wiring = [[next(taken) for _ in range(CHANNELS[p.kind])] for p in plates]
     units, scales = ["V"] * total, [1.0] * total
     offsets, general = [dice.choice((0, 100, -7)) for _ in range(total)], single(dice.choice((1.0, 0.5, 1e-3)))
