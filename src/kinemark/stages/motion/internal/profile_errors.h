@@ -44,7 +44,7 @@ class ProfileErrors {
   };
 
   void find_directions();
-  bool settle(Eigen::VectorXd& state, Eigen::Index held);
+  double settle(Eigen::VectorXd& state, Eigen::Index held);
   void profile(const Direction& direction, double sign);
   double residuals(const Eigen::VectorXd& state);
 
@@ -55,7 +55,7 @@ class ProfileErrors {
   const Eigen::VectorXd* information_ = nullptr;
   Eigen::Matrix3Xd residual_;
   Eigen::MatrixXd K_;
-  Eigen::VectorXd whole_, best_, moved_, step_, q_, q_best_, linear_, lacks_;
+  Eigen::VectorXd whole_, best_, moved_, tried_, step_, q_, q_best_, linear_, lacks_;
   double chi_square_ = 0.0;
   std::vector<Direction> directions_;
 };
