@@ -150,9 +150,10 @@ TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {
   };
   EXPECT_THAT(message(""), HasSubstr("a.csv: is empty"));
   EXPECT_THAT(message("frame,time_s,x_m,y_m,z_m\n"), HasSubstr("line 1: column 'marker' is absent"));
-  EXPECT_THAT(message("time,acc_x,acc_y,acc_z\n"),
-              HasSubstr("line 1: none of its 4 columns is a position of a marker. Need a time and columns such "
-                        "as"));
+  EXPECT_THAT(
+      message("time,acc_x,acc_y,acc_z\n"),
+      HasSubstr("line 1: none of its 4 columns is a position of a marker. Need a time and columns such "
+                "as"));
   EXPECT_THAT(message("frame,frame\n"), HasSubstr("line 1: column 'frame' occurs twice"));
   EXPECT_THAT(message(header), HasSubstr("has a header but no samples"));
   EXPECT_THAT(message(header + "1,0,A,1,2,3\n"), HasSubstr("line 2: has 6 cells; the header has 7"));

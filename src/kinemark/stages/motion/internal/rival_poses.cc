@@ -233,8 +233,7 @@ class Rivals {
   void follow(std::int64_t beside, std::vector<Candidate>& here) {
     const auto& there = of_frame_[at(beside)];
     for (std::size_t k = 0; k < std::min(there.size(), kMostRivals); ++k)
-      if (!near_one_of(there[k].state, here, 0.5 * kDiffers))
-        take(there[k].state, here);
+      if (!near_one_of(there[k].state, here, 0.5 * kDiffers)) take(there[k].state, here);
   }
 
   /// A start from which one of these poses would be found again: it is near, and nearer than `most`.
