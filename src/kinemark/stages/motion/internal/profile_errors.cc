@@ -30,7 +30,8 @@ constexpr double kFurther = 1.6;
 constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
 constexpr int kMostSteps = 20;
 constexpr int kMostHalved = 5;
-constexpr double kSettled = 1e-3;  // rad or m, of the last step
+constexpr int kTrusted = 3;        // steps after which one that cannot lead to a fit is believed
+constexpr double kSettled = 0.01;  // of chi-square, by which the next step would lower it
 
 }  // namespace
 
@@ -77,10 +78,13 @@ double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
     model::clear_forces(w_);
     model::add_marker_forces(problem_.model, w_, *information_, residual_);
     model::project_forces(problem_.model, w_, step_);
+    force_ = step_;
     covariance_.factor(w_, *information_, held);
     covariance_.solve(step_);
     const double longest = step_.cwiseAbs().maxCoeff();
     if (!std::isfinite(longest)) return HUGE_VAL;
+    const double less = step_.dot(force_);  // chi-square, were the model linear
+    if (less < kSettled || (k >= kTrusted && chi_square - less > chi_square_ + kEnough)) return chi_square;
     if (longest > 0.5) step_ *= 0.5 / longest;
     bool lower = false;
     for (int halved = 0; !lower && halved < kMostHalved; ++halved) {
@@ -93,7 +97,6 @@ double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
     }
     if (!lower) return chi_square;
     state = tried_;
-    if (longest < kSettled) return chi_square;
   }
   return chi_square;
 }
@@ -132,6 +135,7 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   find_directions();
   if (directions_.empty()) return;
   best_ = x;
+  chi_square_ = HUGE_VAL;
   chi_square_ = settle(best_, -1);
   q_best_.resize(q_.size());
   q_best_.setZero();
