@@ -29,7 +29,9 @@ constexpr double kFirst = 2.0;  // deviations, the first place to ask; each furt
 constexpr double kFurther = 1.6;
 constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
 constexpr int kMostSteps = 20;
-constexpr double kSettled = 1e-3;  // rad or m, of the last step
+constexpr int kMostHalved = 5;
+constexpr int kTrusted = 3;        // steps after which one that cannot lead to a fit is believed
+constexpr double kSettled = 0.01;  // of chi-square, by which the next step would lower it
 
 }  // namespace
 
@@ -68,22 +70,35 @@ double ProfileErrors::residuals(const VectorXd& state) {
   return chi_square;
 }
 
-/// Gauss-Newton steps with one speed held; false where they do not settle.
-bool ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
+/// Gauss-Newton steps with one speed held, shortened while they lead uphill: a limb that the markers leave
+/// open would swing to and fro, and hide what the others show. Chi-square where they end.
+double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
+  double chi_square = residuals(state);
   for (int k = 0; k < kMostSteps; ++k) {
-    residuals(state);
     model::clear_forces(w_);
     model::add_marker_forces(problem_.model, w_, *information_, residual_);
     model::project_forces(problem_.model, w_, step_);
+    force_ = step_;
     covariance_.factor(w_, *information_, held);
     covariance_.solve(step_);
     const double longest = step_.cwiseAbs().maxCoeff();
-    if (!std::isfinite(longest)) return false;
+    if (!std::isfinite(longest)) return HUGE_VAL;
+    const double less = step_.dot(force_);  // chi-square, were the model linear
+    if (less < kSettled || (k >= kTrusted && chi_square - less > chi_square_ + kEnough)) return chi_square;
     if (longest > 0.5) step_ *= 0.5 / longest;
-    model::integrate(problem_.model, state, step_);
-    if (longest < kSettled) return true;
+    bool lower = false;
+    for (int halved = 0; !lower && halved < kMostHalved; ++halved) {
+      tried_ = state;
+      model::integrate(problem_.model, tried_, step_);
+      const double tried = residuals(tried_);
+      lower = tried <= chi_square;
+      if (lower) chi_square = tried;
+      step_ *= 0.5;
+    }
+    if (!lower) return chi_square;
+    state = tried_;
   }
-  return false;
+  return chi_square;
 }
 
 /// Ask at places ever further along one direction; lacks_ becomes what they show.
@@ -95,8 +110,7 @@ void ProfileErrors::profile(const Direction& direction, double sign) {
   for (double s = std::min(kFirst, farthest);; s = std::min(kFurther * s, farthest)) {
     step_ = sign * (s - before) * v;
     model::integrate(problem_.model, moved_, step_);
-    if (!settle(moved_, direction.speed)) return;
-    const double rise = residuals(moved_) - chi_square_;
+    const double rise = settle(moved_, direction.speed) - chi_square_;
     if (!(rise < kEnough)) return;
     model::coordinates_from_state(problem_.model, moved_, q_best_, q_);
     for (Eigen::Index c = 0; c < q_.size(); ++c) {
@@ -121,8 +135,8 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   find_directions();
   if (directions_.empty()) return;
   best_ = x;
-  settle(best_, -1);
-  chi_square_ = residuals(best_);
+  chi_square_ = HUGE_VAL;
+  chi_square_ = settle(best_, -1);
   q_best_.resize(q_.size());
   q_best_.setZero();
   model::coordinates_from_state(problem_.model, best_, q_best_, q_best_);

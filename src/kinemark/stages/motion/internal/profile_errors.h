@@ -26,8 +26,8 @@ class ProfileErrors {
   /// markers would leave or more: the speed that it moves most is held at places to both sides, the others
   /// are solved anew, and chi-square rises by D. A coordinate that went by d has a deviation of d /
   /// sqrt(max(D, 1)) at least (profile likelihood); what that is above the linear one is added. Places beyond
-  /// D = 16, the limits of the coordinate and 1.5 rad (m) are not asked. Costs up to 50 Newton steps for each
-  /// of up to eight directions, and one where all directions are known well.
+  /// D = 16, the limits of the coordinate and 1.5 rad (m) are not asked. Costs some 50 Newton steps for each
+  /// of up to twelve directions, and one where all directions are known well.
   ///
   /// @param x            state that was solved
   /// @param y            3 x M, m
@@ -44,7 +44,7 @@ class ProfileErrors {
   };
 
   void find_directions();
-  bool settle(Eigen::VectorXd& state, Eigen::Index held);
+  double settle(Eigen::VectorXd& state, Eigen::Index held);
   void profile(const Direction& direction, double sign);
   double residuals(const Eigen::VectorXd& state);
 
@@ -55,7 +55,7 @@ class ProfileErrors {
   const Eigen::VectorXd* information_ = nullptr;
   Eigen::Matrix3Xd residual_;
   Eigen::MatrixXd K_;
-  Eigen::VectorXd whole_, best_, moved_, step_, q_, q_best_, linear_, lacks_;
+  Eigen::VectorXd whole_, best_, moved_, tried_, force_, step_, q_, q_best_, linear_, lacks_;
   double chi_square_ = 0.0;
   std::vector<Direction> directions_;
 };

@@ -67,5 +67,63 @@ TEST(ProfileErrors, OfAnArmThatNoiseBentReachItsMirrorPose) {
   EXPECT_GE(std::sqrt(added[0] + 0.25 * linear * linear), flexion - 0.02);
 }
 
+/// Two arms side by side, a marker 10 mm beside each shoulder and 0.3 m beside each elbow; all is seen as the
+/// model has it at `pose`, but the second hand by `beyond_m` out of reach. What is added without the marker
+/// of each upper arm, the second one's by request.
+Eigen::VectorXd lacks_of_two_arms(double beyond_m, bool second_upper_is_seen) {
+  auto m = arm_with_lever(0.01);
+  const auto second = arm_with_lever(0.01);
+  for (auto body : second.bodies) m.bodies.push_back(body);
+  for (auto coordinate : second.coordinates) {
+    coordinate.name += "_2";
+    m.coordinates.push_back(coordinate);
+  }
+  for (auto joint : second.joints) {
+    joint.name += "_2";
+    if (joint.parent_body_idx >= 0) joint.parent_body_idx += 2;
+    joint.child_body_idx += 2;
+    for (auto& axis : joint.axes) axis.coordinate_idx += 2;
+    m.joints.push_back(joint);
+  }
+  m.bodies[2].name = "upper_2";
+  m.bodies[3].name = "fore_2";
+  for (auto marker : second.markers) {
+    marker.name += "2";
+    marker.body_idx += 2;
+    m.markers.push_back(marker);
+  }
+  const auto model = model::Model::compile(m).value();
+  auto all =
+      data::Trajectories::all_missing({"U", "H", "U2", "H2"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
+  model::Workspace w(model);
+  const Eigen::VectorXd x = model::state_from_coordinates(model, Eigen::Vector4d(0.4, 1.0, 0.3, 0.02));
+  model::kinematics(model, w, x);
+  Eigen::Matrix3Xd y = w.marker;
+  y.col(3) *= 1.0 + beyond_m / y.col(3).norm();
+  for (int i = 0; i < 4; ++i) {
+    all.x(0, i) = y.col(i);
+    all.state[all.index(0, i)] = data::SampleState::measured;
+  }
+  const auto problem = make_problem(model, all, {}).value();
+  ProfileErrors profile(problem);
+  Eigen::VectorXd variance = Eigen::Vector4d::Zero();
+  const Eigen::Vector4d seen(1.0, 0.0, second_upper_is_seen ? 1.0 : 0.0, 1.0);
+  profile.add(x, y, seen / (kSd_m * kSd_m), Eigen::Vector4d::Ones() / (kSd_m * kSd_m),
+              Eigen::Matrix4d::Identity(), variance);
+  return variance;
+}
+
+TEST(ProfileErrors, ALimbThatSwingsToAndFroHidesNoOther) {
+  // The second arm is stretched towards a hand out of its reach: to first order nothing holds its elbow, and
+  // full steps overshoot for ever. What the first one lacks has nothing to do with it.
+  const double alone = lacks(0.01, {0.4, 1.0}, {1.0, 0.0})[0];
+  ASSERT_GT(alone, 0.04);
+  for (const bool seen : {true, false})
+    for (const double beyond_m : {0.0, 0.02, 0.1}) {
+      const auto added = lacks_of_two_arms(beyond_m, seen);
+      EXPECT_NEAR(added[0], alone, 2e-3) << beyond_m;
+    }
+}
+
 }  // namespace
 }  // namespace kinemark::motion::internal

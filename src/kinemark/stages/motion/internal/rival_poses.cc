@@ -233,15 +233,15 @@ class Rivals {
   void follow(std::int64_t beside, std::vector<Candidate>& here) {
     const auto& there = of_frame_[at(beside)];
     for (std::size_t k = 0; k < std::min(there.size(), kMostRivals); ++k)
-      if (!near_one_of(there[k].state, here, there.size() == 1 ? HUGE_VAL : 0.5 * kDiffers))
-        take(there[k].state, here);
+      if (!near_one_of(there[k].state, here)) take(there[k].state, here);
   }
 
-  /// A start from which one of these poses would be found again: it is near, and nearer than `most`.
-  bool near_one_of(const VectorXd& start, const std::vector<Candidate>& here, double most) {
+  /// A start from which one of these poses would be found again: it is near, and no other pose however
+  /// far the recording's steps go: those of limbs that are badly held leap.
+  bool near_one_of(const VectorXd& start, const std::vector<Candidate>& here) {
     return std::ranges::any_of(here, [&](const Candidate& c) {
       model::difference(problem_.model, start, c.state, move_);
-      return (move_.array().abs() < (kNearInSteps * step_.array()).min(most)).all();
+      return (move_.array().abs() < (kNearInSteps * step_.array()).min(0.5 * kDiffers)).all();
     });
   }
 
@@ -403,8 +403,7 @@ void doubt_rivals(const Problem& problem, const std::vector<RivalPose>& rivals, 
         const auto i = motion.index(f, c);
         if (motion.determined[i] == 0 || !(motion.q_sd[i] > 0.0)) continue;
         const double apart = std::abs(rival[c] - taken[c]);
-        if (apart < std::max(0.5 * kDiffers, 2.0 * motion.q_sd[i])) continue;
-        doubt[c] += rivals[r].probability;
+        if (apart > std::max(0.5 * kDiffers, 2.0 * motion.q_sd[i])) doubt[c] += rivals[r].probability;
         motion.q_sd[i] = std::hypot(motion.q_sd[i], std::sqrt(rivals[r].probability) * apart);
       }
     }

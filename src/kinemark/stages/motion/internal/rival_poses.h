@@ -37,8 +37,8 @@ struct RivalPose {
                                                          SolvedFrames& solved,
                                                          std::vector<std::uint8_t>& changed);
 
-/// Where a rival differs in a coordinate by more than its deviation: that is wider by the rival's share, and
-/// the coordinate is not determined where the rival is not very improbable.
+/// The deviation of each coordinate is wider by each rival's share. Where rivals that are not very improbable
+/// differ in it by more than 0.03 rad (m) and two deviations, the coordinate is not determined.
 void doubt_rivals(const Problem& problem, const std::vector<RivalPose>& rivals, data::JointMotion& motion);
 
 }  // namespace kinemark::motion::internal

@@ -102,6 +102,46 @@ TEST_F(RivalPoses, AWrongStartIsPutRightByTheFramesBehind) {
   EXPECT_EQ(changed[50], 0);
 }
 
+TEST_F(RivalPoses, ASingleFrameOnTheMirrorPoseIsPutRightWhereAnglesLeap) {
+  // Both markers of the forearm fix it; one frame between two searches has only one of them. Elsewhere the
+  // angles leap by 0.3 rad, as badly held ones do: that says nothing of a pose one radian away.
+  auto description = arm();
+  description.markers.push_back({.name = "W", .body_idx = 1, .x_in_body = {0.04, -0.1, 0.0}});
+  const auto three = model::Model::compile(description).value();
+  auto markers =
+      data::Trajectories::all_missing({"U", "H", "W"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 300});
+  model::Workspace w(three);
+  for (std::int64_t f = 0; f < 300; ++f) {
+    model::kinematics(three, w, model::state_from_coordinates(three, angles(f, false)));
+    for (int m = 0; m < 3; ++m) {
+      markers.x(f, m) = w.marker.col(m);
+      markers.state[markers.index(f, m)] = data::SampleState::measured;
+    }
+  }
+  for (std::int64_t f = 130; f < 160; ++f) markers.set_missing(f, 0);
+  constexpr std::int64_t kAlone = 133;
+  markers.set_missing(kAlone, 2);
+  const auto problem = make_problem(three, markers, {}).value();
+  const IkOptions options;
+  const Progress progress;
+  FrameWalk walk(problem, options, progress);
+  SolvedFrames solved;
+  ASSERT_TRUE(walk.run(markers, false, solved));
+  for (std::int64_t f = 0; f < 100; f += 2)
+    walk.put(markers, f, solved.states.col(f) + Eigen::Vector2d(0.3, 0.3), solved);
+  const double elbow = solved.states(1, kAlone);
+  walk.put(markers, kAlone, solved.states.col(kAlone) + Eigen::Vector2d(elbow, -2.0 * elbow), solved);
+  ASSERT_LT(solved.cost[static_cast<std::size_t>(kAlone)], 1e-5) << "it fits";
+  const MarkerVariances variances{.own = Eigen::Vector3d::Constant(1e-6), .common = Eigen::Vector2d::Zero()};
+  std::vector<std::uint8_t> changed;
+  const auto loose = find_loose_frames(problem, markers);
+  ASSERT_GE(loose.pattern[kAlone], 0);
+  (void)choose_among_rivals(problem, options, markers, loose, variances, walk, solved, changed);
+  EXPECT_NEAR(solved.states(1, kAlone), angles(kAlone, false)[1], 0.06);
+  EXPECT_EQ(changed[kAlone], 1);
+  EXPECT_EQ(changed[kAlone - 1], 0);
+}
+
 TEST_F(RivalPoses, BetweenStretchedArmsNobodyKnowsAndItIsSaid) {
   // The elbow passes 0 twice while the upper arm is not seen: either side fits in between.
   auto markers = record(true);
@@ -145,6 +185,23 @@ TEST_F(RivalPoses, DoubtWidensByTheShareAndEndsDetermination) {
   EXPECT_EQ(motion.determined[2], 1);
   EXPECT_EQ(motion.determined[3], 0);
   EXPECT_TRUE(std::isnan(motion.q_sd[3]));
+}
+
+TEST_F(RivalPoses, ASmallDifferenceWidensWhatIsKnownWell) {
+  // 8 mrad apart where 1 mrad is claimed: too near to be another pose, too far for the deviation.
+  const auto problem = make_problem(model, record(), {}).value();
+  data::JointMotion motion;
+  motion.coordinates = {"shoulder", "elbow"};
+  motion.is_rotation = {true, true};
+  motion.time = {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1};
+  motion.q = {0.5, 1.0};
+  motion.q_sd = {0.001, 0.01};
+  motion.determined.assign(2, 1);
+  const Eigen::Vector2d rival(0.508, -1.0);
+  doubt_rivals(problem, {{.frame = 0, .state = rival, .probability = 0.05}}, motion);
+  EXPECT_NEAR(motion.q_sd[0], std::hypot(0.001, std::sqrt(0.05) * 0.008), 1e-9);
+  EXPECT_EQ(motion.determined[0], 1);
+  EXPECT_EQ(motion.determined[1], 0);
 }
 
 }  // namespace
