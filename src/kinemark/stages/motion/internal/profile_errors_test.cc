@@ -73,7 +73,7 @@ TEST(ProfileErrors, OfAnArmThatNoiseBentReachItsMirrorPose) {
 Eigen::VectorXd lacks_of_two_arms(double beyond_m, bool second_upper_is_seen) {
   auto m = arm_with_lever(0.01);
   const auto second = arm_with_lever(0.01);
-  for (auto body : second.bodies) m.bodies.push_back(body);
+  for (const auto& body : second.bodies) m.bodies.push_back(body);
   for (auto coordinate : second.coordinates) {
     coordinate.name += "_2";
     m.coordinates.push_back(coordinate);
