@@ -17,6 +17,7 @@
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
+#include "kinemark/stages/analysis/gait/gait.h"
 #include "kinemark/stages/motion/dynamics/masses.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
@@ -89,6 +90,7 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   if (!swaps) return std::unexpected(swaps.error());
   for (const auto& swap : workflow::sure_swaps(*swaps))
     out.warnings.push_back(sentence_of(swap, markers.time));
+  std::ranges::move(analysis::contradicted_events(markers, trial.events), std::back_inserter(out.warnings));
   return {};
 }
 

@@ -22,7 +22,7 @@ namespace kinemark::pipeline {
 /// dropped.
 struct InfoJob : JobSettings, RecordingOptions {
   std::filesystem::path file;   ///< to look at
-  bool find_exchanges = false;  ///< warn of markers that carry each other's label
+  bool find_exchanges = false;  ///< warn of labels of markers and events that are not theirs
 };
 
 /// Of points that are no markers.

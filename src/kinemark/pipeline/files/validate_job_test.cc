@@ -5,9 +5,13 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/testing/test_files.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -47,6 +51,29 @@ TEST_F(RunValidate, EveryFileHasItsOwnStatusAndTheWorstCounts) {
   EXPECT_THAT(outcome.files[2].error->message, HasSubstr("broken.osim"));
   EXPECT_EQ(validate({good_}).exit_status(), 0);
   EXPECT_EQ(validate({}).exit_status(), 0);
+}
+
+TEST_F(RunValidate, EventsThatTheMarkersContradictAreNamedAsGaitNamesThem) {
+  const analysis::testing::KnownWalk walk;
+  data::Trial trial{.markers = walk.markers(0.0003, 3)};
+  for (const bool exchanged : {false, true}) {
+    trial.events.clear();
+    for (const auto& event : walk.events()) {
+      const bool left = (event.side == data::Side::left) != exchanged;
+      trial.events.push_back(
+          {std::string(data::to_string(event.what)), left ? "Left" : "Right", event.time_s});
+    }
+    const auto file = scratch_ / "walk.c3d";
+    const auto written = io::write_markers(file, trial, true);
+    ASSERT_TRUE(written) << written.error().message;
+    const auto outcome = validate({file});
+    const auto& warnings = outcome.files.at(0).warnings;
+    const bool said = std::ranges::any_of(warnings, [](const std::string& warning) {
+      return warning.starts_with("left and right of the file's events are exchanged: ");
+    });
+    EXPECT_EQ(said, exchanged);
+    EXPECT_EQ(outcome.exit_status(), exchanged ? 1 : 0) << (warnings.empty() ? "" : warnings[0]);
+  }
 }
 
 TEST_F(RunValidate, TheJsonHasWarningsOrAnError) {

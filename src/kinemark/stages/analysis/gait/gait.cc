@@ -353,4 +353,17 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   return out;
 }
 
+std::vector<std::string> contradicted_events(const data::Trajectories& markers,
+                                             std::span<const data::Event> events) {
+  const auto of_file = events_of_file(events, markers.time);
+  if (of_file.events.empty()) return {};
+  const auto which = find_gait_markers(markers, {});
+  if (!which) return {};
+  auto smoother = GaitSmoother::create(markers, *which, 0.0, std::nullopt);
+  if (!smoother) return {};
+  const auto of_markers = find_marker_events(*smoother, *which);
+  if (!of_markers) return {};
+  return contradicted_labels(*of_markers, of_file.events);
+}
+
 }  // namespace kinemark::analysis

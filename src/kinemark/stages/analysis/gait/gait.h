@@ -72,6 +72,11 @@ struct Gait {
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
 
+/// What analyze_gait() says of the file's own events that the markers contradict (event_labels.h), without
+/// measuring. Nothing without events of feet and where markers tell no gait.
+[[nodiscard]] std::vector<std::string> contradicted_events(const data::Trajectories& markers,
+                                                           std::span<const data::Event> events);
+
 /// What noise does to the time of an event: root mean square over the refits that find it. NaN where more
 /// than a tenth do not: those that do are then no sample of all.
 /// @param moved_s  by how much each refit moves it, s; NaN: not found there

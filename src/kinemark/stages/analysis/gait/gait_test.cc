@@ -150,6 +150,31 @@ TEST(Gait, TheFilesEventsAreComparedOrTaken) {
   EXPECT_NEAR(value_of(taken, "double_support", "Left"), 0.12 * 1.08, 1e-9);
 }
 
+TEST(Gait, EventsThatTheMarkersContradictAreNamedWithoutMeasuring) {
+  const KnownWalk walk;
+  const auto markers = walk.markers(0.0003, 3);
+  const auto events = [&](bool exchanged) {
+    std::vector<data::Event> out;
+    for (const auto& event : walk.events()) {
+      const bool left = (event.side == Side::left) != exchanged;
+      out.push_back({std::string(data::to_string(event.what)), left ? "Left" : "Right", event.time_s});
+    }
+    return out;
+  };
+  EXPECT_TRUE(contradicted_events(markers, events(false)).empty());
+  EXPECT_TRUE(contradicted_events(markers, {}).empty());
+  const auto said = contradicted_events(markers, events(true));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_THAT(said[0], HasSubstr("left and right of the file's events are exchanged"));
+  const auto gait = analyze_gait(markers, {.events = events(true)}, {.refits = 0}).value();
+  EXPECT_THAT(gait.notes, Contains(said[0])) << "the words of a measured gait";
+  // Who stands still contradicts nobody.
+  auto still = markers;
+  for (std::int64_t f = 1; f < still.frames(); ++f)
+    for (std::int64_t m = 0; m < still.markers(); ++m) still.x(f, m) = markers.x(0, m);
+  EXPECT_TRUE(contradicted_events(still, events(true)).empty());
+}
+
 // A stored event errs like any other: 40 ms late against plates, stances are uncertain by as much, and
 // strides, in which what all have in common cancels, are not.
 TEST(Gait, WhatTheFilesEventsErrByReachesEveryMeasure) {

@@ -18,9 +18,8 @@ constexpr double kShrink = 0.1;         // added to the diagonal, as a part of i
 constexpr double kLeastSquare = 1e-15;  // m^2
 constexpr double kStrayRms = 5.0;       // from the median of the candidates
 constexpr double kStrayM = 0.010;
-constexpr double kOffEndRms = 3.0;  // from the samples beside the gap
-constexpr double kOffEndM = 0.005;
-constexpr double kSdScale = 0.90;    // mixture of scales: the RMS is above what covers 68 %
+constexpr double kLeastRmsM = 1e-6;  // 3D
+constexpr double kSdScale = 0.82;    // mixture of scales: the RMS is above what covers 68 %
 constexpr double kFewWindows = 2.0;  // as Student's t is wider than the normal distribution
 
 /// Candidates by number, and their errors grown to the length of the gap.
@@ -28,7 +27,8 @@ struct Pool {
   std::vector<std::size_t> finite;  // all that are numbers
   std::vector<std::size_t> use;     // those that are combined
   std::vector<Eigen::MatrixXd> errors;
-  std::vector<double> rms;  // 3D
+  std::vector<double> rms;   // 3D
+  std::vector<double> miss;  // of the samples beside the gap, as a multiple of rms; 1 at least
 };
 
 Pool grow_errors(const GapProblem& p, const std::vector<Fill>& fills) {
@@ -38,6 +38,7 @@ Pool grow_errors(const GapProblem& p, const std::vector<Fill>& fills) {
     const double scale = p.shortened() ? std::pow(ratio, error_growth(fill.kind)) : 1.0;
     pool.errors.push_back(scale * fill.errors);
     pool.rms.push_back(scale * fill.rms_m());
+    pool.miss.push_back(std::max(1.0, fill.near_rms_m / (pool.rms.back() + kLeastRmsM)));
   }
   for (std::size_t k = 0; k < fills.size(); ++k)
     if (fills[k].gap.allFinite() && std::isfinite(pool.rms[k])) pool.finite.push_back(k);
@@ -57,15 +58,14 @@ Eigen::MatrixXd median_fill(const std::vector<Fill>& fills, const std::vector<st
 
 /// Leave out, in this order, candidates far worse than the best and those that deviate in this gap.
 void guard(const std::vector<Fill>& fills, Pool& pool, std::vector<bool>& guarded) {
-  const auto by_rms = [&](std::size_t a, std::size_t b) { return pool.rms[a] < pool.rms[b]; };
-  const double best = pool.rms[*std::ranges::min_element(pool.use, by_rms)];
-  std::erase_if(pool.use, [&](std::size_t k) { return pool.rms[k] > kWorstToBest * best; });
+  const auto rms = [&](std::size_t k) { return pool.miss[k] * pool.rms[k]; };
+  const double best = rms(*std::ranges::min_element(pool.use, {}, rms));
+  std::erase_if(pool.use, [&](std::size_t k) { return rms(k) > kWorstToBest * best; });
   if (pool.use.size() < 2) return;
   const Eigen::MatrixXd median = median_fill(fills, pool.use);
   for (const std::size_t k : pool.use) {
     const double stray = std::sqrt((fills[k].gap - median).rowwise().squaredNorm().mean());
-    guarded[k] = stray > kStrayRms * pool.rms[k] + kStrayM ||
-                 (is_untied(fills[k].kind) && fills[k].near_rms_m > kOffEndRms * pool.rms[k] + kOffEndM);
+    guarded[k] = stray > kStrayRms * rms(k) + kStrayM;
   }
   std::vector<std::size_t> left;
   for (const std::size_t k : pool.use)
@@ -82,9 +82,16 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
                            const Eigen::VectorXd& w, const Eigen::MatrixXd& gap) {
   const Index W = p.windows();
   const Index R = p.rows.size();
-  Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(R, 3 * W);
-  for (std::size_t k = 0; k < pool.use.size(); ++k)
-    combined += w(static_cast<Index>(k)) * pool.errors[pool.use[k]];
+  Eigen::MatrixXd usual_errors = Eigen::MatrixXd::Zero(R, 3 * W);  // of the combination, on the windows
+  Eigen::MatrixXd combined = Eigen::MatrixXd::Zero(R, 3 * W);      // as large as the ends of the gap say
+  double stretch = 0.0;                                            // mean square
+  for (std::size_t k = 0; k < pool.use.size(); ++k) {
+    const std::size_t i = pool.use[k];
+    const double weight = w(static_cast<Index>(k));
+    usual_errors += weight * pool.errors[i];
+    combined += weight * pool.miss[i] * pool.errors[i];
+    stretch += weight * fills[i].stretch * fills[i].stretch;
+  }
   // Disagreement of all candidates, those left out too, in the gap and in each window: mean square distance
   // from the combination, each in units of its own error on the windows.
   double here = 0.0;
@@ -97,7 +104,8 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
         1.0 / (static_cast<double>(pool.finite.size()) * (pool.rms[k] * pool.rms[k] + kLeastSquare));
     here += v * (fills[k].gap - gap).squaredNorm() / static_cast<double>(gap.rows());
     for (Index i = 0; i < W; ++i)
-      there(i) += v * (pool.errors[k] - combined).middleCols(3 * i, 3).squaredNorm() / static_cast<double>(R);
+      there(i) +=
+          v * (pool.errors[k] - usual_errors).middleCols(3 * i, 3).squaredNorm() / static_cast<double>(R);
   }
   // How much of the size of the errors the disagreement explains: slope of the logarithms, 0 to 1.
   const Eigen::ArrayXd le = 0.5 * (square.array() + 1e-18).log();
@@ -108,12 +116,10 @@ Eigen::VectorXd predict_sd(const GapProblem& p, const std::vector<Fill>& fills, 
         ((le - le.mean()) * (ls - ls.mean())).mean() / ((ls - ls.mean()).square().mean() + 1e-6), 0.0, 1.0);
   const double floor = 0.05 * there.mean() + 1e-18;
   // Beyond what is usual on the windows errors grow in proportion, and below the least of them they do not
-  // shrink: there the slope was never seen. What errors grow by from short windows to the gap is itself
-  // uncertain.
+  // shrink: there the slope was never seen. The same holds for what the neighbours do.
   const double usual = there.mean() + std::sqrt((there.array() - there.mean()).square().mean());
   const double within = std::clamp(here, there.minCoeff(), usual);
-  const double beyond = std::max(1.0, (here + floor) / (usual + floor)) *
-                        static_cast<double>(p.shape.length) / static_cast<double>(p.window.length);
+  const double beyond = std::max({1.0, (here + floor) / (usual + floor), stretch});
   Eigen::VectorXd profile = Eigen::VectorXd::Zero(R);
   for (Index i = 0; i < W; ++i) {
     const double factor =
@@ -205,12 +211,12 @@ Combination combine(const GapProblem& p, const std::vector<Fill>& fills, bool on
     guard(fills, pool, out.guarded);
   }
   const auto n = static_cast<Index>(pool.use.size());
-  const auto errors = [&](Index k) -> const Eigen::MatrixXd& {
-    return pool.errors[pool.use[static_cast<std::size_t>(k)]];
-  };
+  const auto at = [&](Index k) { return pool.use[static_cast<std::size_t>(k)]; };
   Eigen::MatrixXd M(n, n);
   for (Index a = 0; a < n; ++a)
-    for (Index b = 0; b <= a; ++b) M(a, b) = M(b, a) = errors(a).cwiseProduct(errors(b)).mean();
+    for (Index b = 0; b <= a; ++b)
+      M(a, b) = M(b, a) =
+          pool.miss[at(a)] * pool.miss[at(b)] * pool.errors[at(a)].cwiseProduct(pool.errors[at(b)]).mean();
   M.diagonal() *= 1.0 + kShrink;
   M.diagonal().array() += kLeastSquare;
   const Eigen::VectorXd w = simplex_weights(M);

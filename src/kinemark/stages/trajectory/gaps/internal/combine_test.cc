@@ -88,13 +88,28 @@ TEST(Combine, GuardsAgainstACandidateThatStraysInThisGap) {
   EXPECT_LT(c.gap.cwiseAbs().maxCoeff(), 0.01);
 }
 
-TEST(Combine, GuardsAgainstAnUntiedCandidateThatMissesTheSamplesBesideTheGap) {
+TEST(Combine, AnUntiedCandidateErrsInTheGapAsItDoesBesideIt) {
   std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.002, 1),
                              candidate(FillKind::regression_untied, 0.002, 2)};
+  fills[1].near_rms_m = 0.003;  // less than its 3D error on the windows
+  const Combination usual = combine(problem(), fills, false);
+  EXPECT_NEAR(usual.weights[1], 0.5, 0.05);
   fills[1].near_rms_m = 0.05;
-  EXPECT_TRUE(combine(problem(), fills, false).guarded[1]);
-  fills[1].near_rms_m = 0.003;
-  EXPECT_FALSE(combine(problem(), fills, false).guarded[1]);
+  EXPECT_EQ(combine(problem(), fills, false).weights[1], 0.0);
+  // Nothing else to take: its SD is as large as the miss says.
+  fills = {fills[1]};
+  const double wide = combine(problem(), fills, false).sd_m.mean();
+  fills[0].near_rms_m = 0.0;
+  EXPECT_NEAR(wide / combine(problem(), fills, false).sd_m.mean(), 0.05 / (0.002 * std::sqrt(3.0)), 1.0);
+}
+
+TEST(Combine, SdGrowsWithWhatTheNeighboursDoInTheGap) {
+  std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.001, 1)};
+  const double calm = combine(problem(), fills, false).sd_m.mean();
+  fills[0].stretch = 0.2;  // quieter than the windows: nothing is taken off
+  EXPECT_EQ(combine(problem(), fills, false).sd_m.mean(), calm);
+  fills[0].stretch = 7.0;
+  EXPECT_NEAR(combine(problem(), fills, false).sd_m.mean(), 7.0 * calm, 1e-9);
 }
 
 TEST(Combine, SdFollowsDisagreementWhenThatTellsTheError) {
@@ -165,9 +180,11 @@ TEST(Combine, ErrorsGrowFromShortWindowsToALongGap) {
   p.rows = Eigen::VectorX<Index>::LinSpaced(kRows / 2, 0, kRows / 2 - 1);
   std::vector<Fill> fills = {candidate(FillKind::rigid_walk, 0.001, 1)};
   fills[0].errors = fills[0].errors.topRows(kRows / 2).eval();
-  // Growth 1: twice the length, twice the error; and as much again in variance, as the growth is not known
-  // well.
-  EXPECT_NEAR(combine(p, fills, false).sd_m.mean(), 0.9 * 0.002 * std::sqrt(2.0), 0.0004);
+  // Growth 1: twice the length, twice the error.
+  const double long_sd = combine(p, fills, false).sd_m.mean();
+  p.shape.length = kRows / 2;
+  fills[0].gap = fills[0].gap.topRows(kRows / 2).eval();
+  EXPECT_NEAR(long_sd / combine(p, fills, false).sd_m.mean(), 2.0, 0.1);
 }
 
 TEST(Combine, WithoutWindowsAFiniteCandidateIsTaken) {

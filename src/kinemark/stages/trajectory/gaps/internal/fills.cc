@@ -37,17 +37,25 @@ constexpr std::array<Traits, kFillKinds> kTraits = {{
     {"pca", false, false, 0.5},
 }};
 
+constexpr double kLeastStretch = 1e-12;  // m^2
+
 const Traits& traits(FillKind kind) { return kTraits[static_cast<std::size_t>(kind)]; }
 
-Fill linear_fill(FillKind kind, const Signal& x, const Eigen::MatrixXd& A_rows,
+/// The same method on the neighbours z, whose paths in the gap are known, tells how hard the gap is for it.
+Fill linear_fill(FillKind kind, const Signal& x, const Signal& z, const Eigen::MatrixXd& A_rows,
                  const Eigen::MatrixXd& A_gap) {
-  return {.kind = kind, .gap = A_gap * x.gap_near, .errors = x.rows - A_rows * x.near};
+  return {.kind = kind,
+          .gap = A_gap * x.gap_near,
+          .errors = x.rows - A_rows * x.near,
+          .stretch = stretch_of(z.rows - A_rows * z.near, z.gap - A_gap * z.gap_near)};
 }
 
-Fill pchip(const GapProblem& p, const Signal& x) {
+Fill pchip(const GapProblem& p, const Signal& x, const Signal& z) {
   return {.kind = FillKind::pchip,
           .gap = pchip_fill(p.shape, x.gap_near, p.all_rows),
-          .errors = x.rows - pchip_fill(p.window, x.near, p.rows)};
+          .errors = x.rows - pchip_fill(p.window, x.near, p.rows),
+          .stretch = stretch_of(z.rows - pchip_fill(p.window, z.near, p.rows),
+                                z.gap - pchip_fill(p.shape, z.gap_near, p.all_rows))};
 }
 
 void temporal_fills(const Recording& recording, const GapProblem& p, GapMethod method, WalkCache& cache,
@@ -57,23 +65,28 @@ void temporal_fills(const Recording& recording, const GapProblem& p, GapMethod m
   const bool both = p.shape.left > 0 && p.shape.right > 0;
   const Signal x = gather(
       p, 3, false, [&](Index frame, auto out) { out = recording.x(p.span.marker, frame).transpose(); });
+  const auto neighbours = static_cast<Index>(p.predictors.size());
+  const Signal z = gather(p, 3 * neighbours, true, [&](Index frame, auto out) {
+    for (Index k = 0; k < neighbours; ++k)
+      out.segment(3 * k, 3) = recording.x(p.predictors[static_cast<std::size_t>(k)], frame).transpose();
+  });
   const auto rows_of = [&](const Eigen::MatrixXd& A) {
     return Eigen::MatrixXd(A(p.rows, Eigen::indexing::all));
   };
   if (all || method == GapMethod::linear || !both)
     fills.push_back(
-        linear_fill(FillKind::chord, x, rows_of(chord_operator(p.window)), chord_operator(p.shape)));
+        linear_fill(FillKind::chord, x, z, rows_of(chord_operator(p.window)), chord_operator(p.shape)));
   if (both && (all || method == GapMethod::cubic))
     fills.push_back(
-        linear_fill(FillKind::spline, x, rows_of(spline_operator(p.window)), spline_operator(p.shape)));
-  if (both && (all || method == GapMethod::pchip || p.windows() == 0)) fills.push_back(pchip(p, x));
+        linear_fill(FillKind::spline, x, z, rows_of(spline_operator(p.window)), spline_operator(p.shape)));
+  if (both && (all || method == GapMethod::pchip || p.windows() == 0)) fills.push_back(pchip(p, x, z));
   if (p.windows() == 0 || (!all && method != GapMethod::walk)) return;
   const WalkChooser walks(p, recording.rate_hz(), cache);
   if (const auto walk = walks.best(x, 1, p.shortened() ? 1 : 2))
-    fills.push_back(linear_fill(FillKind::walk, x, *walk->rows, *walk->gap));
+    fills.push_back(linear_fill(FillKind::walk, x, z, *walk->rows, *walk->gap));
   if (both && !p.shortened())
     if (const auto walk = walks.best(x, 3, 4))
-      fills.push_back(linear_fill(FillKind::walk_stiff, x, *walk->rows, *walk->gap));
+      fills.push_back(linear_fill(FillKind::walk_stiff, x, z, *walk->rows, *walk->gap));
 }
 
 }  // namespace
@@ -82,6 +95,12 @@ std::string_view to_string(FillKind kind) { return traits(kind).name; }
 bool is_temporal(FillKind kind) { return traits(kind).temporal; }
 bool is_untied(FillKind kind) { return traits(kind).untied; }
 double error_growth(FillKind kind) { return traits(kind).growth; }
+
+double stretch_of(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& gap) {
+  if (rows.size() == 0 || gap.size() == 0) return 1.0;
+  return std::sqrt((gap.squaredNorm() / static_cast<double>(gap.size()) + kLeastStretch) /
+                   (rows.squaredNorm() / static_cast<double>(rows.size()) + kLeastStretch));
+}
 
 double Fill::rms_m() const {
   if (errors.size() == 0) return std::numeric_limits<double>::infinity();

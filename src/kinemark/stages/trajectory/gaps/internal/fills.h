@@ -46,9 +46,15 @@ struct Fill {
   Eigen::MatrixXd gap;      ///< L x 3, m in world
   Eigen::MatrixXd errors;   ///< R x 3 W, truth - fill, m in world; as many columns as there are windows
   double near_rms_m = 0.0;  ///< untied: 3D distance to the samples beside the gap
+  /// What the neighbours do in the gap, as a multiple of what they do on the windows, where that matters to
+  /// this method: RMS of what is left of them when they are filled in the same way.
+  double stretch = 1.0;
   /// 3D, RMS over the windows; infinity without any.
   [[nodiscard]] double rms_m() const;
 };
+
+/// RMS of quantities in the gap over their RMS on the windows; 1 where there are none.
+[[nodiscard]] double stretch_of(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& gap);
 
 /// The candidates of a method that the problem allows. Without windows those that need no
 /// training.

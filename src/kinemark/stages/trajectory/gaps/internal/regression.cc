@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace kinemark::trajectory::internal {
@@ -29,11 +30,21 @@ struct Sums {
   }
 };
 
-Eigen::MatrixXd solve_ridge(const Sums& s, Index p, double penalty) {
+/// Cholesky factor of the normal matrix of the first p features.
+Eigen::LLT<Eigen::MatrixXd> factor_ridge(const Sums& s, Index p, double penalty) {
   Eigen::MatrixXd G = s.zz.topLeftCorner(p, p);
   const double power = std::max(G.trace() / static_cast<double>(p), kLeastPower);
   G.diagonal().array() += penalty * power + kLeastPenalty;
-  return G.llt().solve(s.zy.topRows(p));
+  return G.llt();
+}
+
+Eigen::MatrixXd solve_ridge(const Sums& s, Index p, double penalty) {
+  return factor_ridge(s, p, penalty).solve(s.zy.topRows(p));
+}
+
+/// Sum over the rows of z' G^-1 z: how far they lie outside of what the coefficients were learnt from.
+double sum_leverage(const Eigen::LLT<Eigen::MatrixXd>& G, const Eigen::MatrixXd& Z) {
+  return G.matrixL().solve(Z.transpose()).squaredNorm();
 }
 
 /// Squared error of coefficients on the windows of the sums.
@@ -129,10 +140,13 @@ Regression regress(const Innovation& y, const Innovation& z, const std::vector<F
   }
   Regression out;
   out.errors = y.rows;
+  double usual = 0.0;
+  double usual_rows = 0.0;
   for (std::size_t k = 0; k < folds.size(); ++k) {
     const Fold& fold = folds[k];
     if (fold.train.size() < 2) continue;
-    const Eigen::MatrixXd B = solve_ridge(splits[k].train, best_width, best_penalty);
+    const Eigen::LLT<Eigen::MatrixXd> G = factor_ridge(splits[k].train, best_width, best_penalty);
+    const Eigen::MatrixXd B = G.solve(splits[k].train.zy.topRows(best_width));
     Eigen::RowVector3d offset = Eigen::RowVector3d::Zero();
     if (untied) {
       for (const Index w : fold.train)
@@ -143,11 +157,17 @@ Regression regress(const Innovation& y, const Innovation& z, const std::vector<F
       auto e = out.errors.middleCols(w * 3, 3);
       e.noalias() -= Z(w, best_width) * B;
       e.rowwise() -= offset;
+      usual += sum_leverage(G, Z(w, best_width));
+      usual_rows += static_cast<double>(e.rows());
     }
   }
   out.mean_square = out.errors.squaredNorm() / static_cast<double>(out.errors.size());
-  const Eigen::MatrixXd B = solve_ridge(total, best_width, best_penalty);
+  const Eigen::LLT<Eigen::MatrixXd> G = factor_ridge(total, best_width, best_penalty);
+  const Eigen::MatrixXd B = G.solve(total.zy.topRows(best_width));
   out.gap = z.gap.leftCols(best_width) * B;
+  if (usual > 0.0)
+    out.stretch = std::sqrt(sum_leverage(G, z.gap.leftCols(best_width)) / static_cast<double>(z.gap.rows()) /
+                            (usual / usual_rows));
   if (untied) out.gap_near = y.gap_near - z.gap_near.leftCols(best_width) * B;
   return out;
 }

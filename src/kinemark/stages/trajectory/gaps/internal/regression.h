@@ -39,6 +39,9 @@ struct Regression {
   Eigen::MatrixXd errors;    ///< R x 3 W, leave-windows-out
   Eigen::MatrixXd gap;       ///< L x 3, predicted innovation of the target
   Eigen::MatrixXd gap_near;  ///< H x 3, what is left of the target beside the gap; untied only
+  /// How far the features lie, in the gap, outside of what was learnt from, as a multiple of how far they do
+  /// on windows left out: root of mean z' (Z'Z + penalty)^-1 z over the same.
+  double stretch = 1.0;
 };
 
 /// Penalty (1e-6 to 1e-1 of the mean feature power) and number of features (one of `widths`, the first so

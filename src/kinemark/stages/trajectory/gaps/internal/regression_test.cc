@@ -77,6 +77,24 @@ TEST(Regress, FindsAnExactRelationTiedOrNot) {
   EXPECT_LT((A * d.y.gap_near + tied.gap - d.truth).norm(), 1e-5);
 }
 
+TEST(Regress, SaysHowFarTheGapLiesOutsideOfWhatWasLearntFrom) {
+  Data d = linear_world(0.001, 0.0);
+  const auto folds = make_folds(problem(20));
+  const auto stretch = [&] { return regress(untie(d.y), untie(d.z), folds, kWidths, true).stretch; };
+  EXPECT_NEAR(stretch(), 1.0, 0.3);
+  const double usual = stretch();
+  d.z.gap *= 20.0;
+  EXPECT_NEAR(stretch() / usual, 20.0, 1.0);
+  // A direction in which the neighbours hardly moved counts as much as one in which they moved far.
+  d = linear_world(0.001, 0.0);
+  const auto shrink = [&](Eigen::MatrixXd& z) {
+    for (Index k = 1; k < z.cols(); k += kFeatures) z.col(k) *= 0.05;
+  };
+  shrink(d.z.rows);
+  shrink(d.z.near);
+  EXPECT_GT(stretch(), 5.0);
+}
+
 TEST(Regress, ErrorsAreThoseOfDataThatWereLeftOut) {
   const double noise = 0.01;
   const Data d = linear_world(noise, 0.0);

@@ -87,28 +87,31 @@ class LocalFills {
       mean /= static_cast<double>(fold.train.size());
       for (Index w = fold.first; w < fold.end; ++w) errors.middleCols(3 * w, 3).rowwise() -= mean;
     }
-    add(FillKind::rigid_untied, y.mean.replicate(p_.shape.length, 1), std::move(errors), rms3(y.gap_near));
+    add(FillKind::rigid_untied, y.mean.replicate(p_.shape.length, 1), std::move(errors), rms3(y.gap_near),
+        stretch(untie(z_)));
   }
   void regression_untied() {
     const Innovation y = untie(y_);
     const Regression r = regress(y, untie(z_), folds_, kFeatureCounts, true);
-    add(FillKind::regression_untied, r.gap.rowwise() + y.mean, r.errors, rms3(r.gap_near));
+    add(FillKind::regression_untied, r.gap.rowwise() + y.mean, r.errors, rms3(r.gap_near), r.stretch);
   }
   void rigid_chord() {
     const Eigen::MatrixXd A = chord_operator(p_.shape);
-    add(FillKind::rigid_chord, A * y_.gap_near, y_.rows - rows_of(chord_operator(p_.window), p_) * y_.near);
+    const Eigen::MatrixXd A_rows = rows_of(chord_operator(p_.window), p_);
+    add(FillKind::rigid_chord, A * y_.gap_near, y_.rows - A_rows * y_.near, 0.0, stretch(tie(z_, A_rows, A)));
   }
   void regression_chord() {
     const Eigen::MatrixXd A = chord_operator(p_.shape);
     const Eigen::MatrixXd A_rows = rows_of(chord_operator(p_.window), p_);
     const Regression r = regress(tie(y_, A_rows, A), tie(z_, A_rows, A), folds_, kFeatureCounts, false);
-    add(FillKind::regression_chord, A * y_.gap_near + r.gap, r.errors);
+    add(FillKind::regression_chord, A * y_.gap_near + r.gap, r.errors, 0.0, r.stretch);
   }
   /// False when no walk is possible.
   bool rigid_walk() {
     const auto walk = walks_.best(y_, 1, p_.shortened() ? 1 : 4);
     if (!walk) return false;
-    add(FillKind::rigid_walk, *walk->gap * y_.gap_near, y_.rows - *walk->rows * y_.near);
+    add(FillKind::rigid_walk, *walk->gap * y_.gap_near, y_.rows - *walk->rows * y_.near, 0.0,
+        stretch(tie(z_, *walk->rows, *walk->gap)));
     return true;
   }
   /// The best of orders `lowest` to `highest`. False when no walk is possible.
@@ -125,17 +128,23 @@ class LocalFills {
       best = std::move(r);
     }
     if (!best) return false;
-    add(kind, fill, best->errors);
+    add(kind, fill, best->errors, 0.0, best->stretch);
     return true;
   }
 
  private:
+  static double stretch(const Innovation& z) { return stretch_of(z.rows, z.gap); }
   /// Into the world: both arguments are local.
-  void add(FillKind kind, const Eigen::MatrixXd& gap, Eigen::MatrixXd errors, double near_rms_m = 0.0) {
+  void add(FillKind kind, const Eigen::MatrixXd& gap, Eigen::MatrixXd errors, double near_rms_m = 0.0,
+           double stretch = 1.0) {
     const auto rotation_of = [](const auto& row) {  // R' as it was stored, column by column
       return Eigen::Map<const Eigen::Matrix3d>(row.data());
     };
-    Fill fill{.kind = kind, .gap = centre_, .errors = std::move(errors), .near_rms_m = near_rms_m};
+    Fill fill{.kind = kind,
+              .gap = centre_,
+              .errors = std::move(errors),
+              .near_rms_m = near_rms_m,
+              .stretch = stretch};
     for (Index i = 0; i < p_.shape.length; ++i) {
       const Eigen::Matrix<double, 1, 9> row = rotation_.gap.row(i);
       fill.gap.row(i) += gap.row(i) * rotation_of(row);
@@ -233,14 +242,17 @@ void pca_fills(const Recording& recording, const GapProblem& p, bool untied, boo
     fills.push_back({.kind = FillKind::pca_untied,
                      .gap = centre + (r.gap.rowwise() + v.mean),
                      .errors = r.errors,
-                     .near_rms_m = rms3(r.gap_near)});
+                     .near_rms_m = rms3(r.gap_near),
+                     .stretch = r.stretch});
   }
   if (tied) {
     const Eigen::MatrixXd A = chord_operator(p.shape);
     const Eigen::MatrixXd A_rows = rows_of(chord_operator(p.window), p);
     const Regression r = regress(tie(y, A_rows, A), tie(scores, A_rows, A), folds, widths, false);
-    fills.push_back(
-        {.kind = FillKind::pca_chord, .gap = centre + A * y.gap_near + r.gap, .errors = r.errors});
+    fills.push_back({.kind = FillKind::pca_chord,
+                     .gap = centre + A * y.gap_near + r.gap,
+                     .errors = r.errors,
+                     .stretch = r.stretch});
   }
 }
 
