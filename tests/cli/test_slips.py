@@ -138,7 +138,12 @@ class MarkerFiles(CommandTest):
 
     def test_what_is_unusual_and_right_is_good(self):
         text = re.sub(" kinemark_sum=[0-9a-f]{16}", "", self.trc.read_text())
-        self.good("validate", self.write("crlf.trc", text.replace("\n", "\r\n")), self.write("cm.trc", text.replace("\tmm\t", "\tcm\t", 1)))
+        head, rows = text.split("\n")[:6], [line.split("\t") for line in text.split("\n")[6:]]
+        tenths = ["\t".join(row[:2] + [cell and repr(float(cell) / 10) for cell in row[2:]]) for row in rows]
+        centimetres = "\n".join(head + tenths).replace("\tmm\t", "\tcm\t", 1)
+        self.good("validate", self.write("crlf.trc", text.replace("\n", "\r\n")), self.write("cm.trc", centimetres))
+        for name, giant in (("giant.trc", text.replace("\tmm\t", "\tcm\t", 1)), ("dwarf.trc", centimetres.replace("\tcm\t", "\tmm\t", 1))):
+            self.assertIn("the unit of length is another one, or this is no human body", self.good("validate", self.write(name, giant), status=1).err)
         self.good("validate", self.write("names.trc", text.replace("LFHD", "A name with spaces", 1)))
         prefixed = text.split("\n")
         prefixed[3] = re.sub(r"(?<=\t)(?=\w)(?!Time)", "Ann:", prefixed[3])
