@@ -75,15 +75,16 @@ Signal gather(const GapProblem& p, Index width, bool in_gap, Value value) {
   s.width = width;
   s.rows.resize(p.rows.size(), p.windows() * width);
   s.near.resize(p.window.near(), p.windows() * width);
+  s.gap.resize(in_gap ? p.shape.length : 0, width);
+  s.gap_near.resize(p.shape.near(), width);
+  if (width == 0) return s;  // no neighbours: matrices without columns have no rows to write
   for (Index w = 0; w < p.windows(); ++w) {
     for (Index r = 0; r < p.rows.size(); ++r)
       value(p.start(w) + p.rows(r), s.rows.row(r).segment(w * width, width));
     for (Index k = 0; k < p.window.near(); ++k)
       value(GapProblem::near_frame(p.window, p.start(w), k), s.near.row(k).segment(w * width, width));
   }
-  s.gap.resize(in_gap ? p.shape.length : 0, width);
   for (Index i = 0; i < s.gap.rows(); ++i) value(p.span.first + i, s.gap.row(i).segment(0, width));
-  s.gap_near.resize(p.shape.near(), width);
   for (Index k = 0; k < p.shape.near(); ++k)
     value(GapProblem::near_frame(p.shape, p.span.first, k), s.gap_near.row(k).segment(0, width));
   return s;
