@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/gait/event_labels.h"
 #include "kinemark/stages/analysis/gait/marker_events.h"
 #include "kinemark/stages/analysis/gait/plate_events.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
