@@ -78,6 +78,7 @@ std::string MassFault::sentence() const {
 
 std::vector<MassFault> find_mass_faults(const model::Model& model) {
   std::vector<MassFault> out;
+  std::vector<double> weight;  // kg m^2, of each fault: what torques could show of it
   const double span = span_of(model);
   double mass = 0.0, largest = 0.0;
   for (const auto& body : model.description().bodies) {
@@ -85,18 +86,21 @@ std::vector<MassFault> find_mass_faults(const model::Model& model) {
     const std::size_t before = out.size();
     const Vector3d moments = principal_moments(body.inertia_about_com);
     judge_moments(body.name, moments, out);
+    if (out.size() > before) weight.push_back(std::abs(out.back().size));
     if (body.mass > 0.0 && span > 0.0) {
       const double gyration = std::sqrt(std::max(0.0, moments[2]) / body.mass);
-      if (gyration > span)
+      if (gyration > span) {
         out.push_back({.kind = Kind::gyration, .body = body.name, .size = gyration, .bound = span});
-      if (const double away = body.com_in_body.norm(); away > span)
+        weight.push_back(moments[2]);
+      }
+      if (const double away = body.com_in_body.norm(); away > span) {
         out.push_back({.kind = Kind::centre, .body = body.name, .size = away, .bound = span});
+        weight.push_back(body.mass * away * away);
+      }
     }
     if (out.size() == before) largest = std::max(largest, moments[2]);
   }
-  for (auto& fault : out)
-    if (fault.kind == Kind::negative_moment || fault.kind == Kind::triangle)
-      fault.matters = std::abs(fault.size) > kMatters * largest;
+  for (std::size_t k = 0; k < out.size(); ++k) out[k].matters = weight[k] > kMatters * largest;
   // Twice: a trunk that bears the modelled limb may have no points of its own.
   const double wide = 2.0 * span, most = kWater_kg_m3 * std::numbers::pi / 6.0 * wide * wide * wide;
   if (span > 0.0 && mass > most) out.push_back({.kind = Kind::mass, .body = "", .size = mass, .bound = most});

@@ -19,7 +19,8 @@ struct MassFault {
   std::string body;    ///< empty for `mass`
   double size = 0.0;   ///< kg m^2: the least moment, or how far the largest exceeds the other two; m; kg
   double bound = 0.0;  ///< m or kg; 0 for moments
-  /// Whether torques and energies can depend on it: for moments more than 1 % of the largest sound one.
+  /// Whether torques and energies can depend on it: what a moment is off by, an inertia too wide, or the mass
+  /// times the squared distance of its centre is above 1 % of the largest sound moment. A mass always does.
   bool matters = true;
 
   [[nodiscard]] std::string sentence() const;

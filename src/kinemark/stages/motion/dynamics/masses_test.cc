@@ -86,8 +86,13 @@ TEST(Masses, InertiaAndCentreMustLieWithinTheModel) {
   ASSERT_THAT(faults, SizeIs(1));
   EXPECT_EQ(faults[0].kind, Kind::gyration);
   EXPECT_NEAR(faults[0].size, 100.0, 1e-9);
+  EXPECT_TRUE(faults[0].matters);
   EXPECT_THAT(faults[0].sentence(),
               HasSubstr("inertia of body 'foot' is that of a mass 100 m from its centre"));
+  model.bodies[1].mass = 1e-6;
+  model.bodies[1].inertia_about_com = Matrix3d::Identity() * 1e-4;
+  ASSERT_THAT(faults_of(model), SizeIs(1));
+  EXPECT_FALSE(faults_of(model)[0].matters) << "no torque shows it";
   model = leg();
   model.bodies[0].com_in_body = {0.0, -180.0, 0.0};  // mm for m
   faults = faults_of(model);
