@@ -33,16 +33,13 @@ void print_motion(const CommonOptions& common, const pipeline::MotionOutcome& ou
   for (const auto& notice : outcome.summary.notices)
     if (notice.level != report::Verdict::good && notice.about == "coordinate")
       never.push_back(notice.subject);
+  const bool many = never.size() > kLines;
+  if (many)
+    say(common, fmt::format("attention: {} coordinates are never determined by the visible markers: {}",
+                            never.size(), join_some(never, kLines)));
   for (const auto& notice : outcome.summary.notices) {
     const bool note = notice.level == report::Verdict::good;
-    if (notice.about == "coordinate") {
-      if (note || (never.size() > kLines && notice.subject != never.front())) continue;
-      if (never.size() > kLines) {
-        say(common, fmt::format("attention: {} coordinates are never determined by the visible markers: {}",
-                                never.size(), join_some(never, kLines)));
-        continue;
-      }
-    }
+    if (notice.about == "coordinate" && (note || many)) continue;
     say(common, fmt::format("{}: {}", note ? "note" : "attention", notice.text));
   }
   say_written(common, outcome);

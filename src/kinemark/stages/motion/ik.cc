@@ -108,11 +108,10 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   if (!problem) return std::unexpected(problem.error());
   IkResult result;
   result.fit = problem->fit;
-  for (const auto& coordinate : model.description().coordinates)
-    if (coordinate.prescribed)
-      result.fit.warnings.push_back(fmt::format(
-          "coordinate '{}' follows the function of time that the model prescribes; no marker moves it",
-          coordinate.name));
+  for (const auto& coordinate : problem->prescribed)
+    result.fit.warnings.push_back(fmt::format(
+        "coordinate '{}' follows the function of time that the model prescribes; no marker moves it",
+        coordinate.name));
   result.fit.max_loop_gap_m = 0.0;
   auto& motion = result.motion;
   data::set_coordinates(model.description(), motion);

@@ -78,6 +78,15 @@ TEST(SolveIk, APrescribedCoordinateFollowsItsFunctionOfTime) {
                 testing::Not(testing::Contains(HasSubstr(absent))));
 }
 
+TEST(SolveIk, ACoordinateThatFollowsAnotherIsNotPrescribed) {
+  auto described = description();
+  described.coordinates[12].prescribed = math::ScalarFunction::constant(1.0);  // the kneecap
+  const auto model = model::Model::compile(described).value();
+  const auto result = solve_ik(model, record(model, 20)).value();
+  EXPECT_LT(largest_error(model, result), 1e-9) << "its coupling rules";
+  EXPECT_THAT(result.fit.warnings, testing::Not(testing::Contains(HasSubstr("prescribes"))));
+}
+
 TEST(SolveIk, AFunctionWithoutAValueIsOneSentence) {
   auto described = description();
   described.coordinates[9].prescribed = math::ScalarFunction::polynomial({0.0, 1e308, 1e308, 1e308});

@@ -133,7 +133,7 @@ Status find_prescribed(const model::Model& model, const TimeBase& time, Problem&
     const auto& described = model.description().coordinates[at(c)];
     const auto& coordinate = model.coordinates()[at(c)];
     if (!described.prescribed || coordinate.speed_idx < 0) continue;
-    Problem::Prescribed values{.state = coordinate.state_idx, .values = {}};
+    Problem::Prescribed values{.name = described.name, .state = coordinate.state_idx, .values = {}};
     for (std::int64_t f = 0; f < problem.frames; ++f) {
       const double t = time.time_s(problem.first_frame + f), value = (*described.prescribed)(t).f;
       if (!std::isfinite(value))

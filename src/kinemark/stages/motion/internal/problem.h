@@ -31,8 +31,10 @@ struct Problem {
     }
   };
   std::vector<CoordinateTarget> coordinate_tasks;
-  /// A coordinate that a function of time gives: its row of the state, and its value in each frame.
+  /// A coordinate that a function of time gives: its row of the state, and its value in each frame. None that
+  /// follows another one, which takes precedence, or drives nothing.
   struct Prescribed {
+    std::string name;
     int state = 0;
     std::vector<double> values;
   };

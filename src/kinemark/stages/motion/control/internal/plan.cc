@@ -216,12 +216,11 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   auto problem = make_problem(model, markers, ik);
   if (!problem) return std::unexpected(problem.error());
   plan.problem = std::move(*problem);
+  for (const auto& coordinate : plan.problem.prescribed)
+    warnings.push_back(
+        fmt::format("coordinate '{}' is prescribed by a function of time; tracking holds it at the rest pose",
+                    coordinate.name));
   plan.problem.prescribed.clear();
-  for (const auto& coordinate : model.description().coordinates)
-    if (coordinate.prescribed)
-      warnings.push_back(fmt::format(
-          "coordinate '{}' is prescribed by a function of time; tracking holds it at the rest pose",
-          coordinate.name));
   auto& fit = plan.problem.fit;
   fit.warnings.insert(fit.warnings.end(), warnings.begin(), warnings.end());
   for (auto& marker : fit.excluded)
