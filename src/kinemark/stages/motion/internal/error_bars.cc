@@ -33,6 +33,8 @@ constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear erro
 constexpr double kVague = 0.03;             // rad or m; of what is known better a linear error bar is enough
 constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
 constexpr double kLeastSd_m = 0.3e-3;       // of a marker
+constexpr double kLeastKept = 1e-9;         // share of a marker's noise that its residual keeps
+constexpr double kLeastSpread = 0.01;       // of the variances of markers, squared and relative
 constexpr double kBlindFloor = 1e-13;  // lower: even a small share of an undetermined direction must show
 
 /// One thread's view of one frame: pose, visible markers, inverse normal matrices.
@@ -187,6 +189,15 @@ VectorXd information_of(const model::Model& model, const MarkerVariances& varian
   return information;
 }
 
+/// How far the variances of single markers (M) lie from the pooled one, squared and relative to it; each
+/// counts by `information` (M), its diagonal element of the normal equations.
+double spread_of(const VectorXd& variances, const VectorXd& information, double pooled) {
+  const double far =
+      information.dot((variances / pooled).array().square().matrix() - 2.0 * variances / pooled) +
+      information.sum();
+  return std::max(far / information.sum(), kLeastSpread);
+}
+
 struct VarianceSums::Impl {
   explicit Impl(const internal::Problem& problem)
       : frame(problem), segment_of_body(problem.model.bodies().size(), -1) {
@@ -256,10 +267,18 @@ MarkerVariances VarianceSums::variances() const {
   variances.common.setZero(static_cast<Eigen::Index>(impl_->segment_of_body.size()));
   if (total.freedom < 5.0 * static_cast<double>(total.b.size()))
     return variances;  // too few data for variances of single markers
-  const MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
-  const VectorXd v = math::nonnegative_least_squares(N, total.b);
-  for (Eigen::Index m = 0; m < M; ++m)
-    if (total.seen[m] > 0.0 && total.information[m] / (3.0 * total.seen[m]) > 0.02) variances.own[m] = v[m];
+  MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
+  VectorXd b = total.b;
+  const double spread =
+      spread_of(math::nonnegative_least_squares(N, b).head(M), N.diagonal().head(M), pooled);
+  for (Eigen::Index m = 0; m < M; ++m) {
+    const double kept = total.seen[m] > 0.0 ? total.information[m] / total.seen[m] : 0.0;
+    const double prior = std::max(2.0 * kept, kLeastKept) / spread;
+    N(m, m) += prior;
+    b[m] += prior * pooled;
+  }
+  const VectorXd v = math::nonnegative_least_squares(N, b);
+  variances.own = v.head(M);
   for (std::size_t s = 0; s < bodies.size(); ++s)
     variances.common[bodies[s]] = v[M + static_cast<Eigen::Index>(s)];
   return variances;

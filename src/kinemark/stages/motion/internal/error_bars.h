@@ -61,7 +61,7 @@ class VarianceSums {
 };
 
 /// Estimate the variances from the residuals at the solved states (one column per frame). Every k-th frame is
-/// used, 300 at most. Markers whose residuals carry no information get the pooled variance.
+/// used, 300 at most. The less the residuals show of a marker, the more it has the pooled variance.
 [[nodiscard]] MarkerVariances estimate_variances(const internal::Problem& problem,
                                                  const data::Trajectories& markers,
                                                  const Eigen::MatrixXd& states, int threads);

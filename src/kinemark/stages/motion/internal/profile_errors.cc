@@ -27,6 +27,7 @@ constexpr double kOpenSd = 9.9;         // rad or m, and ...
 constexpr double kMovesNothing = 1e-9;  // ... all other speeds by less: no marker that is seen moves with it
 constexpr double kFirst = 2.0;  // deviations, the first place to ask; each further one is 1.6 times as far
 constexpr double kFurther = 1.6;
+constexpr double kLinear = 0.5;   // of the rise of a linear model: what rises by less is not linear
 constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
 constexpr int kMostSteps = 20;
 constexpr int kMostHalved = 5;
@@ -101,8 +102,9 @@ double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
   return chi_square;
 }
 
-/// Ask at places ever further along one direction; lacks_ becomes what they show.
-void ProfileErrors::profile(const Direction& direction, double sign) {
+/// Ask at places ever further along one direction, as long as chi-square rises by less than `least` of what
+/// it would were the model linear; lacks_ becomes what they show.
+void ProfileErrors::profile(const Direction& direction, double sign, double least) {
   const auto& v = direction.along;
   const double farthest = kMostMoved / v.cwiseAbs().maxCoeff();
   double before = 0.0;
@@ -111,7 +113,7 @@ void ProfileErrors::profile(const Direction& direction, double sign) {
     step_ = sign * (s - before) * v;
     model::integrate(problem_.model, moved_, step_);
     const double rise = settle(moved_, direction.speed) - chi_square_;
-    if (!(rise < kEnough)) return;
+    if (!(rise < std::min(kEnough, least * s * s))) return;
     model::coordinates_from_state(problem_.model, moved_, q_best_, q_);
     for (Eigen::Index c = 0; c < q_.size(); ++c) {
       const double gone = q_[c] - q_best_[c], linear = linear_[c];
@@ -132,6 +134,7 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   whole_ = K_.diagonal();
   covariance_.factor(w_, information);
   covariance_.invert(K_);
+  known_ = K_;
   find_directions();
   if (directions_.empty()) return;
   best_ = x;
@@ -143,8 +146,25 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   for (const auto& direction : directions_) {
     linear_.noalias() = E * direction.along;
     lacks_.setZero(q_.size());
-    for (const double sign : {-1.0, 1.0}) profile(direction, sign);
+    for (const double sign : {-1.0, 1.0}) profile(direction, sign, HUGE_VAL);
     variance += lacks_;
+  }
+  if (kFirst * directions_.front().along.cwiseAbs().maxCoeff() > kMostMoved) ask_what_is_known(E, variance);
+}
+
+/// Where a chain is nearly stretched, what is open lets a known coordinate go for a small part of the
+/// chi-square that a linear model sees: each is held by itself.
+void ProfileErrors::ask_what_is_known(const Eigen::MatrixXd& E, VectorXd& variance) {
+  for (Eigen::Index c = 0; c < E.rows(); ++c) {
+    Eigen::Index i = 0;
+    if (!(E.row(c).cwiseAbs().maxCoeff(&i) > 0.0)) continue;
+    const double own = known_(i, i);
+    if (!(own > 0.0 && own <= kWeak * kWeak)) continue;
+    const Direction direction{.speed = i, .along = known_.col(i) / std::sqrt(own)};
+    linear_.noalias() = E * direction.along;
+    lacks_.setZero(q_.size());
+    for (const double sign : {-1.0, 1.0}) profile(direction, sign, kLinear);
+    variance[c] += lacks_[c];
   }
 }
 

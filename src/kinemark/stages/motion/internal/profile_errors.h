@@ -26,8 +26,10 @@ class ProfileErrors {
   /// markers would leave or more: the speed that it moves most is held at places to both sides, the others
   /// are solved anew, and chi-square rises by D. A coordinate that went by d has a deviation of d /
   /// sqrt(max(D, 1)) at least (profile likelihood); what that is above the linear one is added. Places beyond
-  /// D = 16, the limits of the coordinate and 1.5 rad (m) are not asked. Costs some 50 Newton steps for each
-  /// of up to twelve directions, and one where all directions are known well.
+  /// D = 16, the limits of the coordinate and 1.5 rad (m) are not asked. Where a direction is open, each
+  /// coordinate that is known is held as well, and goes on while D is below half of what a linear model has.
+  /// Costs some 50 Newton steps for each of up to twelve directions, some ten for each known coordinate then,
+  /// and one where all directions are known well.
   ///
   /// @param x            state that was solved
   /// @param y            3 x M, m
@@ -45,7 +47,8 @@ class ProfileErrors {
 
   void find_directions();
   double settle(Eigen::VectorXd& state, Eigen::Index held);
-  void profile(const Direction& direction, double sign);
+  void profile(const Direction& direction, double sign, double least);
+  void ask_what_is_known(const Eigen::MatrixXd& E, Eigen::VectorXd& variance);
   double residuals(const Eigen::VectorXd& state);
 
   const Problem& problem_;
@@ -54,7 +57,7 @@ class ProfileErrors {
   const Eigen::Matrix3Xd* y_ = nullptr;
   const Eigen::VectorXd* information_ = nullptr;
   Eigen::Matrix3Xd residual_;
-  Eigen::MatrixXd K_;
+  Eigen::MatrixXd K_, known_;
   Eigen::VectorXd whole_, best_, moved_, tried_, force_, step_, q_, q_best_, linear_, lacks_;
   double chi_square_ = 0.0;
   std::vector<Direction> directions_;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/profile_errors.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
@@ -123,6 +125,57 @@ TEST(ProfileErrors, ALimbThatSwingsToAndFroHidesNoOther) {
       const auto added = lacks_of_two_arms(beyond_m, seen);
       EXPECT_NEAR(added[0], alone, 2e-3) << beyond_m;
     }
+}
+
+/// Pelvis on a ball joint at the origin, thigh on one 0.12 m from it, knee 0.4 m further; `turn` (7): three
+/// angles each of back and hip, and the knee's. Markers: on the pelvis, on the knee's axis, 0.3 m down the
+/// shank.
+model::Model leg() {
+  data::ModelDescription m;
+  m.name = "leg";
+  const std::vector<Eigen::Vector3d> xyz = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                                            Eigen::Vector3d::UnitZ()};
+  const auto joint = [&](const char* name, int parent, const Eigen::Vector3d& at,
+                         const std::vector<Eigen::Vector3d>& axes) {
+    data::JointDescription joint{.name = name, .parent_body_idx = parent, .child_body_idx = parent + 1};
+    joint.parent_from_joint = {Eigen::Matrix3d::Identity(), at};
+    for (const auto& axis : axes) {
+      m.coordinates.push_back({.name = fmt::format("{}_{}", name, joint.axes.size())});
+      joint.axes.push_back(
+          {.is_rotation = true, .axis = axis, .coordinate_idx = static_cast<int>(m.coordinates.size()) - 1});
+    }
+    m.bodies.push_back({.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity() * 0.01});
+    m.joints.push_back(joint);
+  };
+  joint("back", -1, Eigen::Vector3d::Zero(), xyz);
+  joint("hip", 0, {0.12, 0.0, 0.0}, xyz);
+  joint("knee", 1, {0.4, 0.0, 0.0}, {Eigen::Vector3d::UnitZ()});
+  m.markers = {{.name = "P", .body_idx = 0, .x_in_body = {0.1, 0.1, 0.1}},
+               {.name = "K", .body_idx = 1, .x_in_body = {0.4, 0.0, 0.0}},
+               {.name = "S", .body_idx = 2, .x_in_body = {0.3, 0.0, 0.0}}};
+  return model::Model::compile(m).value();
+}
+
+TEST(ProfileErrors, AKneeThatTurnsBackAlongWhatIsOpenIsNotKnownToADegree) {
+  // Back, hip, knee and shank lie in one plane: as the thigh turns about the line from knee to shank, the
+  // knee's angle is at its largest, and first order knows it to a degree. Poses beside it fit as well.
+  const auto model = leg();
+  auto all = data::Trajectories::all_missing({"P", "K", "S"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
+  model::Workspace w(model);
+  Eigen::VectorXd pose = Eigen::VectorXd::Zero(7);
+  pose << 0.0, 0.0, -0.6, 0.0, 0.0, -0.8, 0.9;
+  const Eigen::VectorXd x = model::state_from_coordinates(model, pose);
+  model::kinematics(model, w, x);
+  for (int i = 0; i < 3; ++i) {
+    all.x(0, i) = w.marker.col(i);
+    all.state[all.index(0, i)] = data::SampleState::measured;
+  }
+  const auto problem = make_problem(model, all, {}).value();
+  ProfileErrors profile(problem);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(7);
+  profile.add(x, w.marker, Eigen::Vector3d(0.0, 1.0, 1.0) / 1e-6, Eigen::Vector3d::Ones() / 1e-6,
+              Eigen::MatrixXd::Identity(7, 7), variance);
+  EXPECT_GT(std::sqrt(variance[6]), 0.1);
 }
 
 }  // namespace
