@@ -8,12 +8,14 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/emg/internal/activity.h"
+#include "kinemark/stages/analysis/emg/internal/rails.h"
 #include "kinemark/stages/analysis/emg/internal/spectral_noise.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 
@@ -60,10 +62,44 @@ struct Known {
   bool silent;  // no burst reaches into the stretch
 };
 
+/// What chance makes of a measure.
+struct Chance {
+  std::vector<double> deviations;  // of refits, where it is simulated
+  double sd = kNaN;                // where its law is known
+};
+
+// That of a mean of rectified noise, whose strength may change: `variance` is that of its noise. A mean has
+// no bias; its standard deviation grows with the strength, so that its logarithm is what has even ends.
+double sd_of_mean(double squares, double count, double variance) {
+  return std::sqrt(variance * squares) / count;
+}
+Pivoted around_mean(double value, double sd, double level) {
+  double z = 0.0;  // level = erf(z / sqrt(2)), which is concave: Newton's steps do not pass it
+  for (int turn = 0; turn < 60; ++turn)
+    z += (level - std::erf(z / std::numbers::sqrt2)) * std::sqrt(0.5 * std::numbers::pi) *
+         std::exp(0.5 * z * z);
+  const double factor = value > 0.0 ? std::exp(z * sd / value) : 1.0;
+  return {.value = value, .sd = sd, .low = value / factor, .high = value * factor};
+}
+
 // All of it where rest is not known.
 double root_of_difference(double value, double rest) {
   if (std::isnan(rest)) return value;
   return std::sqrt(std::max(0.0, value * value - rest * rest));
+}
+
+void take_out_mean(std::vector<double>& deviations) {
+  double mean = 0.0;
+  for (const double d : deviations) mean += d / static_cast<double>(deviations.size());
+  for (double& d : deviations) d -= mean;
+}
+
+std::string why_clipped(const std::string& name, const Rails& rails) {
+  const auto at = std::isnan(rails.low)    ? fmt::format("{:.4g} V", rails.high)
+                  : std::isnan(rails.high) ? fmt::format("{:.4g} V", rails.low)
+                                           : fmt::format("{:.4g} or {:.4g} V", rails.low, rails.high);
+  return fmt::format("{} is clipped: {:.2g} % of its samples stand at {}, and its amplitudes are too small",
+                     name, 100.0 * rails.share, at);
 }
 
 class EmgMeasurement {
@@ -80,6 +116,8 @@ class EmgMeasurement {
       out.notes.push_back(fmt::format("{} holds no signal", channel.name));
       return;
     }
+    if (const auto rails = find_rails(channel.volts, rate_hz_); rails.share > 0.0)
+      out.notes.push_back(why_clipped(channel.name, rails));
     const auto activity = find_activity(found.band, rate_hz_,
                                         {.band = options_.envelope,
                                          .rest_s = options_.rest_s,
@@ -88,9 +126,9 @@ class EmgMeasurement {
                                          .seed = mix64(options_.seed) ^ stream});
     put_rest(activity, found);
     const auto values = values_of(found, activity.bursts);
-    std::vector<std::vector<double>> deviations(values.size(),
-                                                std::vector<double>(at(options_.refits), kNaN));
+    std::vector<Chance> chance(values.size(), {.deviations = std::vector<double>(at(options_.refits), kNaN)});
     if (options_.refits > 0) {
+      put_laws_of_means(activity, found, chance);
       // The signal over its own envelope is noise without muscle; beside a burst the filter's envelope
       // undershoots rest.
       const double least = 1e-6 * found.envelope.maxCoeff();
@@ -111,15 +149,18 @@ class EmgMeasurement {
             values_of(version, activity.draws.empty() ? activity.bursts : activity.draws[at(k)]);
         // Draws of instants are where the truth may lie, and not estimates of it.
         for (std::size_t i = 0; i < again.size(); ++i)
-          deviations[i][at(k)] = is_of_bursts(i % kCount) ? truth[i] - again[i] : again[i] - truth[i];
+          chance[i].deviations[at(k)] = is_of_bursts(i % kCount) ? truth[i] - again[i] : again[i] - truth[i];
       }
+      // The envelope spreads bursts into rest, and so the drawn channels' RMS is not that of the channel; the
+      // bias of a root of a mean is small.
+      for (std::size_t s = 0; s < stretches_.size(); ++s) take_out_mean(chance[s * kCount + kRms].deviations);
     }
     for (std::size_t s = 0; s < stretches_.size(); ++s)
       for (int which = 0; which < kCount; ++which) {
         const std::size_t i = s * kCount + static_cast<std::size_t>(which);
         const bool silent = values[s * kCount + kActive] == 0.0;
         if (is_asked(which))
-          state(which, channel.name, stretches_[s], {activity.found, silent}, values[i], deviations[i], most,
+          state(which, channel.name, stretches_[s], {activity.found, silent}, values[i], chance[i], most,
                 out);
       }
   }
@@ -148,6 +189,25 @@ class EmgMeasurement {
     if (!(count > 0.0)) return;
     channel.rest.rms = std::sqrt(squares / count);
     channel.rest.mean = options_.envelope.rms_window_s > 0.0 ? channel.rest.rms : sum / count;
+  }
+
+  void put_laws_of_means(const Activity& activity, const Prepared& channel, std::vector<Chance>& out) const {
+    VectorXd quiet = channel.band;
+    double count = 0.0;
+    for (Index i = 0; i < quiet.size(); ++i)
+      if (activity.rest[at(i)] != 0)
+        count += 1.0;
+      else
+        quiet[i] = 0.0;
+    const double whole = SpectralNoise(channel.band, rate_hz_).variance_of_rectified(),
+                 at_rest = SpectralNoise(quiet, rate_hz_).variance_of_rectified();
+    for (std::size_t s = 0; s < stretches_.size(); ++s) {
+      const auto& stretch = stretches_[s];
+      out[s * kCount + kMean].sd =
+          sd_of_mean(channel.band.segment(stretch.first, stretch.count).squaredNorm(),
+                     static_cast<double>(stretch.count), whole);
+      if (count > 0.0) out[s * kCount + kRest].sd = sd_of_mean(quiet.squaredNorm(), count, at_rest);
+    }
   }
 
   [[nodiscard]] static bool is_of_bursts(std::size_t which) {
@@ -199,7 +259,7 @@ class EmgMeasurement {
   }
 
   void state(int which, const std::string& name, const EmgStretch& stretch, const Known& known, double value,
-             const std::vector<double>& deviations, double most, EmgMeasures& out) const {
+             const Chance& chance, double most, EmgMeasures& out) const {
     const auto& definition = kDefinitions[at(which)];
     data::Measure measure{.id = std::string(definition.id),
                           .subject = name,
@@ -228,7 +288,9 @@ class EmgMeasurement {
     } else if (known.silent && which != kRest) {
       // What is simulated then is rest, with the strength of chance: its bias is not that of a muscle.
       measure.remark = "no interval: no burst rises above rest";
-    } else if (const auto found = pivot(value, deviations, options_.level); std::isfinite(found.value)) {
+    } else if (const auto found = std::isnan(chance.sd) ? pivot(value, chance.deviations, options_.level)
+                                                        : around_mean(value, chance.sd, options_.level);
+               std::isfinite(found.value)) {
       put_interval(which, stretch, known, value, unit, found, measure);
     } else {
       measure.remark = "no interval: more than a tenth of the simulated channels do not determine it";
@@ -255,7 +317,7 @@ class EmgMeasurement {
                         .high = bounded(found.high),
                         .level = options_.level,
                         .approximate = true};
-    measure.method += fmt::format(", {} draws", options_.refits);
+    if (which != kMean && which != kRest) measure.method += fmt::format(", {} draws", options_.refits);
     const bool with_rest = which == kRms && known.found != Quiet::Found::bursts;
     if (which != kPeak && !with_rest) return;
     measure.interval.kind = data::IntervalKind::at_most;

@@ -62,9 +62,10 @@ struct EmgMeasures {
 /// Prepare and measure channels (docs/theory/emg.md).
 ///
 /// An electromyogram is noise whose strength the muscle sets. Intervals are those of chance: the channel's
-/// envelope times noise of its own spectrum, 99 times, prepared and measured likewise; they are marked
-/// approximate. RMS and peak are freed of what the channel shows at rest, in squares. Where no part of a
-/// channel is surely at rest, rest and what hangs on bursts are not determined, and RMS and peak are at most.
+/// envelope times noise of its own spectrum, 99 times, prepared and measured likewise, or for means of what
+/// is rectified their law; they are marked approximate. RMS and peak are freed of what the channel shows at
+/// rest, in squares. Where no part of a channel is surely at rest, rest and what hangs on bursts are not
+/// determined, and RMS and peak are at most.
 ///
 /// @return  Code::usage for options out of range; Code::bad_input where no channel holds half a second of
 /// samples

@@ -168,6 +168,57 @@ TEST(EmgMeasures, TheShareOfOneBurstIsHeld) {
   EXPECT_GE(inside, 10);
 }
 
+/// Nine bursts of 120 ms in 6 s, beside rest of a twentieth.
+EmgChannel short_bursts(std::uint64_t seed, double& mean) {
+  Random random(seed, 4);
+  VectorXd white(6000);
+  for (double& x : white) x = random.gaussian();
+  VectorXd band = band_passed(white, kEmg_hz, {.high_pass_hz = 40.0, .low_pass_hz = 200.0});
+  band /= std::sqrt(band.squaredNorm() / 6000.0);
+  mean = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    const double active = i % 600 >= 300 && i % 600 < 420 && i < 5600 ? kStrong : 0.0;
+    const double strength = std::hypot(active, 0.05 * kStrong);
+    band[i] *= strength;
+    mean += std::sqrt(2.0 / M_PI) * strength / 6000.0;
+  }
+  return {.name = "EMG1", .volts = band};
+}
+
+TEST(EmgMeasures, MeansOfShortBurstsAndOfRestBetweenThemAreHeld) {
+  int means = 0, rests = 0;
+  constexpr int kTrials = 12;
+  const double quiet = 0.05 * kStrong * std::sqrt(2.0 / M_PI);
+  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
+    double truth = 0.0;
+    const auto out = measure_emg({short_bursts(seed, truth)}, kEmg_hz, 0.0,
+                                 {.measures = {"emg_mean", "emg_rest"}, .refits = 39})
+                         .value();
+    const auto &mean = get(out, "emg_mean"), &rest = get(out, "emg_rest");
+    EXPECT_EQ(mean.value, mean.uncorrected);
+    EXPECT_EQ(rest.value, rest.uncorrected);
+    means += mean.interval.low <= truth && truth <= mean.interval.high;
+    rests += rest.interval.low <= quiet && quiet <= rest.interval.high;
+    EXPECT_LT(rest.interval.high - rest.interval.low, 0.2 * quiet);
+  }
+  EXPECT_GE(means, 10);
+  EXPECT_GE(rests, 10);
+}
+
+TEST(EmgMeasures, AClippedChannelIsSaidToBe) {
+  const auto notes = [](double low, double high) {
+    auto channel = burst(3);
+    channel.volts = ((channel.volts.array() - 0.02) / kStrong).cwiseMax(low).cwiseMin(high);
+    return measure_emg({channel}, kEmg_hz, 0.0, {.refits = 0}).value().notes;
+  };
+  EXPECT_THAT(notes(-1.5, 1.5), Contains(HasSubstr("EMG1 is clipped: 3")));
+  EXPECT_THAT(notes(-1.5, 1.5), Contains(HasSubstr("% of its samples stand at -1.5 or 1.5 V, and its "
+                                                   "amplitudes are too small")));
+  EXPECT_THAT(notes(-1.25, 9.0), Contains(HasSubstr("stand at -1.25 V, and")));
+  EXPECT_THAT(notes(-9.0, 1.25), Contains(HasSubstr("stand at 1.25 V, and")));
+  EXPECT_THAT(notes(-9.0, 9.0), Not(Contains(HasSubstr("% of its samples stand at"))));
+}
+
 TEST(EmgMeasures, ToAMaximumValuesAreShares) {
   auto channel = burst(4);
   const EmgOptions options{.measures = {"emg_peak", "emg_median_frequency"}, .to_maximum = true, .refits = 0};

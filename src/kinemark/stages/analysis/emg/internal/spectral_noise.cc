@@ -66,6 +66,21 @@ double SpectralNoise::freedom_of_a_sample() const {
   return squares > 0.0 ? sum * sum / (squares * static_cast<double>(amplitude_.size())) : kNaN;
 }
 
+double SpectralNoise::variance_of_rectified() {
+  std::vector<std::complex<double>> power(at(length_)), correlation;
+  for (Index i = 0; i < length_; ++i) power[at(i)] = std::pow(amplitude_[at(std::min(i, length_ - i))], 2);
+  transform_.inv(correlation, power);
+  const double variance = correlation[0].real();
+  if (!(variance > 0.0)) return 0.0;
+  // Covariances of |x| and |y|, of Gaussian x and y of unit variance.
+  double sum = 0.0;
+  for (const auto& c : correlation) {
+    const double r = std::clamp(c.real() / variance, -1.0, 1.0);
+    sum += 2.0 * std::numbers::inv_pi * (std::sqrt(1.0 - r * r) + r * std::asin(r) - 1.0);
+  }
+  return sum;
+}
+
 VectorXd SpectralNoise::draw(std::uint64_t seed, std::uint64_t stream, std::int64_t k) {
   Random random(seed, mix64(stream) ^ static_cast<std::uint64_t>(k));
   std::vector<std::complex<double>> spectrum(at(length_)), series;

@@ -20,6 +20,8 @@ class SpectralNoise {
   [[nodiscard]] double median_hz(double rate_hz) const;
   /// Independent squares of Gaussian samples that say as much about its power as one of its samples does.
   [[nodiscard]] double freedom_of_a_sample() const;
+  /// The variance that the mean of N of its samples has when rectified, times N.
+  [[nodiscard]] double variance_of_rectified();
   [[nodiscard]] Eigen::VectorXd draw(std::uint64_t seed, std::uint64_t stream, std::int64_t k);
 
  private:
