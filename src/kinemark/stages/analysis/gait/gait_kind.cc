@@ -163,10 +163,10 @@ class Kinds {
     });
   }
 
-  // Median way of the pelvis over the ground in a stride, where somebody goes, m; NaN where none is seen
-  // whole.
-  [[nodiscard]] double way_m(const RowVector2d& ground) const {
-    const auto half = std::max<std::int64_t>(1, std::llround(0.5 * steps_.stride_s * paths_.rate_hz));
+  // Median way of the pelvis over the ground in a stride, where somebody goes, m: of whole strides, as who
+  // walks slowly goes in pulses and is slow most of the time. NaN where none is seen whole.
+  [[nodiscard]] double way_m(const RowVector2d& ground, double stride_s) const {
+    const auto half = std::max<std::int64_t>(1, std::llround(0.5 * stride_s * paths_.rate_hz));
     const RowVector2d belt = 2.0 * static_cast<double>(half) / paths_.rate_hz * ground;
     std::vector<double> ways;
     for (auto f = half; f + half < paths_.frames(); ++f)
@@ -433,7 +433,8 @@ GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& s
   out.pelvis_left_of_right_m = kinds.pelvis_leftward(headings);
   if (steps.feet[0].swings.empty() && steps.feet[1].swings.empty())
     out.not_gait = "no foot swings: none moves by 80 mm over the ground";
-  else if (const double goes_m = std::fmin(kinds.way_m(ground.velocity), speed * steps.stride_s);
+  else if (const double whole_m = kinds.way_m(ground.velocity, out.stride_s),
+           goes_m = std::isfinite(whole_m) ? whole_m : evidence.speed_m_per_s * out.stride_s;
            !(goes_m > kLeastStride_m))
     out.not_gait =
         fmt::format("the feet move, but the body goes {:.2f} m a stride over the ground; need {:.1f}", goes_m,

@@ -204,5 +204,33 @@ TEST(GaitKind, HasNames) {
   EXPECT_EQ(to_string(GaitDirection::sideways), "sideways");
 }
 
+// Somebody slow: stances of 80 %, and a pelvis that goes with the feet, so that it stands most of the time.
+data::Trajectories in_pulses(double stride_m, double stride_s, std::uint64_t seed) {
+  KnownWalk walk;
+  walk.stride_s = stride_s, walk.speed_m_per_s = stride_m / stride_s, walk.stance = {0.8, 0.8};
+  walk.width_m = 0.18, walk.duration_s = 14.0;
+  auto out = walk.markers(0.0003, seed);
+  for (std::int64_t f = 0; f < out.frames(); ++f)
+    for (int axis = 0; axis < 2; ++axis)
+      out.x(f, 4)[axis] =
+          0.25 * (out.x(f, 0)[axis] + out.x(f, 1)[axis] + out.x(f, 2)[axis] + out.x(f, 3)[axis]);
+  return out;
+}
+
+// The median of its speed, times a stride, is half the way and less.
+TEST(GaitKind, TheBodyGoesItsWayThoughItGoesInPulses) {
+  std::uint64_t seed = 0;
+  for (const double stride_s : {2.0, 3.0, 3.5})
+    for (const double stride_m : {0.4, 0.5, 0.6}) {
+      const auto kind = judged(in_pulses(stride_m, stride_s, ++seed)).kind;
+      EXPECT_EQ(kind.not_gait, "") << stride_s << " " << stride_m;
+      EXPECT_FALSE(kind.belt);
+    }
+  for (const double stride_s : {2.0, 3.0, 3.5})
+    EXPECT_THAT(judged(in_pulses(0.25, stride_s, ++seed)).kind.not_gait,
+                HasSubstr("the feet move, but the body goes 0.2"))
+        << stride_s;
+}
+
 }  // namespace
 }  // namespace kinemark::analysis
