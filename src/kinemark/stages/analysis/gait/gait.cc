@@ -161,10 +161,21 @@ class GaitMeasurement {
     return out;
   }
 
+  // What a belt of changing speed is ahead of itself by, as each stance errs by what they scatter by.
+  math::SeriesMatrix pace_error(std::int64_t k, const GaitPaths& paths) const {
+    Random random(options_.seed, mix64(0x62656c74) ^ static_cast<std::uint64_t>(k));
+    auto pace = markers_.pace;
+    const double scatter = pace.scatter();
+    for (double& x : pace.m_per_s) x = scatter * random.gaussian();
+    return pace.ahead_of(0.0, paths.frames(), paths.rate_hz);
+  }
+
   // All values of a simulated recording; `noise` gets what its noise does to each event, NaN where it is not
   // found.
   std::vector<double> refit(std::int64_t k, std::vector<std::vector<double>>& noise) const {
-    const auto paths = smoother_.with_noise(options_.seed, k);
+    auto paths = smoother_.with_noise(options_.seed, k);
+    const bool even = markers_.pace.m_per_s.empty();
+    if (!even) paths.go_back(pace_error(k, paths));
     const auto ground = ground_velocity(paths, markers_.ground.velocity);
     const auto again = find_edges_again(paths, markers_.steps, ground.velocity, markers_.edges);
     const bool running = markers_.kind.manner != GaitManner::walk;
@@ -192,9 +203,8 @@ class GaitMeasurement {
     std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
     const double belt_variance = markers_.belt.sd * markers_.belt.sd - noise_alone_.belt;
     const double belt_error = std::sqrt(std::max(0.0, belt_variance)) * random.gaussian();
-    auto cycles = find_cycles(
-        paths, events, belt_of(markers_.kind, belt_velocity(paths, markers_.steps, ground), belt_error),
-        backward());
+    const auto belt = even ? belt_velocity(paths, markers_.steps, ground) : markers_.belt;
+    auto cycles = find_cycles(paths, events, belt_of(markers_.kind, belt, belt_error), backward());
     jitter(cycles, own_variances_, random);
     return values_of(cycles);
   }
@@ -333,7 +343,7 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   std::ranges::move(findings_of(*smoother, *of_markers), std::back_inserter(out.notes));
   PlateEvents of_plates;
   if (evidence.plates != nullptr)
-    of_plates = find_plate_events(*evidence.plates, smoother->paths(), smoother->upright());
+    of_plates = find_plate_events(*evidence.plates, smoother->in_laboratory(), smoother->upright());
   std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
   auto of_file = events_of_file(evidence.events, markers.time);
   std::ranges::move(of_file.notes, std::back_inserter(out.notes));

@@ -477,7 +477,12 @@ std::string GaitKind::sentence() const {
            (longer_than_s > 0.0 ? fmt::format(": each lasts more than {:.2f} s", longer_than_s) : "");
   else
     out += fmt::format("strides of {:.2f} s", stride_s);
-  if (belt) out += fmt::format("; the feet slide back at {:.3f} m/s while they stand", belt_m_per_s);
+  if (belt) {
+    const bool even = !std::isfinite(belt_least_m_per_s);
+    out += fmt::format("; the feet slide back at {} m/s while they stand",
+                       even ? fmt::format("{:.3f}", belt_m_per_s)
+                            : fmt::format("{:.2f} to {:.2f}", belt_least_m_per_s, belt_most_m_per_s));
+  }
   if (direction == GaitDirection::unknown)
     out += direction_doubted
                ? "; forward or backward cannot be known"

@@ -41,9 +41,10 @@ struct GaitKind {
   bool belt = false;                                 ///< the ground moves: a treadmill
   bool turning = false;                              ///< by more than 45 deg
   bool brief = false;                                ///< less than two steps: the kind is about so
-  double speed_m_per_s = 0.0;   ///< median of the pelvis over the ground or belt; in Gait of all strides
-  double belt_m_per_s = 0.0;    ///< of the ground that stands under the feet
-  double stride_s = 0.0;        ///< usual; in Gait the mean of all strides
+  double speed_m_per_s = 0.0;  ///< median of the pelvis over the ground or belt; in Gait of all strides
+  double belt_m_per_s = 0.0;   ///< of the ground that stands under the feet
+  double belt_least_m_per_s = kNaN, belt_most_m_per_s = kNaN;  ///< of one whose speed changes; NaN: even
+  double stride_s = 0.0;                                       ///< usual; in Gait the mean of all strides
   double longer_than_s = kNaN;  ///< no stride was seen whole, each lasts longer than this; NaN: one was
   double turn_rad = 0.0;        ///< range of the headings of stances
   double flight_share = 0.0;    ///< of the frames in which both feet swing

@@ -310,7 +310,29 @@ std::vector<SeriesMatrix> GaitSmoother::smooth_noise(std::uint64_t seed, std::in
 GaitPaths GaitSmoother::with_noise(std::uint64_t seed, std::int64_t number) const {
   auto points = smooth_noise(seed, number);
   for (std::size_t i = 0; i < points_.size(); ++i) points[i] += points_[i].smooth;
+  auto out = arrange(points);
+  out.go_back(belt_ahead_);
+  return out;
+}
+
+GaitPaths GaitSmoother::in_laboratory() const {
+  std::vector<SeriesMatrix> points;
+  for (const auto& point : points_) points.push_back(point.smooth);
   return arrange(points);
+}
+
+void GaitSmoother::set_belt_ahead(SeriesMatrix way) {
+  belt_ahead_ = std::move(way);
+  paths_ = in_laboratory();
+  paths_.go_back(belt_ahead_);
+}
+
+void GaitPaths::go_back(const SeriesMatrix& way) {
+  if (way.rows() == 0) return;
+  pelvis.leftCols<2>() -= way;
+  for (auto& foot : feet)
+    for (auto* marker : {&foot.heel, &foot.toe, &foot.ankle, &foot.knee})
+      if (marker->rows() > 0) marker->leftCols<2>() -= way;
 }
 
 GaitPaths GaitSmoother::noise_alone(std::uint64_t seed, std::int64_t number) const {

@@ -50,6 +50,8 @@ struct GaitPaths {
   [[nodiscard]] std::int64_t frames() const { return pelvis.rows(); }  ///< n
   /// Of one foot.
   [[nodiscard]] const FootPaths& foot(data::Side side) const { return feet[data::index_of(side)]; }
+  /// Take a way from all places: n x 2, m.
+  void go_back(const math::SeriesMatrix& way);
   /// Seconds on the recording's clock of a frame that need not be whole.
   [[nodiscard]] double time_s(double frame) const { return start_s + frame / rate_hz; }
 };
@@ -80,6 +82,11 @@ class GaitSmoother {
   [[nodiscard]] Status smooth_at(double cut_off_hz);
 
   [[nodiscard]] const GaitPaths& paths() const { return paths_; }  ///< as recorded
+  /// Where the markers are in the laboratory. paths() are the same until set_belt_ahead().
+  [[nodiscard]] GaitPaths in_laboratory() const;
+  /// From now on take from all paths, but not from noise alone, how far a belt of changing speed is ahead of
+  /// an even one: they are those on the even one. n x 2, m, z up.
+  void set_belt_ahead(math::SeriesMatrix way);
   /// Find what the samples err by, of whatever colour (GaitNoise). Before, with_noise() takes it as white.
   /// @param threads  0: all cores
   void find_noise(int threads);
@@ -132,6 +139,7 @@ class GaitSmoother {
   double stated_sd_m_ = 0.0;
   std::vector<data::FilterUsed> filters_;  // of the recording's markers; empty: nothing says so
   GaitNoise noise_;
+  math::SeriesMatrix belt_ahead_;  // n x 2, or 0 rows
   GaitPaths paths_;
 };
 

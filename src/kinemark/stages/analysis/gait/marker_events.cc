@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/statistics.h"
@@ -15,6 +17,7 @@ using data::FootEvent;
 using data::Side;
 
 constexpr double kUnjudged = 1.5;
+constexpr int kMostPasses = 3;         // each finds steps on a belt that is more even
 constexpr double kScatter_s = 0.007;   // of a detector about the others, from event to event
 constexpr double kOfDifference = 0.7;  // of what the feet differ by: what each errs by
 
@@ -84,6 +87,17 @@ void add_foot_errors(MarkerEvents& out) {
   }
 }
 
+// Steps, events and the kind of gait on ground that moves evenly.
+void judge(const GaitPaths& paths, const Progress& progress, MarkerEvents& out) {
+  out.steps = find_steps(paths, out.ground.velocity);
+  add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
+  add_foot_errors(out);
+  auto in_time = out.events;
+  std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
+  out.belt = belt_velocity(paths, out.steps, out.ground);
+  out.kind = judge_kind(paths, out.ground, out.steps, progress, in_time);
+}
+
 }  // namespace
 
 double sd_factor(GaitDirection direction) {
@@ -101,14 +115,18 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   out.ends = judge_foot_ends(smoother.paths(), progress);
   for (const Side side : data::kBothSides)
     if (out.ends.exchanged[data::index_of(side)]) smoother.exchange_ends(side);
-  const auto& paths = smoother.paths();
-  out.steps = find_steps(paths, out.ground.velocity);
-  add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
-  add_foot_errors(out);
-  auto in_time = out.events;
-  std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
-  out.belt = belt_velocity(paths, out.steps, out.ground);
-  out.kind = judge_kind(paths, out.ground, out.steps, progress, in_time);
+  judge(smoother.paths(), progress, out);
+  for (int pass = 0; pass < kMostPasses && out.kind.belt; ++pass) {
+    auto pace = belt_pace(smoother.in_laboratory(), out.steps, out.belt.velocity);
+    if (!pace.changes() || pace.frame == out.pace.frame) break;
+    smoother.set_belt_ahead(
+        pace.ahead_of(math::median(pace.m_per_s), smoother.paths().frames(), smoother.paths().rate_hz));
+    out = {.ground = ground_velocity(smoother.paths()), .pace = std::move(pace), .ends = out.ends};
+    judge(smoother.paths(), progress_of(smoother.paths(), out.ground.velocity), out);
+  }
+  if (!out.pace.m_per_s.empty())
+    std::tie(out.kind.belt_least_m_per_s, out.kind.belt_most_m_per_s) =
+        std::pair(std::ranges::min(out.pace.m_per_s), std::ranges::max(out.pace.m_per_s));
   if (out.ends.doubtful) out.kind.direction = GaitDirection::unknown, out.kind.direction_doubted = true;
   if (out.kind.belt) out.kind.belt_m_per_s = out.belt.velocity.norm();
   const double factor = sd_factor(out.kind.direction);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/stages/analysis/gait/belt.h"
 #include "kinemark/stages/analysis/gait/foot_ends.h"
 #include "kinemark/stages/analysis/gait/gait_kind.h"
 #include "kinemark/stages/analysis/gait/kinematic_events.h"
@@ -19,6 +20,7 @@ namespace kinemark::analysis {
 struct MarkerEvents {
   Ground ground;                        ///< under the feet
   Ground belt;                          ///< belt_velocity(): what speeds and lengths are measured against
+  BeltPace pace;                        ///< of a belt whose speed changes; else without stances
   Steps steps;                          ///< swings of both feet
   GaitKind kind;                        ///< of gait, or why it is none
   FootEnds ends;                        ///< which feet have names of heel and toe exchanged
@@ -31,7 +33,7 @@ struct MarkerEvents {
 /// Find them: once at kFirstCutOff_hz for the pace, then smoothed at cut_off_of() it. Where no name tells the
 /// sides, left is the foot on the left of where the body goes.
 /// @param smoother  is left at that cut-off, its sides, and heel and toe of a foot, exchanged where they had
-/// to be
+/// to be, and on an even belt where its speed changes
 [[nodiscard]] Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarkers& which);
 
 /// Factor on SDs of a direction in which no plate has judged them: 1.5 backward and sideways, else 1.

@@ -23,7 +23,6 @@ constexpr int kShifts = 12;
 constexpr double kShifted = 1e-4, kBetter = 1.02;  // a later start has to gather 2 % more
 constexpr double kAround_s = 0.7, kTop = 0.98, kShareOfTop = 0.25, kLeastTop_m_per_s = 0.35;
 constexpr double kLeastSwing_s = 0.06, kLeastSwing_m = 0.08;
-constexpr double kFlatFrom = 0.3, kFlatTo = 0.55;  // of a stance: the foot lies flat
 constexpr double kSwingOfStride = 1.0 / 2.3;
 constexpr double kDoubled = 1.5;  // of the shorter quarter: a swing was lost between
 constexpr double kLeastStride_s = 0.3, kMostStride_s = 2.5;
@@ -245,32 +244,6 @@ Ground ground_velocity(const GaitPaths& paths, const std::optional<RowVector2d>&
   const bool both = weights_about(heels, best.centre, width, of_heels) > 1e-9 &&
                     weights_about(toes, best.centre, width, of_toes) > 1e-9;
   return {.velocity = best.centre, .sd = both ? 0.5 * (of_heels - of_toes).norm() : width};
-}
-
-Ground belt_velocity(const GaitPaths& paths, const Steps& steps, const Ground& ground) {
-  std::array<std::vector<double>, 2> mean, apart;  // of heel and toe, by axis
-  for (const Side side : data::kBothSides) {
-    const auto& foot = paths.foot(side);
-    const auto& swings = steps.foot(side).swings;
-    for (std::size_t i = 0; i + 1 < swings.size(); ++i) {
-      if (!swings[i].lands || !swings[i + 1].leaves) continue;
-      const auto lands = static_cast<double>(*swings[i].lands),
-                 stance = static_cast<double>(*swings[i + 1].leaves) - lands;
-      const auto first = std::llround(lands + kFlatFrom * stance),
-                 last = std::llround(lands + kFlatTo * stance);
-      if (last <= first || !foot.known[at(first)] || !foot.known[at(last)]) continue;
-      const double per_s = paths.rate_hz / static_cast<double>(last - first);
-      for (const Eigen::Index axis : {0, 1}) {
-        const double heel = per_s * (foot.heel(last, axis) - foot.heel(first, axis)),
-                     toe = per_s * (foot.toe(last, axis) - foot.toe(first, axis));
-        mean[at(axis)].push_back(0.5 * (heel + toe));
-        apart[at(axis)].push_back(heel - toe);
-      }
-    }
-  }
-  if (mean[0].empty()) return ground;
-  return {.velocity = {math::median(mean[0]), math::median(mean[1])},
-          .sd = 0.5 * std::hypot(math::median(apart[0]), math::median(apart[1]))};
 }
 
 Steps find_steps(const GaitPaths& paths, const RowVector2d& ground) {

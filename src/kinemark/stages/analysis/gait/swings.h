@@ -33,11 +33,6 @@ struct Ground {
 [[nodiscard]] Ground ground_velocity(const GaitPaths& paths,
                                      const std::optional<Eigen::RowVector2d>& near = std::nullopt);
 
-struct Steps;
-/// How a belt moves, better than the commonest velocity tells: the median over stances of heel and toe from
-/// 30 to 55 % of each. As `ground` where no stance is seen whole.
-[[nodiscard]] Ground belt_velocity(const GaitPaths& paths, const Steps& steps, const Ground& ground);
-
 /// One swing. Frames at which the speed is below kStands again; nothing where the recording, or what is seen
 /// of the foot, begins or ends within it.
 struct Swing {

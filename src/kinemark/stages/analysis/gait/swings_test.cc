@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "kinemark/stages/analysis/gait/belt.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
 
 namespace kinemark::analysis {
