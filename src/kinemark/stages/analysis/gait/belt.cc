@@ -3,6 +3,7 @@
 #include "kinemark/stages/analysis/gait/belt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kinemark/core/index.h"
