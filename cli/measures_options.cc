@@ -4,10 +4,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
 #include "cli/heeded_options.h"
 #include "cli/many_inputs.h"
+#include "kinemark/data/interval_refits.h"
 #include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/measures/many_measures_job.h"
@@ -112,13 +115,23 @@ void add_measures_options(CLI::App& command, MeasuresArguments& a) {
 }
 
 void add_interval_options(CLI::App& command, workflow::MeasureChoice& choice) {
-  command.add_option("--refits", choice.refits, "Simulated recordings behind each interval; 0: no intervals")
-      ->type_name("N")
-      ->capture_default_str()
-      ->group("Measures");
-  command.add_option("--level", choice.level, "Coverage of the intervals, 0.5 to 1")
+  const auto* refits =
+      command
+          .add_option("--refits", choice.refits,
+                      "Simulated recordings behind each interval, more where --level needs them; 0: no "
+                      "intervals")
+          ->type_name("N")
+          ->capture_default_str()
+          ->group("Measures");
+  // What is given of both is known once all words are read.
+  const auto take_level = [&choice, refits](const double& level) {
+    choice.level = level;
+    if (refits->count() == 0) choice.refits = std::max(choice.refits, data::least_refits(level));
+  };
+  command
+      .add_option_function<double>("--level", take_level, "Coverage of the intervals, above 0.5 to 0.9999")
+      ->default_str(fmt::format("{:g}", choice.level))
       ->type_name("SHARE")
-      ->capture_default_str()
       ->group("Measures");
 }
 

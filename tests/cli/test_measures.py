@@ -119,6 +119,8 @@ class Measures(CommandTest):
             (("--region", "late=900-950"), 3, "lies outside the recording"),
             (("--between", "Strike"), 3, "the recording has no events"),
             (("--refits", "5"), 2, "need 0 (no intervals) or at least 39"),
+            (("--refits", "99", "--level", "0.99"), 2, "99 refits; need 0 (no intervals) or at least 199 for intervals of level 0.99"),
+            (("--level", "1"), 2, "intervals of level 1; need one above 0.5 and at most 0.9999"),
             (("-o", self.folder / "a.xlsx"), 2, "measures are written as .csv, .json or .nwb"),
             (("--select", "NOSE"), 3, "NOSE"),
         ):
@@ -127,6 +129,18 @@ class Measures(CommandTest):
                 self.assertEqual(result.status, status, result.err)
                 self.assertIn(words, result.err)
                 self.assertEqual(len(result.err.strip().splitlines()), 1, result.err)
+
+    def test_a_level_has_as_many_refits_as_it_needs(self):
+        found = []
+        for words in ((), ("--level", "0.98"), ("--level", "0.99"), ("--level", "0.99", "--refits", "250")):
+            result = self.run_in("analyze", self.file, "--measures", "cycle_time", *words, "--json")
+            self.assertEqual(result.status, 0, result.err)
+            found.append(json.loads(result.out)["measures"][0])
+        for measure, refits in zip(found, (99, 99, 199, 250)):
+            self.assertIn(f", {refits} refits", measure["method"])
+        width = [m["interval"]["high"] - m["interval"]["low"] for m in found]
+        self.assertLess(width[0], width[1])
+        self.assertNotEqual(width[1], width[2])
 
     def test_nothing_is_written_over(self):
         table = self.folder / "wheel.csv"

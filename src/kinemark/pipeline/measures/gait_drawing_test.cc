@@ -143,7 +143,7 @@ TEST_F(GaitDrawingTest, ALevelThatIsNoneIsRefused) {
     const auto begun = GaitDrawing::begin(job_, staging);
     ASSERT_FALSE(begun);
     EXPECT_EQ(begun.error().code, Code::usage);
-    EXPECT_THAT(begun.error().message, HasSubstr("need one above 0.5 and below 1"));
+    EXPECT_THAT(begun.error().message, HasSubstr("need one above 0.5 and at most 0.9999"));
   }
   job_.level = 0.95;
   job_.refits = 20;  // too few for an interval

@@ -164,7 +164,8 @@ TEST(MeasureRequest, RefuseWhatIsNone) {
   EXPECT_THAT(unknown.error().message, ::testing::EndsWith("; --list shows them all"));
   job.measures = {"cadence"};
   job.refits = 12;
-  EXPECT_EQ(asked_measures(job).error().message, "12 refits; need 0 (no intervals) or at least 39");
+  EXPECT_EQ(asked_measures(job).error().message,
+            "12 refits; need 0 (no intervals) or at least 39 for intervals of level 0.95");
   job.refits = 0;
   job.gait.events = "plate";
   EXPECT_EQ(asked_measures(job).error().code, Code::usage);

@@ -83,7 +83,7 @@ struct MotionMeasureOptions {
   bool torques = false;      ///< moments, power and work without forces too; with forces always
   bool normalized = false;   ///< kinetics per mass, momentum over mass, speed and height
   double cutoff_hz = 0.0;    ///< as DynamicsOptions::cutoff_hz: no intervals are known then; 0: none
-  std::int64_t refits = 99;  ///< behind each interval: 0 (none) or at least 39
+  std::int64_t refits = 99;  ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
   double level = 0.95;       ///< of the intervals
   std::uint64_t seed = 1;    ///< of the refits
   int threads = 1;           ///< 0: all cores. Any number gives the same bits.

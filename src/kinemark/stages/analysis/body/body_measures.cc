@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/interval_refits.h"
 #include "kinemark/stages/analysis/body/balance.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/body/body_statement.h"
@@ -241,13 +242,7 @@ std::string side_of_name(const std::string& name) {
 }
 
 Status BodyMeasureOptions::check() const {
-  constexpr std::int64_t kLeastRefits = 39;
-  if (refits != 0 && refits < kLeastRefits)
-    return fail(Code::usage,
-                fmt::format("{} refits are too few for an interval; need {} or more, or 0 for none", refits,
-                            kLeastRefits));
-  if (!(level > 0.5 && level < 1.0))
-    return fail(Code::usage, fmt::format("intervals of level {:g}; need one above 0.5 and below 1", level));
+  if (auto s = data::check_interval_refits(refits, level); !s) return s;
   for (const auto& id : measures) {
     const auto* definition = find_body_definition(id);
     if (definition == nullptr)

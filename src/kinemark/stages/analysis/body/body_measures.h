@@ -22,8 +22,8 @@ struct BodyMeasureOptions {
   std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;  ///< coordinates whose coupling is measured
   std::vector<BodyStretch> stretches;                        ///< empty: the whole motion
   bool normalized = false;   ///< kinetics per mass, momentum over mass, speed and height
-  std::int64_t refits = 99;  ///< behind each interval: 0 (none) or at least 39
-  double level = 0.95;       ///< of the intervals, above 0.5 and below 1
+  std::int64_t refits = 99;  ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
+  double level = 0.95;       ///< of the intervals, above 0.5 to 0.9999
   std::uint64_t seed = 1;    ///< of the refits
   int threads = 1;           ///< 0: all cores; any number gives the same bits
 

@@ -419,6 +419,8 @@ TEST(BodyMeasures, RefusesWhatCannotBeMeasured) {
   EXPECT_THAT(measure_body(record, nothing, {.measures = {"phase_locking"}}).error().message,
               HasSubstr("name them with --couple A,B"));
   EXPECT_EQ(measure_body(record, nothing, {.refits = 10}).error().code, Code::usage);
+  EXPECT_THAT(measure_body(record, nothing, {.refits = 99, .level = 0.99}).error().message,
+              HasSubstr("at least 199 for intervals of level 0.99"));
   EXPECT_EQ(measure_body(record, nothing, {.level = 1.0}).error().code, Code::usage);
   EXPECT_THAT(
       measure_body(record, nothing, {.stretches = {{.name = "x", .first = 0, .count = 9}}}).error().message,

@@ -14,6 +14,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
+#include "kinemark/data/interval_refits.h"
 #include "kinemark/stages/analysis/emg/internal/activity.h"
 #include "kinemark/stages/analysis/emg/internal/rails.h"
 #include "kinemark/stages/analysis/emg/internal/spectral_noise.h"
@@ -346,10 +347,7 @@ std::vector<EmgStretch> stretches_within(const std::vector<EmgStretch>& asked, s
 
 Status check(const EmgOptions& options) {
   if (auto s = options.envelope.check(); !s) return s;
-  if (options.refits != 0 && options.refits < 39)
-    return fail(
-        Code::usage,
-        fmt::format("{} refits are too few for an interval; need 39 or more, or 0 for none", options.refits));
+  if (auto s = data::check_interval_refits(options.refits, options.level); !s) return s;
   if (!(options.rest_s > 0.0) || !(options.burst_s >= 0.0))
     return fail(Code::usage,
                 fmt::format("rest of {:g} s and bursts of {:g} s; need the first above 0 and the second not "

@@ -40,8 +40,8 @@ struct EmgOptions {
   double rest_s = 0.5;                ///< the least time in all that a level is kept which is taken for rest
   double burst_s = 0.05;              ///< the shortest burst and interruption that count
   bool to_maximum = false;            ///< values to the largest envelope of the recording
-  std::int64_t refits = 99;           ///< behind each interval: 0 (none) or at least 39
-  double level = 0.95;                ///< of the intervals, above 0.5 and below 1
+  std::int64_t refits = 99;           ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
+  double level = 0.95;                ///< of the intervals, above 0.5 to 0.9999
   std::uint64_t seed = 1;             ///< of the simulated channels
   int threads = 1;                    ///< 0: all cores; any number gives the same bits
 };

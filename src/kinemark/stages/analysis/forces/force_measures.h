@@ -51,9 +51,9 @@ struct ForceMeasureOptions {
   std::vector<std::string> measures;        ///< ids of force_definitions(); empty: all that apply
   std::vector<data::Region> regions;        ///< of whole steps, of standing; empty: the whole recording
   std::span<const data::GaitEvent> events;  ///< that tell whose steps were on which plate
-  std::int64_t refits = 99;                 ///< behind each interval: 0 (none) or at least 39
-  double level = 0.95;                      ///< of the intervals, above 0.5 and below 1
-  std::uint64_t seed = 1;                   ///< of the refits
+  std::int64_t refits = 99;  ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
+  double level = 0.95;       ///< of the intervals, above 0.5 to 0.9999
+  std::uint64_t seed = 1;    ///< of the refits
 };
 
 /// Measures of plates, and what was left out.

@@ -30,12 +30,12 @@ struct GaitOptions {
   EventChoice choice = EventChoice::best;  ///< whose events
   std::vector<std::string> measures;       ///< ids of gait_definitions(); empty: all that can be told
   std::vector<data::Region> regions;       ///< of whole cycles; empty: the whole recording
-  std::int64_t refits = 99;                ///< behind each interval: 0 (none) or at least 39
-  double noise_sd_m = 0.0;                 ///< per axis; 0: found from the samples
-  double level = 0.95;                     ///< of the intervals, above 0.5 and below 1
-  std::uint64_t seed = 1;                  ///< of the refits
-  int threads = 1;                         ///< 0: all cores; any number gives the same bits
-  std::optional<Eigen::Vector3d> up;       ///< of length 1; none: where the pelvis stands above the feet
+  std::int64_t refits = 99;           ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
+  double noise_sd_m = 0.0;            ///< per axis; 0: found from the samples
+  double level = 0.95;                ///< of the intervals, above 0.5 to 0.9999
+  std::uint64_t seed = 1;             ///< of the refits
+  int threads = 1;                    ///< 0: all cores; any number gives the same bits
+  std::optional<Eigen::Vector3d> up;  ///< of length 1; none: where the pelvis stands above the feet
 };
 
 /// What a recording tells of walking besides its markers.

@@ -166,7 +166,7 @@ const std::array kDefinitions{
                    Applies::discrete,
                    Pivot::plain,
                    Weakness::approximate,
-                   [](const PathFacts& f) { return time_to_peak(f.speed, f.path.rate_hz); }},
+                   [](const PathFacts& f) { return speed_peak(f.path, f.speed).time_s; }},
     PathDefinition{{"peak_acceleration", "time", Quantity::acceleration, "Peak acceleration", "largest |a|",
                     kDefinition},
                    Applies::always,

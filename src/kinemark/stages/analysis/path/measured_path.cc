@@ -261,7 +261,7 @@ PathCurves MeasuredPath::curves_of(const PathSamples& path, const PathFrame& fra
                  .acceleration_sd = spread.acceleration_sd()};
   const auto first = recording_.seen.begin() + stretch.first;
   out.measured.assign(first, first + stretch.count);
-  if (frame.discrete) out.window = movement_window(out.speed, rate);
+  if (frame.discrete) out.window = movement_window(path, out.speed);
   if (frame.periodic) out.cycles = cycle_starts(path.x, frame.cycle_axis, rate, CycleTrend::of_whole_cycles);
   return out;
 }

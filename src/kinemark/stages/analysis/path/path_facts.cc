@@ -70,7 +70,7 @@ PathFrame recognise(const PathSamples& path) {
   out.steady = hardly_changes(speed);
   out.cycle_axis = detrended_axis(path.x);
   out.harmonics = harmonic_form(path.x, path.rate_hz, dominant_peak(path));
-  const auto window = movement_window(speed, path.rate_hz);
+  const auto window = movement_window(path, speed);
   const double last_s = static_cast<double>(path.count() - 1) / path.rate_hz;
   // A sample's tolerance, so that a rest of just that length counts.
   const double hold_s = kMovingHold_s - 1.0 / path.rate_hz;
@@ -92,7 +92,7 @@ PathFacts::PathFacts(const PathSamples& samples, const PathFrame& settled, const
       frame(settled),
       near(near_path),
       speed(speed_of(samples)),
-      window(movement_window(speed, samples.rate_hz)) {
+      window(movement_window(samples, speed)) {
   if (settled.discrete) part_ = moving_part(samples, window);
 }
 

@@ -14,6 +14,7 @@
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/interval_refits.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/measured_path.h"
 #include "kinemark/stages/analysis/path/noise_sentences.h"
@@ -92,10 +93,7 @@ Status check_regions(const TimeBase& time, const std::vector<data::Region>& regi
 }
 
 Status PathMeasureOptions::check() const {
-  if (refits != 0 && refits < 39)
-    return fail(Code::usage, fmt::format("{} refits; need 0 (no intervals) or at least 39", refits));
-  if (!(level > 0.5 && level < 1.0))
-    return fail(Code::usage, fmt::format("intervals of level {}; need one above 0.5 and below 1", level));
+  if (auto s = data::check_interval_refits(refits, level); !s) return s;
   if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))
     return fail(Code::usage,
                 fmt::format("a noise of {} m; need 0 (found from the data) or more", noise_sd_m));

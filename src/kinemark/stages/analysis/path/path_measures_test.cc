@@ -250,8 +250,11 @@ TEST(MeasurePaths, RefuseWhatMakesNoSense) {
   };
   EXPECT_EQ(says(reach(), {.measures = {"path_lenght"}}),
             "there is no measure 'path_lenght' (nearest: path_length); --list shows them all");
-  EXPECT_EQ(says(reach(), {.refits = 10}), "10 refits; need 0 (no intervals) or at least 39");
-  EXPECT_EQ(says(reach(), {.level = 1.0}), "intervals of level 1; need one above 0.5 and below 1");
+  EXPECT_EQ(says(reach(), {.refits = 10}),
+            "10 refits; need 0 (no intervals) or at least 39 for intervals of level 0.95");
+  EXPECT_EQ(says(reach(), {.level = 0.99}),
+            "99 refits; need 0 (no intervals) or at least 199 for intervals of level 0.99");
+  EXPECT_EQ(says(reach(), {.level = 1.0}), "intervals of level 1; need one above 0.5 and at most 0.9999");
   EXPECT_EQ(says(reach(), {.regions = {{"back", 100, 50}}}),
             "region 'back' ends in frame 50, before it begins in frame 100");
   EXPECT_NE(says(reach(), {.regions = {{"late", 500, 600}}}).find("lies outside the recording"),

@@ -42,6 +42,9 @@ Pivoted pivot(double estimate, std::span<const double> deviations, double level)
 namespace {
 
 Pivoted as_root(Pivoted out) {
+  // No square is below 0. One that comes out there is 0, and its upper end keeps its distance from it: what
+  // refits spread by is what the noise can hide.
+  out.high += std::max(0.0, -out.value);
   const auto root = [](double square) {
     return std::isnan(square) ? kNaN : std::sqrt(std::max(0.0, square));
   };

@@ -56,6 +56,51 @@ TEST(PivotOfSquare, TakesAConstantOffTheSquares) {
   EXPECT_TRUE(std::isnan(pivot_of_square(5.0, more, 0.95).sd));
 }
 
+TEST(PivotOfSquare, KeepsTheUpperEndAboveZero) {
+  // Squares below what the noise adds: 1, with 30 to 68 taken off. Their mean stays 0, the end keeps its
+  // distance.
+  std::vector<double> deviations;
+  for (int k = 0; k < 39; ++k) deviations.push_back(30.0 + k);
+  const auto found = pivot_of_square(1.0, deviations, 0.95);
+  EXPECT_EQ(found.value, 0.0);
+  EXPECT_EQ(found.low, 0.0);
+  EXPECT_NEAR(found.high, std::sqrt(49.0 - 30.0), 1e-12);
+  // A square above 0 has the pivot's own end.
+  const auto above = pivot_of_square(8.0, deviations, 0.95);
+  EXPECT_NEAR(above.value, std::sqrt(64.0 - 49.0), 1e-12);
+  EXPECT_NEAR(above.high, std::sqrt(64.0 - 30.0), 1e-12);
+}
+
+TEST(PivotOfSquare, HoldsASpreadThatTheNoiseHides) {
+  // Twelve values of spread 0.3 to 1 in noise of 1 per value that refits overstate by a half.
+  Random random(7, 0);
+  int covered = 0, none = 0;
+  const int trials = 300;
+  const auto variance = [](const std::vector<double>& x) {
+    double mean = 0.0, squares = 0.0;
+    for (const double v : x) mean += v / static_cast<double>(x.size());
+    for (const double v : x) squares += (v - mean) * (v - mean);
+    return squares / static_cast<double>(x.size() - 1);
+  };
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> truth(12), seen(12), again(12), deviations(99);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      truth[i] = (0.3 + 0.1 * (trial % 8)) * random.gaussian();
+      seen[i] = truth[i] + random.gaussian();
+    }
+    for (double& d : deviations) {
+      for (std::size_t i = 0; i < seen.size(); ++i) again[i] = seen[i] + 1.5 * random.gaussian();
+      d = variance(again) - variance(seen);
+    }
+    const auto found = pivot_of_square(std::sqrt(variance(seen)), deviations, 0.95);
+    const double sd = std::sqrt(variance(truth));
+    covered += found.low <= sd && sd <= found.high;
+    none += found.high <= 0.0;
+  }
+  EXPECT_GE(covered, 85 * trials / 100);
+  EXPECT_EQ(none, 0);
+}
+
 TEST(WidePivot, HoldsThePivotAndThePercentileInterval) {
   // Lopsided: from -1 to 9.
   std::vector<double> off;

@@ -17,17 +17,21 @@ using testing::kTurn;
 using ::testing::Pair;
 
 // Out and back between two places: a minimum-jerk way, a rest, and again.
-Eigen::VectorXd speed_of_reaches(std::int64_t n, double rate_hz, double way_s, double rest_s) {
-  Eigen::VectorXd out(n);
+PathSamples reaches(std::int64_t n, double rate_hz, double way_s, double rest_s) {
+  Eigen::VectorXd speed(n), acceleration(n);
   for (std::int64_t i = 0; i < n; ++i) {
     const double t = std::fmod(static_cast<double>(i) / rate_hz, way_s + rest_s) - rest_s;
-    out[i] = testing::minimum_jerk_speed(t / way_s) / way_s;
+    speed[i] = testing::minimum_jerk_speed(t / way_s) / way_s;
+    acceleration[i] = testing::minimum_jerk_acceleration(t / way_s) / (way_s * way_s);
   }
-  return out;
+  return testing::straight_way(rate_hz, speed, acceleration);
+}
+PathSamples steps(const Eigen::VectorXd& speed) {
+  return testing::straight_way(100.0, speed, Eigen::VectorXd::Zero(speed.size()));
 }
 
 TEST(MovementsOf, ReachesBetweenRestsAreFoundOneByOne) {
-  const auto found = movements_of(speed_of_reaches(500, 100.0, 0.7, 0.5), 100.0);
+  const auto found = movements_of(reaches(500, 100.0, 0.7, 0.5));
   ASSERT_EQ(found.size(), 4u);
   // The speed of a minimum-jerk way crosses 5 % of its peak at u (1 - u) = sqrt(0.05) / 4.
   const double u = 0.5 - std::sqrt(0.25 - std::sqrt(0.05) / 4.0);
@@ -40,8 +44,8 @@ TEST(MovementsOf, ReachesBetweenRestsAreFoundOneByOne) {
 
 TEST(MovementsOf, OfOneMovementIsItsWindow) {
   const auto path = testing::path_of(178, 100.0, testing::reach);
-  const auto window = movement_window(speed_of(path), 100.0);
-  const auto found = movements_of(speed_of(path), 100.0);
+  const auto window = movement_window(path, speed_of(path));
+  const auto found = movements_of(path);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].onset_s, window.onset_s);
   EXPECT_EQ(found[0].end_s, window.end_s);
@@ -50,17 +54,17 @@ TEST(MovementsOf, OfOneMovementIsItsWindow) {
 TEST(MovementsOf, AShortStopPartsNothingAndAShortJerkIsNone) {
   Eigen::VectorXd speed = Eigen::VectorXd::Ones(300);
   speed.segment(100, 9).setZero();  // 90 ms
-  auto found = movements_of(speed, 100.0);
+  auto found = movements_of(steps(speed));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(std::isnan(found[0].onset_s));
   EXPECT_TRUE(std::isnan(found[0].end_s));
   speed.segment(100, 100).setZero();
   speed.segment(150, 9).setOnes();  // moves for 90 ms
-  found = movements_of(speed, 100.0);
+  found = movements_of(steps(speed));
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_NEAR(found[0].end_s, 0.9995, 1e-9);
-  EXPECT_NEAR(found[1].onset_s, 1.9905, 1e-2);
-  EXPECT_TRUE(movements_of({}, 100.0).empty());
+  EXPECT_NEAR(found[0].end_s, 0.9986465, 1e-7);  // 3 t^2 - 2 t^3 = 0.95 from 0.99 s on
+  EXPECT_NEAR(found[1].onset_s, 1.9913535, 1e-7);
+  EXPECT_TRUE(movements_of({}).empty());
 }
 
 TEST(PeriodOf, AnEllipseIsATurnAndAFigureOfEightIsNoHalfOfOne) {

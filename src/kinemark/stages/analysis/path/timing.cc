@@ -16,6 +16,7 @@ namespace kinemark::analysis {
 namespace {
 
 constexpr double kLeastCycle = 0.4;  // of the median; what is shorter is noise about a crossing
+constexpr int kHalvings = 40;        // of the way between two samples
 constexpr int kTrendPasses = 3;      // each takes the trend of the cycles that the one before found
 
 // n values from -(n-1)/2 to (n-1)/2.
@@ -40,6 +41,15 @@ const Window& hann_window(std::int64_t n) {
   return last;
 }
 
+// Squared speed a share of the way from one sample to its neighbour, before or behind it.
+double squared_between(const PathSamples& path, std::int64_t from, std::int64_t to, double share) {
+  const double t = share, step_s = static_cast<double>(to - from) / path.rate_hz;
+  const double toward = t * t * (3.0 - 2.0 * t);
+  const Eigen::RowVectorXd v = (1.0 - toward) * path.v.row(from) + toward * path.v.row(to) +
+                               step_s * t * (1.0 - t) * ((1.0 - t) * path.a.row(from) - t * path.a.row(to));
+  return v.squaredNorm();
+}
+
 }  // namespace
 
 Eigen::VectorXd speed_of(const PathSamples& path) {
@@ -48,12 +58,44 @@ Eigen::VectorXd speed_of(const PathSamples& path) {
   return squared.sqrt().matrix();
 }
 
-MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz) {
+SpeedPeak speed_peak(const PathSamples& path, const Eigen::VectorXd& speed) {
+  if (speed.size() == 0) return {};
+  Eigen::Index at = 0;
+  const double largest = speed.maxCoeff(&at);
+  SpeedPeak out{.time_s = static_cast<double>(at) / path.rate_hz, .speed = largest};
+  const Eigen::Index to = path.v.row(at).dot(path.a.row(at)) > 0.0 ? at + 1 : at - 1;
+  if (to < 0 || to >= speed.size()) return out;
+  double low = 0.0, high = 1.0;  // shares of the way to it
+  for (int i = 0; i < kHalvings; ++i) {
+    const double before = low + (high - low) / 3.0, behind = high - (high - low) / 3.0;
+    const bool rises = squared_between(path, at, to, before) < squared_between(path, at, to, behind);
+    (rises ? low : high) = rises ? before : behind;
+  }
+  const double share = 0.5 * (low + high), found = std::sqrt(squared_between(path, at, to, share));
+  if (found > largest) {
+    out.time_s += share * static_cast<double>(to - at) / path.rate_hz;
+    out.speed = found;
+  }
+  return out;
+}
+
+double crossing_s(const PathSamples& path, std::int64_t below, std::int64_t above, double level) {
+  double low = 0.0, high = 1.0;  // shares of the way from below to above
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (squared_between(path, below, above, middle) > level * level ? high : low) = middle;
+  }
+  return (static_cast<double>(below) + 0.5 * (low + high) * static_cast<double>(above - below)) /
+         path.rate_hz;
+}
+
+MovementWindow movement_window(const PathSamples& path, const Eigen::VectorXd& speed) {
   MovementWindow out;
+  const double rate_hz = path.rate_hz;
   const auto hold = std::max<std::int64_t>(2, std::llround(kMovingHold_s * rate_hz));
   const std::int64_t n = speed.size();
   if (n == 0) return out;
-  const double level = kMovingShare * speed.maxCoeff();
+  const double level = kMovingShare * speed_peak(path, speed).speed;
   std::int64_t first = -1, last = -1;
   for (std::int64_t i = 0, run = 0; i < n && first < 0; ++i) {
     run = speed[i] > level ? run + 1 : 0;
@@ -63,12 +105,8 @@ MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz) {
     run = speed[i] > level ? run + 1 : 0;
     if (run == hold) last = i + run - 1;
   }
-  const auto crossing = [&](std::int64_t below, std::int64_t above) {
-    const double share = (speed[above] - level) / (speed[above] - speed[below]);
-    return (static_cast<double>(above) + share * static_cast<double>(below - above)) / rate_hz;
-  };
-  if (first > 0) out.onset_s = crossing(first - 1, first);
-  if (last >= 0 && last + 1 < n) out.end_s = crossing(last + 1, last);
+  if (first > 0) out.onset_s = crossing_s(path, first - 1, first, level);
+  if (last >= 0 && last + 1 < n) out.end_s = crossing_s(path, last + 1, last, level);
   return out;
 }
 
@@ -87,13 +125,6 @@ std::int64_t count_submovements(const Eigen::VectorXd& speed) {
     count += speed[i] - std::max(left, right) >= 0.05 * peak;
   }
   return count;
-}
-
-double time_to_peak(const Eigen::VectorXd& speed, double rate_hz) {
-  if (speed.size() == 0) return kNaN;
-  Eigen::Index at = 0;
-  speed.maxCoeff(&at);
-  return static_cast<double>(at) / rate_hz;
 }
 
 PathMatrix without_trend(const PathMatrix& x) {

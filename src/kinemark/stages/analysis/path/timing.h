@@ -23,21 +23,36 @@ inline constexpr double kMovingShare = 0.05;
 /// How long it must stay beyond it, s.
 inline constexpr double kMovingHold_s = 0.1;
 
-/// Begin and end of a movement, s from the first sample, by straight lines between samples.
+/// Where a point is fastest.
+struct SpeedPeak {
+  double time_s = kNaN;  ///< from the first sample; NaN: there are no samples
+  double speed = 0.0;    ///< m/s
+};
+/// The largest speed, between samples too: velocity is the cubic that has the samples' velocities and
+/// accelerations.
+/// @param speed  speed_of() the path
+[[nodiscard]] SpeedPeak speed_peak(const PathSamples& path, const Eigen::VectorXd& speed);
+
+/// When the speed crosses a level between two neighbouring samples, s from the first sample, by the same
+/// cubic. A straight line would be early at an onset and late at an end, where the speed is curved.
+/// @param below  sample whose speed is at most the level
+/// @param above  sample before or behind it whose speed is above
+[[nodiscard]] double crossing_s(const PathSamples& path, std::int64_t below, std::int64_t above,
+                                double level);
+
+/// Begin and end of a movement, s from the first sample, between samples by crossing_s().
 struct MovementWindow {
   double onset_s = kNaN;  ///< NaN: it moves from the first sample on
   double end_s = kNaN;    ///< NaN: it moves to the last sample
 };
 /// Where the speed first crosses kMovingShare of its peak and stays above for kMovingHold_s, and where it
 /// last falls below likewise. About 40 ms after the true start of a minimum-jerk reach of 0.7 s.
-[[nodiscard]] MovementWindow movement_window(const Eigen::VectorXd& speed, double rate_hz);
+/// @param speed  speed_of() the path
+[[nodiscard]] MovementWindow movement_window(const PathSamples& path, const Eigen::VectorXd& speed);
 
 /// Number of submovements: peaks of the speed above a tenth of the largest that rise a twentieth of it above
 /// the higher of the valleys on both sides (prominence).
 [[nodiscard]] std::int64_t count_submovements(const Eigen::VectorXd& speed);
-
-/// Time from the first sample to the largest speed, s.
-[[nodiscard]] double time_to_peak(const Eigen::VectorXd& speed, double rate_hz);
 
 /// Duration of the cycles of a periodic movement, s.
 struct Cycles {

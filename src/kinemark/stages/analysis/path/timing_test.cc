@@ -14,31 +14,74 @@ namespace {
 
 using testing::kTurn;
 
-Eigen::VectorXd reach_speed(double rate_hz) {
+constexpr double kBegin_s = 0.5, kReach_s = 0.7;
+// Where 30 u^2 (1-u)^2 = 0.05 x 1.875: u (1-u) = sqrt(0.003125).
+const double kCrossing = 0.5 - std::sqrt(0.25 - std::sqrt(0.003125));
+
+Eigen::VectorXd reach_speed(double rate_hz, double begin_s = kBegin_s) {
   const auto n = static_cast<std::int64_t>(1.7 * rate_hz);
   Eigen::VectorXd out(n);
   for (std::int64_t i = 0; i < n; ++i)
-    out[i] = testing::minimum_jerk_speed((static_cast<double>(i) / rate_hz - 0.5) / 0.7);
+    out[i] = testing::minimum_jerk_speed((static_cast<double>(i) / rate_hz - begin_s) / kReach_s);
   return out;
 }
+PathSamples reach_path(double rate_hz, double begin_s = kBegin_s) {
+  const Eigen::VectorXd speed = reach_speed(rate_hz, begin_s);
+  Eigen::VectorXd acceleration(speed.size());
+  for (Eigen::Index i = 0; i < speed.size(); ++i)
+    acceleration[i] =
+        testing::minimum_jerk_acceleration((static_cast<double>(i) / rate_hz - begin_s) / kReach_s) /
+        kReach_s;
+  return testing::straight_way(rate_hz, speed, acceleration);
+}
+MovementWindow window_of(const PathSamples& path) { return movement_window(path, speed_of(path)); }
 
 TEST(MovementWindow, CrossesATwentiethOfThePeak) {
-  // 30 u^2 (1-u)^2 = 0.05 x 1.875: u (1-u) = sqrt(0.003125).
-  const double u = 0.5 - std::sqrt(0.25 - std::sqrt(0.003125));
-  const auto window = movement_window(reach_speed(1000.0), 1000.0);
-  EXPECT_NEAR(window.onset_s, 0.5 + 0.7 * u, 1e-5);
-  EXPECT_NEAR(window.end_s, 1.2 - 0.7 * u, 1e-5);
+  const auto window = window_of(reach_path(1000.0));
+  EXPECT_NEAR(window.onset_s, 0.5 + 0.7 * kCrossing, 1e-5);
+  EXPECT_NEAR(window.end_s, 1.2 - 0.7 * kCrossing, 1e-5);
+}
+
+TEST(MovementWindow, FollowsTheCurveBetweenSlowSamples) {
+  // Straight lines between samples at 25 Hz are up to 4 ms early at the onset and late at the end.
+  for (const double rate_hz : {25.0, 50.0})
+    for (int k = 0; k < 8; ++k) {
+      const double begin_s = kBegin_s + 0.125 * k / rate_hz;
+      const auto path = reach_path(rate_hz, begin_s);
+      const auto window = window_of(path);
+      EXPECT_NEAR(window.onset_s, begin_s + kReach_s * kCrossing, 1e-3) << rate_hz << " " << k;
+      EXPECT_NEAR(window.end_s, begin_s + kReach_s * (1.0 - kCrossing), 1e-3) << rate_hz << " " << k;
+    }
+}
+
+TEST(SpeedPeak, LiesBetweenSamples) {
+  for (int k = 0; k < 8; ++k) {
+    const double begin_s = kBegin_s + 0.005 * k;
+    const auto path = reach_path(25.0, begin_s);
+    const auto peak = speed_peak(path, speed_of(path));
+    EXPECT_NEAR(peak.time_s, begin_s + 0.5 * kReach_s, 1e-4) << k;
+    EXPECT_NEAR(peak.speed, 1.875, 1e-3) << k;
+  }
+  EXPECT_TRUE(std::isnan(speed_peak({}, {}).time_s));
+}
+
+TEST(SpeedPeak, AtAnEndIsTheEnd) {
+  const Eigen::VectorXd speed = Eigen::VectorXd::LinSpaced(11, 1.0, 2.0);
+  const auto path = testing::straight_way(10.0, speed, Eigen::VectorXd::Constant(11, 1.0));
+  EXPECT_EQ(speed_peak(path, speed).time_s, 1.0);
+  EXPECT_EQ(speed_peak(path, speed).speed, 2.0);
 }
 
 TEST(MovementWindow, PassesOverWhatIsShorterThanTheHold) {
-  Eigen::VectorXd speed = reach_speed(100.0);
-  speed.segment(10, 5).setConstant(1.0);  // a twitch of 50 ms
-  EXPECT_NEAR(movement_window(speed, 100.0).onset_s, movement_window(reach_speed(100.0), 100.0).onset_s,
-              1e-12);
+  auto path = reach_path(100.0);
+  const double without = window_of(path).onset_s;
+  path.v.col(0).segment(10, 5).setConstant(1.0);  // a twitch of 50 ms
+  EXPECT_NEAR(window_of(path).onset_s, without, 1e-12);
 }
 
 TEST(MovementWindow, HasNoOnsetOfWhatMovesFromTheBeginning) {
-  const auto window = movement_window(Eigen::VectorXd::Ones(50), 100.0);
+  const auto window =
+      window_of(testing::straight_way(100.0, Eigen::VectorXd::Ones(50), Eigen::VectorXd::Zero(50)));
   EXPECT_TRUE(std::isnan(window.onset_s));
   EXPECT_TRUE(std::isnan(window.end_s));
 }

@@ -39,6 +39,19 @@ inline double minimum_jerk_speed(double u) {
   return u > 0.0 && u < 1.0 ? 30.0 * u * u * (1.0 - u) * (1.0 - u) : 0.0;
 }
 
+/// Its acceleration.
+inline double minimum_jerk_acceleration(double u) {
+  return u > 0.0 && u < 1.0 ? 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) : 0.0;
+}
+/// A straight way, of which only velocities and accelerations are there.
+inline PathSamples straight_way(double rate_hz, const Eigen::VectorXd& speed,
+                                const Eigen::VectorXd& acceleration) {
+  PathSamples out{.rate_hz = rate_hz, .x = {}, .v = PathMatrix::Zero(speed.size(), 3), .a = {}, .j = {}};
+  out.x = out.a = out.j = out.v;
+  out.v.col(0) = speed;
+  out.a.col(0) = acceleration;
+  return out;
+}
 /// A reach of 0.3 m in 0.7 s after 0.5 s of rest; 1.7 s.
 inline Eigen::Vector3d reach(double t) {
   return {0.3 * minimum_jerk((t - 0.5) / 0.7), 0.05 * minimum_jerk((t - 0.5) / 0.7), 0.8};
