@@ -132,10 +132,15 @@ Counts judge(const analysis::PathSamples& path, const analysis::PathRhythm& foun
   Counts out{.movements = 1, .periodic = found.periodic};
   const auto first = std::llround(found.start_s * path.rate_hz),
              last = std::llround(found.end_s * path.rate_hz);
-  const analysis::SeriesMatrix x = path.x.middleRows(first, last - first + 1),
-                               v = path.v.middleRows(first, last - first + 1);
+  const auto count = last - first + 1;
+  const analysis::PathSamples span{.rate_hz = path.rate_hz,
+                                   .x = path.x.middleRows(first, count),
+                                   .v = path.v.middleRows(first, count),
+                                   .a = path.a.middleRows(first, count),
+                                   .j = path.j.middleRows(first, count)};
+  const analysis::SeriesMatrix x = span.x;
   std::array<std::vector<double>, 3> truth;
-  for (const auto& movement : analysis::movements_of(v.rowwise().norm(), path.rate_hz)) {
+  for (const auto& movement : analysis::movements_of(span)) {
     if (std::isfinite(movement.onset_s)) truth[0].push_back(found.start_s + movement.onset_s);
     if (std::isfinite(movement.end_s)) truth[1].push_back(found.start_s + movement.end_s);
   }
