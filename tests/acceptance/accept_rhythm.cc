@@ -51,6 +51,8 @@ analysis::PathSamples reaches(double rate_hz, Random& random) {
       const double sign = k % 2 == 0 ? 1.0 : -1.0;
       out.x.row(i) += sign * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) * to.transpose();
       out.v.row(i) += sign * 30.0 * u * u * (1.0 - u) * (1.0 - u) / ways[k].second * to.transpose();
+      out.a.row(i) +=
+          sign * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / std::pow(ways[k].second, 2) * to.transpose();
     }
   return out;
 }
@@ -76,6 +78,7 @@ analysis::PathSamples aimless(double rate_hz, Random& random) {
         const double t = static_cast<double>(i) / rate_hz;
         out.x(i, axis) += size_m * std::sin(w * t + phase);
         out.v(i, axis) += size_m * w * std::cos(w * t + phase);
+        out.a(i, axis) -= size_m * w * w * std::sin(w * t + phase);
       }
   return out;
 }
