@@ -106,7 +106,10 @@ def look(path, rate, scratch):
     done = run("convert", "--quiet", "--force", *rate, path, out)
     if done.returncode:
         return done.stderr.strip()
-    t = scipy.io.loadmat(out, simplify_cells=True)["trial"]
+    held = scipy.io.loadmat(out, simplify_cells=True)
+    if "trial" not in held:
+        return f"holds {', '.join(name for name in held if not name.startswith('__'))} and no recording of points"
+    t = held["trial"]
     labels = texts(t["labels"])
     shape = (int(t["frames"]), len(labels))
     array = lambda name, *more: None if name not in t else numpy.reshape(t[name], (*shape, *more))
