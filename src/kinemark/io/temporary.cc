@@ -90,14 +90,19 @@ int open_new_folder(const fs::path& path) {
 }
 
 /// Make the file or folder under a name of its own and lock it. Another program may take it for a leftover
-/// before it is locked: then it is made anew.
+/// before it is opened or locked: then it is made anew.
 int open_locked(const fs::path& folder, int (*open_new)(const fs::path&), fs::path& path) {
   auto& all = of_process();
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     path = folder / fmt::format("{}{}-{}", kPrefix, ::getpid(), ++all.made);
     const int fd = open_new(path);
-    if (fd < 0 && errno == EEXIST) continue;
-    if (fd < 0) return -1;
+    if (fd < 0) {
+      const int why = errno;
+      std::error_code ignored;
+      if (why == EEXIST || (why == ENOENT && fs::is_directory(folder, ignored))) continue;
+      errno = why;
+      return -1;
+    }
     lock(fd, 0);
     if (same_file(fd, path)) return fd;
     ::close(fd);
