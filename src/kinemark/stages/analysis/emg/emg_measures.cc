@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 
 #include "kinemark/core/index.h"
@@ -75,10 +75,7 @@ double sd_of_mean(double squares, double count, double variance) {
   return std::sqrt(variance * squares) / count;
 }
 Pivoted around_mean(double value, double sd, double level) {
-  double z = 0.0;  // level = erf(z / sqrt(2)), which is concave: Newton's steps do not pass it
-  for (int turn = 0; turn < 60; ++turn)
-    z += (level - std::erf(z / std::numbers::sqrt2)) * std::sqrt(0.5 * std::numbers::pi) *
-         std::exp(0.5 * z * z);
+  const double z = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * level);
   const double factor = value > 0.0 ? std::exp(z * sd / value) : 1.0;
   return {.value = value, .sd = sd, .low = value / factor, .high = value * factor};
 }

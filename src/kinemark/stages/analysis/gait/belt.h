@@ -19,14 +19,14 @@ struct BeltPace {
   std::vector<double> m_per_s;         ///< along `along`
   Eigen::RowVector2d along{0.0, 0.0};  ///< of length 1: where the belt goes
 
-  /// Whether the speed changes: six stances or more, a range of 3 % of the median, and from one stance to the
+  /// Whether the speed changes: six stances or more, a range of 3 % of the mean, and from one stance to the
   /// next much less than in all (von Neumann's ratio below 0.5; 2 where they scatter by chance).
   [[nodiscard]] bool changes() const;
   /// One standard deviation of each speed about a line through its neighbours; of three or more.
   [[nodiscard]] double scatter() const;
   /// n x 2, m: how far the belt is ahead of one of the given speed, linear between stances, even before the
   /// first and after the last.
-  [[nodiscard]] math::SeriesMatrix ahead_of(double m_per_s, std::int64_t frames, double rate_hz) const;
+  [[nodiscard]] math::SeriesMatrix ahead_of(double even_m_per_s, std::int64_t frames, double rate_hz) const;
 };
 /// Of all stances that are seen whole.
 /// @param paths  in the laboratory

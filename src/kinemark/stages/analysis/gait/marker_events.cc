@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -124,9 +123,10 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
     out = {.ground = ground_velocity(smoother.paths()), .pace = std::move(pace), .ends = out.ends};
     judge(smoother.paths(), progress_of(smoother.paths(), out.ground.velocity), out);
   }
-  if (!out.pace.m_per_s.empty())
-    std::tie(out.kind.belt_least_m_per_s, out.kind.belt_most_m_per_s) =
-        std::pair(std::ranges::min(out.pace.m_per_s), std::ranges::max(out.pace.m_per_s));
+  if (!out.pace.m_per_s.empty()) {
+    const auto [least, most] = std::ranges::minmax(out.pace.m_per_s);
+    out.kind.belt_least_m_per_s = least, out.kind.belt_most_m_per_s = most;
+  }
   if (out.ends.doubtful) out.kind.direction = GaitDirection::unknown, out.kind.direction_doubted = true;
   if (out.kind.belt) out.kind.belt_m_per_s = out.belt.velocity.norm();
   const double factor = sd_factor(out.kind.direction);

@@ -22,13 +22,12 @@ struct PathMeasureOptions {
   std::vector<std::string> measures;  ///< ids of path_definitions() and rhythm_definitions(); empty: those
                                       ///< that apply to the movement
   std::vector<data::Region> regions;  ///< stretches of frames; empty: the whole recording
-  std::int64_t refits =
-      99;  ///< simulated recordings behind each interval: 0 (no intervals) or what `level` needs
-  double noise_sd_m = 0.0;     ///< per axis, as known of the cameras; 0: found from the samples
-  double level = 0.95;         ///< of the intervals, above 0.5 to 0.9999
-  std::uint64_t seed = 1;      ///< of the refits
-  int threads = 1;             ///< 0: all cores; any number gives the same bits
-  bool curves = false;         ///< keep what the measures are taken of, for figures
+  std::int64_t refits = 99;           ///< behind each interval: 0 (none) or what `level` needs, 39 at 0.95
+  double noise_sd_m = 0.0;            ///< per axis, as known of the cameras; 0: found from the samples
+  double level = 0.95;                ///< of the intervals, above 0.5 to 0.9999
+  std::uint64_t seed = 1;             ///< of the refits
+  int threads = 1;                    ///< 0: all cores; any number gives the same bits
+  bool curves = false;                ///< keep what the measures are taken of, for figures
   bool keep_outliers = false;  ///< measure single frames far from their neighbours, too; the noise is found
                                ///< without them
   bool rhythms = false;  ///< find events and repetitions, too; measures of them that are asked for imply it

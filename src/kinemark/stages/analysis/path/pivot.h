@@ -33,10 +33,8 @@ struct Pivoted {
 
 /// The same for a measure that is a root of a mean of squares, on the squares, where noise adds a constant.
 /// @param deviations  differences of squares
-/// @return            value and ends as roots; sd to first order, NaN at 0. A square below 0 is moved to 0
-/// and
-///                    its upper end with it, which stays above 0 as far as refits spread: the truth is at
-///                    most that end, and 0 is no finding
+/// @return  value and ends as roots; sd to first order, NaN at 0. A square below 0 is moved to 0, its upper
+///          end with it, which stays above 0 as far as refits spread: 0 is no finding
 [[nodiscard]] Pivoted pivot_of_square(double estimate, std::span<const double> deviations, double level);
 
 }  // namespace kinemark::analysis

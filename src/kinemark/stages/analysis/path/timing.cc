@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/math/fourier.h"
+#include "kinemark/math/golden_section.h"
 #include "kinemark/math/statistics.h"
 #include "kinemark/stages/analysis/path/spectrum.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kLeastCycle = 0.4;  // of the median; what is shorter is noise about a crossing
 constexpr int kHalvings = 40;        // of the way between two samples
+constexpr double kNarrow = 1e-7;     // share of it: a peak is flat, and no better known
 constexpr int kTrendPasses = 3;      // each takes the trend of the cycles that the one before found
 
 // n values from -(n-1)/2 to (n-1)/2.
@@ -65,16 +67,11 @@ SpeedPeak speed_peak(const PathSamples& path, const Eigen::VectorXd& speed) {
   SpeedPeak out{.time_s = static_cast<double>(at) / path.rate_hz, .speed = largest};
   const Eigen::Index to = path.v.row(at).dot(path.a.row(at)) > 0.0 ? at + 1 : at - 1;
   if (to < 0 || to >= speed.size()) return out;
-  double low = 0.0, high = 1.0;  // shares of the way to it
-  for (int i = 0; i < kHalvings; ++i) {
-    const double before = low + (high - low) / 3.0, behind = high - (high - low) / 3.0;
-    const bool rises = squared_between(path, at, to, before) < squared_between(path, at, to, behind);
-    (rises ? low : high) = rises ? before : behind;
-  }
-  const double share = 0.5 * (low + high), found = std::sqrt(squared_between(path, at, to, share));
-  if (found > largest) {
-    out.time_s += share * static_cast<double>(to - at) / path.rate_hz;
-    out.speed = found;
+  const auto found = math::golden_section([&](double share) { return -squared_between(path, at, to, share); },
+                                          0.0, 1.0, {.width = kNarrow});
+  if (const double speed_there = std::sqrt(-found.value); speed_there > largest) {
+    out.time_s += found.at * static_cast<double>(to - at) / path.rate_hz;
+    out.speed = speed_there;
   }
   return out;
 }

@@ -192,9 +192,7 @@ VectorXd information_of(const model::Model& model, const MarkerVariances& varian
 /// How far the variances of single markers (M) lie from the pooled one, squared and relative to it; each
 /// counts by `information` (M), its diagonal element of the normal equations.
 double spread_of(const VectorXd& variances, const VectorXd& information, double pooled) {
-  const double far =
-      information.dot((variances / pooled).array().square().matrix() - 2.0 * variances / pooled) +
-      information.sum();
+  const double far = information.dot(((variances / pooled).array() - 1.0).square().matrix());
   return std::max(far / information.sum(), kLeastSpread);
 }
 
@@ -265,8 +263,8 @@ MarkerVariances VarianceSums::variances() const {
   const double pooled = total.freedom > 1e-6 ? total.squares / total.freedom : 0.0;
   variances.own.setConstant(M, pooled);
   variances.common.setZero(static_cast<Eigen::Index>(impl_->segment_of_body.size()));
-  if (total.freedom < 5.0 * static_cast<double>(total.b.size()))
-    return variances;  // too few data for variances of single markers
+  if (total.freedom < 5.0 * static_cast<double>(total.b.size()) || !(pooled > 0.0))
+    return variances;  // too few data for variances of single markers, or none has an error
   MatrixXd N = total.N.selfadjointView<Eigen::Lower>();
   VectorXd b = total.b;
   const double spread =

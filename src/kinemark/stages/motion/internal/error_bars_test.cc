@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "kinemark/core/random.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/workspace.h"
 #include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
@@ -93,6 +96,20 @@ TEST(ErrorBars, OfAMarkerThatItsResidualsHardlyShowAreThoseOfTheOthers) {
       worst = std::max(worst, std::abs(marker.total_sd_m() / 0.001 - 1.0));
   }
   EXPECT_LT(worst, 0.2);
+}
+
+TEST(ErrorBars, OfMarkersWithoutAnyErrorAreZero) {
+  const auto model = model::Model::compile(description()).value();
+  const auto markers = record(model, 1, 0.0, 1);
+  const auto problem = internal::make_problem(model, markers, {}).value();
+  model::Workspace w(model);
+  const Eigen::VectorXd state = model.default_state();
+  model::kinematics(model, w, state);
+  VarianceSums sums(problem);
+  for (int f = 0; f < 100; ++f) sums.add(w.marker, Eigen::VectorXd::Ones(model.marker_count()), state);
+  const auto variances = sums.variances();
+  EXPECT_EQ(variances.own, Eigen::VectorXd(Eigen::VectorXd::Zero(model.marker_count())));
+  EXPECT_EQ(variances.common.sum(), 0.0);
 }
 
 TEST(ErrorBars, SeeMotionThatASegmentsMarkersShare) {

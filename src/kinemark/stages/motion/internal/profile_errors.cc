@@ -152,8 +152,9 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   if (kFirst * directions_.front().along.cwiseAbs().maxCoeff() > kMostMoved) ask_what_is_known(E, variance);
 }
 
-/// Where a chain is nearly stretched, what is open lets a known coordinate go for a small part of the
-/// chi-square that a linear model sees: each is held by itself.
+/// A coordinate that is at its largest along the poses that fit does not move with what is open to first
+/// order (a chain that is nearly straight does so), and goes with it for a small part of the chi-square of a
+/// linear model: each known one is held by itself.
 void ProfileErrors::ask_what_is_known(const Eigen::MatrixXd& E, VectorXd& variance) {
   for (Eigen::Index c = 0; c < E.rows(); ++c) {
     Eigen::Index i = 0;
