@@ -18,9 +18,10 @@ import { firstAbsent } from "../states.ts";
 import type { Palette } from "../theme.ts";
 import { Kind } from "./kind.ts";
 import { cornersOf, type Plane } from "./plane.ts";
-import { at, type CameraPlace, type Scene } from "./scene.ts";
+import type { CameraPlace, Scene } from "./scene.ts";
+import { at } from "./track.ts";
 import { Skins } from "./skins.ts";
-import type { Look } from "./space_view.ts";
+import type { Look } from "./look.ts";
 import { add, cross, length, scaled, sub, unit, type Vec } from "./vec.ts";
 
 /** Of a normal distribution in space: 95 % lie within so many standard deviations. */

@@ -3,9 +3,10 @@
 import { CylinderGeometry, MeshLambertMaterial, type Scene as Stage } from "three";
 import type { Palette } from "../theme.ts";
 import { colour, Kind } from "./kind.ts";
-import { at, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at } from "./track.ts";
 import { arrowHead } from "./shapes.ts";
-import type { Look } from "./space_view.ts";
+import type { Look } from "./look.ts";
 import { add, cross, length, scaled, unit, type Vec } from "./vec.ts";
 
 /** Metres of an arrow for a newton. */

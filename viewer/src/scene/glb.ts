@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { firstAbsent } from "../states.ts";
 import type { BodyMesh } from "./meshes.ts";
-import { at, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at } from "./track.ts";
 import { add, cross, length, sub, unit, type Vec } from "./vec.ts";
 
 /** Keyframes of the animation at most: a viewer loads them all. */

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { at, bounds, isThere, type Scene } from "./scene.ts";
+import { bounds, type Scene } from "./scene.ts";
+import { at, isThere } from "./track.ts";
 import { add, length, scaled, sub, type Vec } from "./vec.ts";
 
 /** Marks that are there on a point. */

@@ -6,9 +6,10 @@ import type { Palette } from "../theme.ts";
 import type { Pose } from "./camera.ts";
 import type { Floor } from "./floor.ts";
 import { colour, Kind } from "./kind.ts";
-import { at, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at } from "./track.ts";
 import { stateShapes } from "./shapes.ts";
-import type { Look } from "./space_view.ts";
+import type { Look } from "./look.ts";
 import type { Stick } from "./sticks.ts";
 import { scaled, type Vec } from "./vec.ts";
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Axes, CleanTrial } from "../clean_decode.ts";
 import { firstAbsent } from "../states.ts";
-import { areComputed, isEverThere, type Scene, type Track } from "./scene.ts";
+import { areComputed, type Scene } from "./scene.ts";
+import { isEverThere, type Track } from "./track.ts";
 import { upright } from "./upright.ts";
 
 /**

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { at, isThere, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at, isThere } from "./track.ts";
 import { add, cross, dot, scaled, sub, unit, type Vec } from "./vec.ts";
 
 /** The plane that fits a path best, in the sense of the smallest sum of squared distances. */

@@ -1,19 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import type { Clock, PackedBodies, PackedJoints, PackedMarkers, PackedScene } from "../page_types.ts";
-import { firstAbsent } from "../states.ts";
 import { unpackMeshes, type BodyMesh } from "./meshes.ts";
+import { isEverThere, isThere, type Track } from "./track.ts";
 import { inflated, unpack } from "./unpack.ts";
 import { upright } from "./upright.ts";
 import type { Vec } from "./vec.ts";
-
-/** Positions and states of M markers on P points. */
-export interface Track {
-  /** M x 3 x P, m; absent samples hold the place where the marker was last. */
-  x: Float32Array;
-  /** M x P: codes of states.ts. */
-  states: Uint8Array;
-}
 
 export interface Force {
   name: string;
@@ -166,21 +158,6 @@ export async function unpackScene(packed: PackedScene, clock: Clock, isNamed: (m
     skeleton,
     cameras: (packed.cameras ?? []).map((c) => ({ name: c.name, centre: c.centre_m, right: c.right, down: c.down, forward: c.forward, halfView: c.half_view, nominal: c.nominal })),
   };
-}
-
-/** Position of a marker on a point, whether it is there or was there last. */
-export const at = (x: Float32Array, points: number, marker: number, point: number): Vec => {
-  const i = 3 * marker * points + point;
-  return [x[i]!, x[i + points]!, x[i + 2 * points]!];
-};
-
-export const isThere = (track: Track, points: number, marker: number, point: number): boolean =>
-  track.states[marker * points + point]! < firstAbsent;
-
-/** True where a marker has coordinates on any point. */
-export function isEverThere(track: Track, points: number, marker: number): boolean {
-  for (let p = 0; p < points; ++p) if (isThere(track, points, marker, p)) return true;
-  return false;
 }
 
 /** Point nearest to a time; 0 without any. */

@@ -3,7 +3,8 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshLambertMaterial, type Scene as Stage } from "three";
 import { turn } from "./kind.ts";
 import { axesOf, type BodyMesh } from "./meshes.ts";
-import { at, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at } from "./track.ts";
 
 /** The meshes of a model's bodies: one draw call. Their points are put where they belong here, as those of other solids. */
 export class Skins {

@@ -8,8 +8,8 @@ import { Extras } from "./extras.ts";
 import { floorOf, type Floor } from "./floor.ts";
 import { ForceArrows } from "./force_arrows.ts";
 import { Ground } from "./ground.ts";
+import type { Look } from "./look.ts";
 import { MarkerSolids } from "./marker_solids.ts";
-import type { Plane } from "./plane.ts";
 import { bounds, type Scene } from "./scene.ts";
 import type { Stick } from "./sticks.ts";
 import { Trails } from "./trails.ts";
@@ -18,31 +18,6 @@ import { add, dot, length, scaled, sub, type Vec } from "./vec.ts";
 /** What stood still for so long, ms, is drawn with so many pixels a side of a pixel of the page where the processor draws. */
 const stillAfter = 160;
 const smoothRatio = 2;
-
-/** What the picture shows besides the scene. */
-export interface Look {
-  camera: Camera;
-  point: number;
-  picked: number;
-  /** Markers whose path is drawn. */
-  trailOf: readonly number[];
-  /** Points before and after the instant that a trail covers. */
-  trail: [before: number, after: number];
-  lines: boolean;
-  /** The recording before it was cleaned, or the markers of the model. */
-  others: boolean;
-  hidden: (marker: number) => boolean;
-  /** How many times as large as it is the region of a joint centre is drawn; 0: not at all. */
-  regions: number;
-  /** The bodies of a model. */
-  bodies: boolean;
-  /** Lines of sight. */
-  rays: boolean;
-  /** Share of the depth of the scene that is cut away in front, 0 to 1. */
-  cut: number;
-  /** The plane that fits a path best; null: none. */
-  plane: Plane | null;
-}
 
 /** Draws a scene. Knows the canvas and nothing around it; throws where there is no WebGL2. */
 export class SpaceView {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { bare, isLeft, otherSide } from "./facing.ts";
-import { at, isThere, type Scene } from "./scene.ts";
+import type { Scene } from "./scene.ts";
+import { at, isThere } from "./track.ts";
 import { distance } from "./vec.ts";
 
 /** Two markers that a line joins. */

@@ -5,8 +5,9 @@ import { firstAbsent } from "../states.ts";
 import { palette } from "../theme.ts";
 import type { Pose } from "./camera.ts";
 import { Ribbons } from "./ribbons.ts";
-import { at, type Scene } from "./scene.ts";
-import type { Look } from "./space_view.ts";
+import type { Scene } from "./scene.ts";
+import { at } from "./track.ts";
+import type { Look } from "./look.ts";
 import { sub, type Vec } from "./vec.ts";
 
 const mostTrail = 3000;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { isThere, type Track } from "./scene.ts";
+import { isThere, type Track } from "./track.ts";
 import type { Vec } from "./vec.ts";
 
 /**

@@ -4,7 +4,8 @@ import type { CycleSpans } from "../page_types.ts";
 import { cutIntoCycles } from "../cycles.ts";
 import { el, section } from "../dom.ts";
 import { number } from "../format.ts";
-import { isThere, type Scene } from "../scene/scene.ts";
+import type { Scene } from "../scene/scene.ts";
+import { isThere } from "../scene/track.ts";
 import type { View } from "../view.ts";
 import { cycleFigure } from "./cycles.ts";
 

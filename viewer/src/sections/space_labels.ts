@@ -3,7 +3,8 @@
 // Names over the picture of the space view: as text, not as pixels.
 import { el } from "../dom.ts";
 import type { Camera } from "../scene/camera.ts";
-import { at, type Scene } from "../scene/scene.ts";
+import type { Scene } from "../scene/scene.ts";
+import { at } from "../scene/track.ts";
 import type { SpaceView } from "../scene/space_view.ts";
 import { add, type Vec } from "../scene/vec.ts";
 import { palette } from "../theme.ts";

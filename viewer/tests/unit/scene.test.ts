@@ -11,8 +11,9 @@ import { pack, placeOf, simulatedMarkers } from "../simulated_markers.ts";
 install();
 const { facing, isLeft, otherSide } = await import("../../src/scene/facing.ts");
 const { floorHeight, floorLines, floorOf } = await import("../../src/scene/floor.ts");
-const { areComputed, at, bounds, isThere, pointAt, unpackScene } = await import("../../src/scene/scene.ts");
+const { areComputed, bounds, pointAt, unpackScene } = await import("../../src/scene/scene.ts");
 const { areConventional, namedSticks, sticks } = await import("../../src/scene/sticks.ts");
+const { at, isThere } = await import("../../src/scene/track.ts");
 const { inflated, unpackWords } = await import("../../src/scene/unpack.ts");
 const { upright } = await import("../../src/scene/upright.ts");
 

@@ -4,7 +4,7 @@
 import { Mesh, Scene as Stage, type BufferGeometry } from "three";
 import { describe, expect, it } from "vitest";
 import type { Vec } from "../../src/scene/vec.ts";
-import type { Look } from "../../src/scene/space_view.ts";
+import type { Look } from "../../src/scene/look.ts";
 import { install } from "../fake_dom.ts";
 import { sceneWith } from "../scene_with.ts";
 
