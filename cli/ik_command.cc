@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/many_inputs.h"
 #include "cli/motion_arguments.h"
+#include "cli/orientation_options.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 
 namespace kinemark::cli {
@@ -44,6 +45,7 @@ struct IkArguments {
   pipeline::IkJob job;
   MotionArguments motion;
   ManyArguments many;
+  OrientationArguments orientations;
   std::vector<std::string> coordinate_weights;
   double loss_scale_mm = 20.0;
 };
@@ -51,6 +53,7 @@ struct IkArguments {
 int run_command(const CommonOptions& common, IkArguments& arguments) {
   auto& job = arguments.job;
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
+  if (arguments.orientations.any()) return run_orientation_command(common, arguments.orientations, job);
   for (const auto& text : arguments.coordinate_weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return report_error(weight.error());
@@ -89,12 +92,15 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
       "(metres, NaN where\n"
       "not seen) and Q_report.json. Exit status 1: the files are there, but a quality gate was missed.\n"
       "Several marker files, or a folder of them: --output is a folder; what is there already is not done "
-      "again.");
+      "again.\n"
+      "With --orientations, of inertial sensors in place of markers: Q_orientation_errors.sto (degrees) "
+      "instead of Q_marker_errors.sto.");
   const auto arguments = std::make_shared<IkArguments>();
   auto& job = arguments->job;
   auto& options = job.options;
   add_motion_options(*command, job, arguments->motion);
   add_many_options(*command, arguments->many);
+  add_orientation_options(*command, arguments->orientations);
   command
       ->add_option("--setup", job.setup, "OpenSim InverseKinematicsTool setup; other options take precedence")
       ->group("Input");

@@ -21,7 +21,7 @@ struct Values {
 constexpr std::array kValues = {
     Values{"FILE IN MOTION INPUT OUT output model markers static setup tasks forces rig nominal data report "
            "figures "
-           "segments skeleton edits joints record certificate key",
+           "segments skeleton edits joints record certificate key orientations calibration",
            "FILE"},
     Values{"out man-pages geometry", "FOLDER"},
     Values{"rate cutoff half-gain resample", "HZ"},
@@ -31,7 +31,7 @@ constexpr std::array kValues = {
     Values{"sides", "M"},
     Values{"image-noise", "PX"},
     Values{"mass", "KG"},
-    Values{"turned", "DEG"},
+    Values{"turned orientation-noise max-orientation-rms", "DEG"},
     Values{"omega", "RAD/S"},
     Values{"damping", "KG^-1/2"},
     Values{"size-prior", "PERCENT"},
@@ -49,6 +49,8 @@ constexpr std::array kValues = {
     Values{"bind", "ADDRESS"},
     Values{"weight coordinate-weight rest intensity", "NAME=VALUE"},
     Values{"images", "CAMERA=FILE"},
+    Values{"sensor", "SENSOR=BODY"},
+    Values{"heading", "SENSOR:AXIS"},
     Values{"occlude", "LED:CAMERA:FRAMES"},
     Values{"posture", "KP,KD"},
     Values{"rotate", "\"AXIS DEG\""},

@@ -48,6 +48,13 @@ constexpr std::array kNeeds = {
     Need{"ik,track", "geometry", "report", kGiven, "the page"},
     Need{"ik", "loss-scale", "loss", "huber cauchy", "the losses huber and cauchy"},
     Need{"ik", "loss coordinate-weight", "estimator", "least-squares", "least squares"},
+    Need{"ik", "calibration sensor heading orientation-noise max-orientation-rms", "orientations", kGiven,
+         "orientations"},
+    Need{"ik",
+         "markers rate unit edits select drop rename frames rotate doubtful forces rig images image-noise "
+         "min-likelihood person geometry weight noise max-rms max-offset jobs keep-going setup tasks report "
+         "coordinate-weight loss loss-scale estimator locations torques",
+         "orientations", kNotGiven, "markers"},
     Need{"measure,gait,emg,segments,dynamics,analyze", "level", "refits", kNotZero, "intervals"},
     Need{"dynamics", "level refits", "no-error-bars", kNotGiven, "intervals"},
     Need{"gait", "noise", "refits", kNotZero, "intervals"},

@@ -30,6 +30,12 @@ if(KINEMARK_DEVELOPER)
       target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)
     endif()
   endif()
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # The same that is on without being asked for.
+  target_compile_options(kinemark_flags INTERFACE -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)
+  endif()
 endif()
 # What a compiler and linker can do against a file made to hurt: checked reads of containers, guarded stacks, indirect jumps
 # only to where functions begin, addresses settled and sealed before the program starts (tools/check_hardened reads them

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "kinemark/io/text/marker_table.h"
+#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/io/text/table_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -16,5 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)kinemark::io::begins_marker_table(text);
   const auto markers = kinemark::io::parse_marker_table(text, "fuzz.sto");
   if (markers ? !markers->validate() : markers.error().message.find('\n') != std::string::npos) std::abort();
+  const auto sensors = kinemark::io::parse_orientations(text, "fuzz.sto");
+  if (sensors ? !sensors->validate() : sensors.error().message.find('\n') != std::string::npos) std::abort();
   return 0;
 }

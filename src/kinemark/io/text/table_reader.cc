@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "kinemark/io/seal.h"
+#include "kinemark/io/text/internal/any_table.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/table_header.h"
 #include "kinemark/io/text/internal/table_values.h"
@@ -70,10 +71,16 @@ Status read_values(Cells& cells, std::int64_t line, const TableHeader& header, d
                                            1 + found + more, 1 + cells_expected));
 }
 
-Result<data::Table> parse_table(std::string_view text) {
+Result<data::Table> parse_rows(std::string_view text, bool orientations) {
   Lines lines(text);
   auto header = internal::parse_table_header(lines);
   if (!header) return std::unexpected(header.error());
+  if (header->is_orientations && !orientations)
+    return fail(Code::not_supported,
+                "holds orientations, as of inertial sensors (DataType=Quaternion); 'kinemark ik "
+                "--orientations' reads them; expected coordinates (double) or markers (Vec3)");
+  if (!header->is_orientations && orientations)
+    return fail(Code::bad_input, "holds no orientations; expected DataType=Quaternion");
   const auto rows = static_cast<std::size_t>(lines.count_until_blank());
   const std::size_t columns = header->columns_named.size();
   // Each number takes a byte at least, so a text cannot ask for more than this; checked before allocating.
@@ -150,11 +157,19 @@ Result<data::Table> parse_table(std::string_view text) {
 
 }  // namespace
 
-Result<data::Table> parse_table(std::string_view text, std::string_view name) {
-  auto table = parse_table(text);
+namespace internal {
+
+Result<data::Table> parse_table(std::string_view text, std::string_view name, bool orientations) {
+  auto table = parse_rows(text, orientations);
   if (!table) return fail_at(name, table.error());
   if (check_seal(text) == Seal::broken) table->warnings.push_back(broken_seal());
   return table;
+}
+
+}  // namespace internal
+
+Result<data::Table> parse_table(std::string_view text, std::string_view name) {
+  return internal::parse_table(text, name, false);
 }
 
 Result<data::Table> read_table(const std::filesystem::path& path) {

@@ -56,12 +56,11 @@ Status read_data_type(std::string_view value, std::int64_t line, TableHeader& he
     header.width = static_cast<std::size_t>(*size);
     return {};
   }
-  if (type == "quaternion" || type == "rotation")
-    return fail(
-        Code::not_supported,
-        fmt::format("line {}: DataType '{}' is orientations, as of inertial sensors, which are not read; "
-                    "expected coordinates (double) or markers (Vec3)",
-                    line, excerpt(value)));
+  if (type == "quaternion") {
+    header.width = 4;
+    header.is_orientations = true;
+    return {};
+  }
   return fail(Code::not_supported, fmt::format("line {}: DataType '{}' is not read; expected double or Vec3",
                                                line, excerpt(value)));
 }

@@ -19,7 +19,8 @@ struct TableHeader {
   std::optional<bool> in_degrees;
   std::optional<double> rows;     ///< nRows or datarows as written
   std::optional<double> columns;  ///< nColumns or datacolumns, time included
-  std::size_t width = 1;          ///< numbers per cell (DataType=VecN)
+  std::size_t width = 1;          ///< numbers per cell (DataType=VecN, Quaternion)
+  bool is_orientations = false;   ///< DataType=Quaternion
   Separator separator = Separator::tab;
   std::vector<std::string> columns_named;  ///< without time; width > 1: expanded
   std::vector<std::string> warnings;

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/orientation_options.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "cli/console.h"
+#include "cli/motion_arguments.h"
+#include "kinemark/core/units.h"
+#include "kinemark/pipeline/files/json_text.h"
+#include "kinemark/workflow/prepare/turn.h"
+
+namespace kinemark::cli {
+namespace {
+
+Result<motion::FacingAxis> facing_of(const std::string& text) {
+  const auto colon = text.rfind(':');
+  const auto axis = workflow::parse_axis(colon == std::string::npos ? "" : text.substr(colon + 1));
+  if (!axis || colon == 0)
+    return fail(Code::usage, fmt::format("--heading: '{}' is not SENSOR:AXIS, such as pelvis_imu:-z", text));
+  return motion::FacingAxis{.sensor = text.substr(0, colon), .axis = *axis};
+}
+
+std::string heading_text(const motion::OrientationFit& fit) {
+  const double deg = kDegPerRad * fit.heading_rad;
+  if (fit.heading_source == motion::HeadingSource::facing)
+    return fmt::format("Heading {:.1f} deg, by the axis that faces forward", deg);
+  return fmt::format("Heading {:.1f} deg (SD {:.1f}), estimated from the motion", deg,
+                     kDegPerRad * fit.heading_sd_rad);
+}
+
+void print_orientations(const CommonOptions& common, const pipeline::OrientationOutcome& outcome) {
+  const auto& [motion, errors, fit, seconds] = outcome.result;
+  std::size_t determined = 0;
+  for (const auto one : motion.determined) determined += one != 0;
+  say(common,
+      fmt::format("{} frames at {:g} Hz, {} sensors, {} coordinates; solved in {:.3f} s ({:.0f} frames/s).",
+                  motion.frames(), motion.time.rate_hz, fit.sensors.size(), motion.size(), seconds,
+                  static_cast<double>(motion.frames()) / seconds));
+  say(common,
+      fmt::format(
+          "Orientation error {:.2f} deg RMS, {:.1f} deg at most; {:.1f} % of the coordinates determined.",
+          kDegPerRad * fit.rms_rad, kDegPerRad * fit.max_rad,
+          motion.determined.empty()
+              ? 0.0
+              : 100.0 * static_cast<double>(determined) / static_cast<double>(motion.determined.size())));
+  say(common, fmt::format("{}; noise of an orientation {}.", heading_text(fit),
+                          std::isnan(fit.noise_sd_rad)
+                              ? std::string("not known")
+                              : fmt::format("{:.2f} deg about each axis", kDegPerRad * fit.noise_sd_rad)));
+  for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
+  say_written(common, outcome);
+  if (common.json) print_result(pipeline::json_text(pipeline::orientation_json(outcome)) + "\n");
+}
+
+}  // namespace
+
+void add_orientation_options(CLI::App& command, OrientationArguments& a) {
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return command.add_option(name, value, text)->group("Orientations");
+  };
+  add("--orientations", a.job.orientations,
+      "Orientations of inertial sensors in place of markers, .sto of quaternions as OpenSense has it");
+  add("--calibration", a.job.pose,
+      "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, the "
+      "first frame that has all of them");
+  add("--sensor", a.sensors,
+      "The body that carries a sensor, SENSOR=BODY; others by name: tibia_r_imu. Repeatable.");
+  add("--heading", a.heading,
+      "The axis of a sensor that faces forward in the pose, pelvis_imu:-z; when absent, the heading is "
+      "estimated from the motion");
+  add("--orientation-noise", a.noise_deg, "Noise about each axis, deg; 0 estimates it from the residuals")
+      ->capture_default_str();
+  add("--max-orientation-rms", a.max_rms_deg, "Gate: RMS angle between sensors and model, deg")
+      ->capture_default_str();
+}
+
+int run_orientation_command(const CommonOptions& common, OrientationArguments& a,
+                            const pipeline::IkJob& markers) {
+  auto& job = a.job;
+  job.model = markers.model;
+  job.output = markers.output.empty() ? motion_beside({job.orientations}) : markers.output;
+  job.up = markers.axes.up;
+  job.max_rms_rad = a.max_rms_deg / kDegPerRad;
+  auto& options = job.options;
+  options.noise_sd_rad = a.noise_deg / kDegPerRad;
+  options.limits = markers.options.limits;
+  options.error_bars = markers.options.error_bars;
+  if (std::isfinite(markers.selection.first_time_s)) options.first_time_s = markers.selection.first_time_s;
+  if (std::isfinite(markers.selection.last_time_s)) options.last_time_s = markers.selection.last_time_s;
+  for (const auto& text : a.sensors) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      return report_error(fail(Code::usage, fmt::format("--sensor: '{}' is not SENSOR=BODY", text)).error());
+    options.sensors.push_back({.sensor = text.substr(0, equals), .body = text.substr(equals + 1)});
+  }
+  if (!a.heading.empty()) {
+    const auto facing = facing_of(a.heading);
+    if (!facing) return report_error(facing.error());
+    options.facing = *facing;
+  }
+  return run_job(common, "frames", job, pipeline::run_orientations, print_orientations);
+}
+
+}  // namespace kinemark::cli

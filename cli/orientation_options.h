@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The options of `kinemark ik` for inertial sensors in place of markers.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "kinemark/pipeline/motion/ik_job.h"
+#include "kinemark/pipeline/motion/orientation_job.h"
+
+namespace kinemark::cli {
+
+/// Options in the units of the command line.
+struct OrientationArguments {
+  pipeline::OrientationJob job;
+  std::vector<std::string> sensors;
+  std::string heading;
+  double noise_deg = 0.0, max_rms_deg = 10.0;
+
+  /// Whether sensors are asked for, not markers.
+  [[nodiscard]] bool any() const { return !job.orientations.empty(); }
+};
+
+/// The options, in a group of their own.
+void add_orientation_options(CLI::App& command, OrientationArguments& a);
+
+/// Solves them, with what `markers` says of model, output, times, vertical, limits and error bars.
+[[nodiscard]] int run_orientation_command(const CommonOptions& common, OrientationArguments& a,
+                                          const pipeline::IkJob& markers);
+
+}  // namespace kinemark::cli

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// Joint angles from the orientations of inertial sensors, from files to files.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/stages/motion/orientation/orientation_ik.h"
+
+namespace kinemark::pipeline {
+
+/// What `kinemark ik --orientations` is asked to do. Writes Q.mot, Q_sd.sto, Q_orientation_errors.sto and
+/// Q_report.json.
+struct OrientationJob : JobSettings {
+  std::filesystem::path model;         ///< .osim; it needs no markers
+  std::filesystem::path orientations;  ///< .sto of quaternions
+  std::filesystem::path pose;    ///< the same, in the model's default pose; empty: the first whole frame
+  std::filesystem::path output;  ///< Q.mot
+  std::string up;                ///< axis of the sensors' world that points up, "z"; empty: the model's
+  double max_rms_rad = 10.0 * std::numbers::pi / 180.0;  ///< gate: angle between measured and model, RMS
+  motion::OrientationOptions options;                    ///< threads and seed are the job's
+};
+
+/// What it did.
+struct OrientationOutcome : JobOutcome {
+  motion::OrientationResult result;     ///< motion and fit
+  std::string model;                    ///< its name
+  std::string command_line;             ///< as typed
+  std::vector<data::InputFile> inputs;  ///< all that were read
+};
+
+/// Read, solve, judge and write. Either all files appear or, on a failure, none. Progress counts frames.
+///
+/// Code::usage without model, orientations or output; else as io::read_osim(), io::read_orientations() and
+/// motion::solve_orientations().
+[[nodiscard]] Result<OrientationOutcome> run_orientations(OrientationJob job);
+
+/// Inputs, frames, coordinates with the share of frames that determine them, sensors, heading, noise, gates,
+/// warnings. Angles in degrees.
+[[nodiscard]] nlohmann::ordered_json orientation_json(const OrientationOutcome& outcome);
+
+}  // namespace kinemark::pipeline

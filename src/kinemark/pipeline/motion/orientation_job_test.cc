@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/motion/orientation_job.h"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kinemark/io/file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/text/table_file.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/pipeline/testing/shared_folder.h"
+#include "kinemark/pipeline/testing/test_files.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+class RunOrientations : public testing::SharedFolder<RunOrientations> {
+ public:
+  static void make_files() {
+    testing::simulate_into(at("in"));
+    ASSERT_TRUE(io::write_text(at("imu.sto"), sensors(false), true));
+    ASSERT_TRUE(io::write_text(at("pose.sto"), sensors(true), true));
+  }
+
+ protected:
+  /// The sensors of the simulated subject: their axes are those of the bodies, their world that of the model.
+  static std::string sensors(bool standing) {
+    const auto model = model::Model::compile(io::read_osim(at("in/model.osim")).value()).value();
+    const auto truth = io::read_table(at("in/truth.mot")).value();
+    const auto& coordinates = model.description().coordinates;
+    std::string text = "DataType=Quaternion\nversion=3\nendheader\ntime";
+    for (const auto& body : model.description().bodies) text += "\t" + body.name + "_imu";
+    model::Workspace w(model);
+    Eigen::VectorXd q(model.coordinate_count());
+    for (std::int64_t r = 0; r < (standing ? 40 : truth.rows()); ++r) {
+      for (int c = 0; c < model.coordinate_count(); ++c) {
+        const auto& one = coordinates[static_cast<std::size_t>(c)];
+        const auto column = truth.find(one.name);
+        const double unit = one.is_rotation ? 3.14159265358979323846 / 180.0 : 1.0;
+        q[c] = standing || column < 0 ? one.default_value : unit * truth(r, column);
+      }
+      model::kinematics(model, w, model::state_from_coordinates(model, q));
+      text += fmt::format("\n{}", 0.01 * static_cast<double>(r));
+      for (std::size_t d = 0; d < model.description().bodies.size(); ++d) {
+        const Eigen::Quaterniond s(w.rotation[static_cast<std::size_t>(model.body_of(static_cast<int>(d)))]);
+        text += fmt::format("\t{},{},{},{}", s.w(), s.x(), s.y(), s.z());
+      }
+    }
+    return text + "\n";
+  }
+  static OrientationJob job() {
+    OrientationJob out;
+    out.force = true;
+    out.model = at("in/model.osim");
+    out.orientations = at("imu.sto");
+    out.pose = at("pose.sto");
+    out.output = at("Q.mot");
+    return out;
+  }
+};
+
+TEST_F(RunOrientations, WritesAnglesThatTheSensorsTookPartIn) {
+  const auto outcome = run_orientations(job());
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 0);
+  EXPECT_EQ(outcome->written.size(), 4U);
+  const auto q = io::read_table(at("Q.mot")).value();
+  const auto truth = io::read_table(at("in/truth.mot")).value();
+  ASSERT_EQ(q.rows(), truth.rows());
+  for (const char* name : {"knee_angle_r", "hip_flexion_l", "elbow_flex_r"}) {
+    ASSERT_GE(truth.find(name), 0) << name;
+    for (std::int64_t r = 0; r < q.rows(); ++r)
+      EXPECT_NEAR(q(r, q.find(name)), truth(r, truth.find(name)), 0.05) << name;
+  }
+  EXPECT_LT(outcome->result.fit.rms_rad, 1e-3);
+  const auto json = orientation_json(*outcome);
+  EXPECT_EQ(json["frames"], q.rows());
+  EXPECT_EQ(json["sensors"].size(), outcome->result.fit.sensors.size());
+  EXPECT_EQ(json["heading"]["from"], "motion");
+  EXPECT_TRUE(json["gates"][0]["passed"]);
+}
+
+TEST_F(RunOrientations, AFirstFrameThatIsNoPoseMissesItsGate) {
+  auto moving = job();
+  moving.pose.clear();
+  moving.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitX()};
+  const auto outcome = run_orientations(moving);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1);
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("give a recording of that pose, --calibration")));
+}
+
+TEST_F(RunOrientations, AWrongVerticalMissesItsGate) {
+  auto wrong = job();
+  wrong.up = "x";
+  wrong.max_rms_rad = 0.03;
+  wrong.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitZ()};
+  const auto outcome = run_orientations(wrong);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("RMS angle between sensors and model")));
+  EXPECT_EQ(outcome->exit_status(), 1);
+  wrong.up = "q";
+  EXPECT_EQ(run_orientations(wrong).error().code, Code::usage);
+}
+
+TEST_F(RunOrientations, WhatIsMissingIsSaid) {
+  auto none = job();
+  none.model.clear();
+  EXPECT_THAT(run_orientations(none).error().message, HasSubstr("--model"));
+  none = job();
+  none.orientations.clear();
+  EXPECT_THAT(run_orientations(none).error().message, HasSubstr("--orientations"));
+  none = job();
+  none.output.clear();
+  EXPECT_THAT(run_orientations(none).error().message, HasSubstr("--output"));
+  none = job();
+  none.output = at("Q.csv");
+  EXPECT_EQ(run_orientations(none).error().code, Code::usage);
+  none = job();
+  none.orientations = at("in/truth.mot");
+  EXPECT_THAT(run_orientations(none).error().message, HasSubstr("holds no orientations"));
+  none = job();
+  none.output = at("imu.sto");
+  EXPECT_FALSE(run_orientations(none)) << "an input is not replaced";
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline

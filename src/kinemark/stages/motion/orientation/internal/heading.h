@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kinemark/core/result.h"
+#include "kinemark/data/orientations.h"
+#include "kinemark/model/model.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_placement.h"
+#include "kinemark/stages/motion/orientation/internal/turning_model.h"
+#include "kinemark/stages/motion/orientation/orientation_ik.h"
+
+namespace kinemark::motion::internal {
+
+/// The turn of the sensors' world about the vertical, and one standard deviation.
+struct Heading {
+  double rad = 0.0;
+  double sd_rad = 0.0;
+};
+
+/// The heading under which the joints explain the motion best, in 24 frames spread over the range: axes of
+/// hinges and ranges of coordinates, clamped or not, tell it. One in 15 deg is tried, the best ones are
+/// refined. Code::bad_input where another one explains it nearly as well (3 standard deviations), or the
+/// standard deviation is above 10 deg.
+/// @param frames  that are solved, of the recording
+[[nodiscard]] Result<Heading> estimate_heading(const model::Model& model, const data::Orientations& recording,
+                                               const PosedSensors& posed,
+                                               const std::vector<std::int64_t>& frames,
+                                               const OrientationOptions& options);
+
+/// How the sensors stand on their bodies under a heading.
+[[nodiscard]] std::vector<SensorTips> tips_of(const PosedSensors& posed, double heading_rad);
+/// model_from_world under a heading.
+[[nodiscard]] Eigen::Matrix3d turn_of(const PosedSensors& posed, double heading_rad);
+
+}  // namespace kinemark::motion::internal

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/orientation/orientation_ik.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "kinemark/core/index.h"
+#include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/orientation/internal/heading.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_placement.h"
+#include "kinemark/stages/motion/orientation/internal/turning_model.h"
+
+namespace kinemark::motion {
+namespace {
+
+using internal::Heading;
+using internal::PosedSensors;
+
+constexpr double kNominalNoise = 0.02;  // rad, where neither given nor in the residuals
+constexpr double kHeadingStep = 1e-3;   // rad, by which the angles' slope on the heading is found
+constexpr std::int64_t kTips = 3;       // of a sensor
+
+Result<std::vector<std::int64_t>> frames_within(const data::Orientations& recording,
+                                                const OrientationOptions& options) {
+  const double slack = kTimeSlack / recording.time.rate_hz;
+  std::vector<std::int64_t> frames;
+  for (std::int64_t f = 0; f < recording.frames(); ++f) {
+    const double t = recording.time.time_s(f);
+    if (t >= options.first_time_s - slack && t <= options.last_time_s + slack) frames.push_back(f);
+  }
+  if (frames.empty())
+    return fail(Code::bad_input,
+                fmt::format("no frame in the time range; the recording has {} frames from {} to {} s",
+                            recording.frames(), recording.time.t0_s,
+                            recording.time.time_s(std::max<std::int64_t>(0, recording.frames() - 1))));
+  return frames;
+}
+
+/// Solves the frames under a heading.
+class Turned {
+ public:
+  Turned(const model::Model& model, const data::Orientations& recording, const PosedSensors& posed,
+         const std::vector<std::int64_t>& frames, const OrientationOptions& options)
+      : model_(model), recording_(recording), posed_(posed), frames_(frames) {
+    options_.judge_samples = false;
+    options_.limits = options.limits;
+    options_.seed = options.seed;
+    options_.threads = options.threads;
+  }
+
+  /// @param noise_sd_rad  0: without error bars
+  [[nodiscard]] Result<IkResult> solve(double heading_rad, double noise_sd_rad,
+                                       const Progress& progress) const {
+    const auto tips = internal::tips_of(posed_, heading_rad);
+    const auto turning = model::Model::compile(internal::turning_model(model_.description(), tips),
+                                               {.free_roots = !model_.free_joints().empty()});
+    if (!turning) return std::unexpected(turning.error());
+    IkOptions options = options_;
+    options.error_bars = noise_sd_rad > 0.0;
+    options.marker_noise_sd_m = internal::kTipNoise_m * noise_sd_rad;
+    return solve_ik(*turning,
+                    internal::record_tips(recording_, tips, internal::turn_of(posed_, heading_rad), frames_),
+                    options, progress);
+  }
+
+ private:
+  const model::Model& model_;
+  const data::Orientations& recording_;
+  const PosedSensors& posed_;
+  const std::vector<std::int64_t>& frames_;
+  IkOptions options_;
+};
+
+/// F x S angles between measured and model.
+Array<double> errors_of(const data::JointMotion& motion, std::int64_t sensors) {
+  Array<double> out(at(motion.frames() * sensors));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < 3 * at(kTips); ++k) {
+      const double e = motion.marker_error[3 * at(kTips) * i + k];
+      squares += e * e;
+    }
+    out[i] = std::isnan(squares) ? kNaN : internal::angle_of_tips(squares);
+  }
+  return out;
+}
+
+void summarize_errors(const Array<double>& errors, OrientationFit& fit) {
+  const auto sensors = fit.sensors.size();
+  double all = 0.0;
+  std::int64_t seen = 0;
+  for (std::size_t s = 0; s < sensors; ++s) {
+    auto& sensor = fit.sensors[s];
+    double squares = 0.0;
+    std::int64_t n = 0;
+    for (std::size_t i = s; i < errors.size(); i += sensors) {
+      if (std::isnan(errors[i])) continue;
+      squares += errors[i] * errors[i];
+      sensor.max_rad = std::max(sensor.max_rad, errors[i]);
+      ++n;
+    }
+    if (n > 0) sensor.rms_rad = std::sqrt(squares / static_cast<double>(n));
+    sensor.seen =
+        static_cast<double>(n * static_cast<std::int64_t>(sensors)) / static_cast<double>(errors.size());
+    all += squares;
+    seen += n;
+    fit.max_rad = std::max(fit.max_rad, sensor.max_rad);
+  }
+  if (seen > 0) fit.rms_rad = std::sqrt(all / static_cast<double>(seen));
+}
+
+/// Noise about each axis by the residuals: three numbers a sensor, less one for each coordinate that they
+/// fix.
+double noise_in_residuals(const data::ModelDescription& model, const data::JointMotion& motion,
+                          const Array<double>& errors, std::size_t sensors) {
+  auto fitted = internal::turning_coordinates(model);
+  for (const auto& coupling : model.couplings) fitted[at(coupling.dependent_idx)] = false;
+  for (std::size_t c = 0; c < fitted.size(); ++c) fitted[c] = fitted[c] && !model.coordinates[c].held();
+  double squares = 0.0;
+  std::int64_t freedom = 0;
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    std::int64_t numbers = 0;
+    for (std::size_t s = 0; s < sensors; ++s) {
+      const double e = errors[at(f) * sensors + s];
+      if (std::isnan(e)) continue;
+      squares += e * e;
+      numbers += 3;
+    }
+    for (std::int64_t c = 0; c < motion.size(); ++c)
+      numbers -= fitted[at(c)] && motion.determined[motion.index(f, c)] != 0;
+    freedom += std::max<std::int64_t>(0, numbers);
+  }
+  return freedom > 0 ? std::sqrt(squares / static_cast<double>(freedom)) : kNaN;
+}
+
+/// Coordinates that only move stay at their defaults; a frame is underdetermined where one that turns is.
+void keep_lengths(const model::Model& model, data::JointMotion& motion) {
+  const auto turns = internal::turning_coordinates(model.description());
+  const bool has_bars = !motion.determined.empty();
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    bool open = false;
+    for (std::int64_t c = 0; c < motion.size(); ++c) {
+      const auto i = motion.index(f, c);
+      const auto& coordinate = model.description().coordinates[at(c)];
+      if (turns[at(c)]) {
+        open = open || (has_bars && motion.determined[i] == 0);
+        continue;
+      }
+      if (!coordinate.held()) motion.q[i] = coordinate.default_value;
+      if (!has_bars) continue;
+      motion.determined[i] = coordinate.held();
+      motion.q_sd[i] = coordinate.held() ? 0.0 : kNaN;
+    }
+    auto& status = motion.status[at(f)];
+    if (status == data::FrameStatus::underdetermined && !open) status = data::FrameStatus::converged;
+  }
+}
+
+/// What the heading does not know adds to what the sensors do not.
+void add_heading(const data::JointMotion& other, double step_rad, double heading_sd_rad,
+                 data::JointMotion& motion) {
+  for (std::size_t i = 0; i < motion.q.size(); ++i)
+    motion.q_sd[i] = std::hypot(motion.q_sd[i], (other.q[i] - motion.q[i]) / step_rad * heading_sd_rad);
+}
+
+}  // namespace
+
+Status OrientationOptions::check() const {
+  if (!(noise_sd_rad >= 0.0) || !std::isfinite(noise_sd_rad))
+    return fail(Code::bad_input,
+                fmt::format("the noise of orientations is {} rad; need 0 or more", noise_sd_rad));
+  if (!up_in_world.allFinite()) return fail(Code::bad_input, "the vertical of the sensors is not finite");
+  if (facing && !(facing->axis.norm() > 0.0))
+    return fail(Code::bad_input, "the axis that faces forward is 0");
+  if (std::isnan(first_time_s) || std::isnan(last_time_s) || threads < 0)
+    return fail(Code::bad_input, "times and threads of the inverse kinematics of orientations are not valid");
+  return {};
+}
+
+Result<OrientationResult> solve_orientations(const model::Model& model, const data::Orientations& recording,
+                                             const data::Orientations* pose,
+                                             const OrientationOptions& options, const Progress& progress) {
+  if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (auto s = recording.validate(); !s) return std::unexpected(s.error());
+  if (pose != nullptr)
+    if (auto s = pose->validate(); !s) return std::unexpected(s.error());
+  const auto start = std::chrono::steady_clock::now();
+  const auto frames = frames_within(recording, options);
+  if (!frames) return std::unexpected(frames.error());
+  const auto posed = internal::pose_sensors(model, recording, pose, options);
+  if (!posed) return std::unexpected(posed.error());
+  Heading heading;
+  if (options.facing) {
+    const auto given = internal::heading_of(*posed, recording, *options.facing);
+    if (!given) return std::unexpected(given.error());
+    heading.rad = *given;
+  } else {
+    const auto found = internal::estimate_heading(model, recording, *posed, *frames, options);
+    if (!found) return std::unexpected(found.error());
+    heading = *found;
+  }
+
+  const Turned turned(model, recording, *posed, *frames, options);
+  const double first_noise = options.noise_sd_rad > 0.0 ? options.noise_sd_rad : kNominalNoise;
+  auto solved = turned.solve(heading.rad, options.error_bars ? first_noise : 0.0, progress);
+  if (!solved) return std::unexpected(solved.error());
+  OrientationResult out;
+  auto& fit = out.fit;
+  fit.first_frame = frames->front();
+  fit.left_out = posed->left_out;
+  fit.pose_drift_rad = posed->drift_rad;
+  fit.heading_rad = heading.rad;
+  fit.heading_sd_rad = heading.sd_rad;
+  fit.heading_source = options.facing ? HeadingSource::facing : HeadingSource::motion;
+  for (const auto& sensor : posed->sensors)
+    fit.sensors.push_back({.name = recording.names[at(sensor.column)],
+                           .body = model.description().bodies[at(sensor.body_idx)].name,
+                           .body_from_sensor = internal::body_from_sensor(*posed, sensor, heading.rad)});
+  out.error_rad = errors_of(solved->motion, static_cast<std::int64_t>(fit.sensors.size()));
+  summarize_errors(out.error_rad, fit);
+  if (options.noise_sd_rad > 0.0)
+    // The pose is measured with the same noise as every frame.
+    fit.noise_sd_rad = options.noise_sd_rad * std::sqrt(1.0 + 1.0 / static_cast<double>(posed->pose_frames));
+  else if (options.error_bars)
+    fit.noise_sd_rad =
+        noise_in_residuals(model.description(), solved->motion, out.error_rad, fit.sensors.size());
+  if (options.error_bars && fit.noise_sd_rad > 0.0) {
+    solved = turned.solve(heading.rad, fit.noise_sd_rad, progress);
+    if (!solved) return std::unexpected(solved.error());
+    if (heading.sd_rad > 0.0) {
+      const auto other = turned.solve(heading.rad + kHeadingStep, 0.0, progress);
+      if (!other) return std::unexpected(other.error());
+      add_heading(other->motion, kHeadingStep, heading.sd_rad, solved->motion);
+    }
+  } else if (options.error_bars) {
+    std::ranges::fill(solved->motion.q_sd, kNaN);  // of a noise that nobody knows
+  }
+  out.motion = std::move(solved->motion);
+  out.motion.markers.clear();
+  out.motion.marker_error.clear();
+  out.motion.marker_state.clear();
+  keep_lengths(model, out.motion);
+  out.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+}  // namespace kinemark::motion

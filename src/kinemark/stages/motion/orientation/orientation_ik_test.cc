@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/motion/orientation/orientation_ik.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kinemark/core/random.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
+#include "kinemark/stages/motion/testing/body.h"
+
+namespace kinemark::motion {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const std::vector<std::string> kBodies{"trunk", "upper_arm", "forearm", "thigh", "shank"};
+
+/// The body of the tests, with an elbow and a knee that bend one way.
+model::Model body() {
+  auto description = testing_body::description();
+  for (const char* name : {"elbow", "knee"})
+    description.coordinates[static_cast<std::size_t>(description.find_coordinate(name))].range_min = -0.1;
+  return model::Model::compile(description).value();
+}
+
+/// Sensors on a moving body: their world is turned by `heading` and has its z upwards.
+struct Session {
+  model::Model model = body();
+  data::Orientations recording, pose;
+  Eigen::MatrixXd truth;  ///< n x F
+};
+
+Session session(double heading_rad, double noise_rad, std::uint64_t seed, std::int64_t frames = 200,
+                const std::vector<std::string>& bodies = kBodies) {
+  Session out;
+  Random random(seed, 5);
+  const auto noise = [&]() -> Eigen::Matrix3d {
+    const Eigen::Vector3d v(random.gaussian(), random.gaussian(), random.gaussian());
+    return Eigen::AngleAxisd(noise_rad * v.norm(), v.normalized()).toRotationMatrix();
+  };
+  const Eigen::Matrix3d world_from_model =
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()) *
+      Eigen::AngleAxisd(-heading_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  std::vector<Eigen::Matrix3d> body_from_sensor;
+  std::vector<std::size_t> index;
+  model::Workspace w(out.model);
+  for (auto* one : {&out.pose, &out.recording})
+    one->time = {.rate_hz = 60.0, .t0_s = 0.0, .frames = one == &out.pose ? 20 : frames};
+  for (const auto& body : bodies) {
+    const Eigen::Vector3d turn(random.gaussian(), random.gaussian(), random.gaussian());
+    body_from_sensor.emplace_back(Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix());
+    for (std::size_t b = 0; b < out.model.bodies().size(); ++b)
+      if (out.model.description()
+              .bodies[static_cast<std::size_t>(out.model.bodies()[b].description_idx)]
+              .name == body)
+        index.push_back(b);
+    for (auto* one : {&out.pose, &out.recording}) one->names.push_back(body + "_imu");
+  }
+  out.truth.resize(out.model.coordinate_count(), frames);
+  for (auto* one : {&out.pose, &out.recording})
+    for (std::int64_t f = 0; f < one->frames(); ++f) {
+      Eigen::VectorXd x = out.model.default_state();
+      if (one == &out.recording) {
+        out.truth.col(f) = testing_body::coordinates(out.model, f, 60.0);
+        x = model::state_from_coordinates(out.model, out.truth.col(f));
+      }
+      model::kinematics(out.model, w, x);
+      for (std::size_t s = 0; s < bodies.size(); ++s) {
+        const Eigen::Matrix3d rotation =
+            noise() * world_from_model * w.rotation[index[s]] * body_from_sensor[s];
+        const Eigen::Quaterniond q(rotation);
+        one->quaternion.insert(one->quaternion.end(), {q.w(), q.x(), q.y(), q.z()});
+      }
+    }
+  return out;
+}
+
+const OrientationOptions kUpright{.up_in_world = Eigen::Vector3d::UnitZ()};
+
+TEST(OrientationIk, FindsAnglesAndHeadingOfExactSensors) {
+  const auto s = session(40.0 * kDegree, 0.0, 1);
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->fit.heading_rad, 40.0 * kDegree, 0.02 * kDegree);
+  EXPECT_EQ(found->fit.heading_source, HeadingSource::motion);
+  EXPECT_TRUE(found->motion.validate());
+  const auto& motion = found->motion;
+  double worst = 0.0;
+  for (const char* name :
+       {"tilt", "list", "turn", "arm_flex", "arm_add", "arm_rot", "elbow", "hip", "knee"}) {
+    const auto c = motion.find(name);
+    for (std::int64_t f = 0; f < motion.frames(); ++f) {
+      worst = std::max(worst, std::abs(motion.q[motion.index(f, c)] - s.truth(c, f)));
+      EXPECT_TRUE(motion.determined[motion.index(f, c)]);
+    }
+  }
+  EXPECT_LT(worst, 0.1 * kDegree);
+  EXPECT_LT(found->fit.rms_rad, 0.02 * kDegree);
+}
+
+TEST(OrientationIk, LengthsStayAtTheirDefaultsAndAreNotDetermined) {
+  const auto s = session(0.0, 1.0 * kDegree, 2, 20);
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  for (const char* name : {"tx", "ty", "tz"}) {
+    const auto i = found.motion.index(7, found.motion.find(name));
+    EXPECT_EQ(found.motion.q[i], 0.0);
+    EXPECT_FALSE(found.motion.determined[i]);
+    EXPECT_TRUE(std::isnan(found.motion.q_sd[i]));
+  }
+  EXPECT_EQ(found.motion.status[7], data::FrameStatus::converged);
+}
+
+TEST(OrientationIk, ErrorBarsHoldTheTruth) {
+  std::int64_t within = 0, within_two = 0, all = 0;
+  double noise = 0.0;
+  for (std::uint64_t seed = 10; seed < 16; ++seed) {
+    const auto s = session(0.3 * static_cast<double>(seed), 2.0 * kDegree, seed, 100);
+    const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+    noise += found.fit.noise_sd_rad / 6.0;
+    for (const char* name : {"tilt", "list", "turn", "arm_flex", "arm_add", "arm_rot", "elbow", "hip", "knee",
+                             "kneecap_angle"}) {
+      const auto c = found.motion.find(name);
+      for (std::int64_t f = 0; f < found.motion.frames(); ++f) {
+        const auto i = found.motion.index(f, c);
+        const double z = std::abs(found.motion.q[i] - s.truth(c, f)) / found.motion.q_sd[i];
+        within += z < 1.0;
+        within_two += z < 1.96;
+        ++all;
+      }
+    }
+  }
+  EXPECT_NEAR(noise, 2.0 * kDegree, 0.15 * kDegree);
+  const auto share = [all](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(all); };
+  EXPECT_GT(share(within), 0.60);
+  EXPECT_LT(share(within), 0.75);
+  EXPECT_GT(share(within_two), 0.90);
+  EXPECT_LT(share(within_two), 0.98);
+}
+
+TEST(OrientationIk, AFacingAxisGivesTheHeading) {
+  auto s = session(-70.0 * kDegree, 0.0, 3, 30);
+  // The trunk's sensor: which of its axes faces along the model's x in the pose?
+  const auto by_motion = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  const Eigen::Vector3d forward =
+      by_motion.fit.sensors[0].body_from_sensor.transpose() * Eigen::Vector3d::UnitX();
+  auto options = kUpright;
+  options.facing = FacingAxis{.sensor = "trunk_imu", .axis = forward};
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, options).value();
+  EXPECT_NEAR(found.fit.heading_rad, -70.0 * kDegree, 0.05 * kDegree);
+  EXPECT_EQ(found.fit.heading_sd_rad, 0.0);
+  EXPECT_EQ(found.fit.heading_source, HeadingSource::facing);
+  options.facing->sensor = "head_imu";
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, options).error().message,
+              HasSubstr("no sensor 'head_imu'"));
+  options.facing =
+      FacingAxis{.sensor = "trunk_imu",
+                 .axis = by_motion.fit.sensors[0].body_from_sensor.transpose() * Eigen::Vector3d::UnitY()};
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, options).error().message,
+              HasSubstr("upright"));
+}
+
+TEST(OrientationIk, AHeadingThatTheMotionLeavesOpenIsNotGuessed) {
+  // One free body turns alike under any heading.
+  const auto s = session(0.5, 1.0 * kDegree, 4, 60, {"trunk"});
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, Code::bad_input);
+  EXPECT_THAT(found.error().message, HasSubstr("heading of the sensors is not determined by the motion"));
+}
+
+TEST(OrientationIk, HingesThatBendBothWaysLeaveHalfATurnOpen) {
+  const auto s = session(0.5, 1.0 * kDegree, 4, 60);
+  auto options = kUpright;
+  options.limits = false;
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, options);
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message, HasSubstr("deg explain it alike"));
+}
+
+TEST(OrientationIk, WithoutResidualsTheNoiseIsNotKnown) {
+  const auto s = session(0.0, 1.0 * kDegree, 5, 10, {"trunk"});
+  auto options = kUpright;
+  options.facing = FacingAxis{.sensor = "trunk_imu", .axis = Eigen::Vector3d(0.7, 0.4, 0.6)};
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, options).value();
+  EXPECT_TRUE(std::isnan(found.fit.noise_sd_rad));
+  EXPECT_TRUE(std::isnan(found.motion.q_sd[found.motion.index(3, 0)]));
+  EXPECT_TRUE(found.motion.determined[found.motion.index(3, 0)]);
+  EXPECT_FALSE(found.motion.determined[found.motion.index(3, found.motion.find("elbow"))]);
+  options.noise_sd_rad = 1.0 * kDegree;
+  const auto given = solve_orientations(s.model, s.recording, &s.pose, options).value();
+  EXPECT_NEAR(given.fit.noise_sd_rad, std::sqrt(1.05) * kDegree, 1e-9) << "of the pose as well, of 20 frames";
+  EXPECT_GT(given.motion.q_sd[given.motion.index(3, 0)], 0.9 * kDegree);
+}
+
+TEST(OrientationIk, AMissingSensorLeavesItsJointsOpen) {
+  auto s = session(0.0, 1.0 * kDegree, 6, 40);
+  for (std::int64_t f = 10; f < 20; ++f)
+    for (std::int64_t k = 0; k < 4; ++k)
+      s.recording.quaternion[static_cast<std::size_t>(4 * (f * 5 + 2) + k)] =
+          std::numeric_limits<double>::quiet_NaN();
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  const auto elbow = found.motion.find("elbow");
+  EXPECT_TRUE(found.motion.determined[found.motion.index(9, elbow)]);
+  EXPECT_FALSE(found.motion.determined[found.motion.index(15, elbow)]);
+  EXPECT_EQ(found.motion.status[15], data::FrameStatus::underdetermined);
+  EXPECT_TRUE(std::isnan(found.error_rad[15 * 5 + 2]));
+  EXPECT_NEAR(found.fit.sensors[2].seen, 0.75, 1e-12);
+}
+
+TEST(OrientationIk, MatchesSensorsAndBodies) {
+  auto s = session(0.0, 0.5 * kDegree, 7, 30);
+  s.recording.names[1] = "left wrist";
+  s.pose.names[1] = "left wrist";
+  auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->fit.left_out, ElementsAre("left wrist"));
+  auto options = kUpright;
+  options.sensors = {{"left wrist", "upper_arm"}};
+  found = solve_orientations(s.model, s.recording, &s.pose, options);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->fit.sensors[1].body, "upper_arm");
+  options.sensors = {{"left wrist", "hand"}};
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, options).error().message,
+              HasSubstr("body 'hand'"));
+  options.sensors = {{"wrist", "upper_arm"}};
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, options).error().message,
+              HasSubstr("no sensor 'wrist'"));
+  for (auto& name : s.recording.names) name = "x" + name;
+  EXPECT_THAT(solve_orientations(s.model, s.recording, nullptr, kUpright).error().message,
+              HasSubstr("no sensor is named as a body of the model"));
+}
+
+TEST(OrientationIk, BadOptionsAreRefused) {
+  const auto s = session(0.0, 0.0, 8, 5);
+  auto options = kUpright;
+  options.noise_sd_rad = -1.0;
+  EXPECT_FALSE(solve_orientations(s.model, s.recording, &s.pose, options));
+  options = kUpright;
+  options.first_time_s = 90.0;
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, options).error().message,
+              HasSubstr("no frame in the time range"));
+  options = kUpright;
+  options.facing = FacingAxis{.sensor = "trunk_imu", .axis = Eigen::Vector3d::Zero()};
+  EXPECT_FALSE(solve_orientations(s.model, s.recording, &s.pose, options));
+}
+
+}  // namespace
+}  // namespace kinemark::motion
