@@ -88,8 +88,8 @@ void judge(const OrientationJob& job, OrientationOutcome& outcome) {
                                            join_some(fit.left_out, kNamed)));
   if (job.options.error_bars && std::isnan(fit.noise_sd_rad))
     outcome.warnings.emplace_back(
-        "the sensors fix no more than they measure, so that their noise does not show and no standard "
-        "deviation is given; --orientation-noise states it");
+        "the sensors measure no more than is solved for, so that their noise does not show and the angles "
+        "have no error bars; --orientation-noise states it");
   const auto gate = [&](const char* name, double rad, double bound_rad, const std::string& what,
                         const std::string& advice) {
     const double value = kDegPerRad * rad, bound = kDegPerRad * bound_rad;

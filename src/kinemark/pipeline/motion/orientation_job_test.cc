@@ -22,6 +22,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class RunOrientations : public testing::SharedFolder<RunOrientations> {
  public:
@@ -87,6 +88,63 @@ TEST_F(RunOrientations, WritesAnglesThatTheSensorsTookPartIn) {
   EXPECT_EQ(json["sensors"].size(), outcome->result.fit.sensors.size());
   EXPECT_EQ(json["heading"]["from"], "motion");
   EXPECT_TRUE(json["gates"][0]["passed"]);
+  for (const auto& warning : outcome->warnings) {
+    EXPECT_THAT(warning, Not(HasSubstr("no body carries these sensors, which are not used")));
+    EXPECT_THAT(warning,
+                Not(HasSubstr("so that their noise does not show and the angles have no error bars")));
+    EXPECT_THAT(warning, Not(HasSubstr("RMS angle between sensors and model")));
+    EXPECT_THAT(
+        warning,
+        Not(HasSubstr(
+            "is the pose that places the sensors the model's default, and --up the sensors' vertical?")));
+    EXPECT_THAT(warning, Not(HasSubstr("a sensor turns in the first half second, whose first frame is taken "
+                                       "for the model's default pose, by")));
+    EXPECT_THAT(warning, Not(HasSubstr("a sensor turns within the pose that places the sensors by")));
+    EXPECT_THAT(warning, Not(HasSubstr("give a recording of that pose, --calibration")));
+    EXPECT_THAT(warning, Not(HasSubstr("give one in which the subject stands still")));
+  }
+}
+
+TEST_F(RunOrientations, SensorsThatNoBodyCarriesAreNamed) {
+  auto text = sensors(false), pose = sensors(true);
+  for (auto* one : {&text, &pose}) one->replace(one->find("hand_r_imu"), 10, "wristwatch");
+  ASSERT_TRUE(io::write_text(at("watch.sto"), text, true));
+  ASSERT_TRUE(io::write_text(at("watch_pose.sto"), pose, true));
+  auto with = job();
+  with.orientations = at("watch.sto");
+  with.pose = at("watch_pose.sto");
+  const auto outcome = run_orientations(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("no body carries these sensors, which are not used: wristwatch")));
+}
+
+TEST_F(RunOrientations, ASensorAloneHasNoErrorBars) {
+  const std::string head = "DataType=Quaternion\nversion=3\nendheader\ntime\tpelvis_imu\n";
+  ASSERT_TRUE(io::write_text(at("one.sto"),
+                             head + "0\t1,0,0,0\n0.01\t0.9998,0,0.02,0\n0.02\t0.9992,0,0.04,0\n", true));
+  ASSERT_TRUE(io::write_text(at("one_pose.sto"), head + "0\t1,0,0,0\n0.01\t1,0,0,0\n", true));
+  auto one = job();
+  one.orientations = at("one.sto");
+  one.pose = at("one_pose.sto");
+  one.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitX()};
+  const auto outcome = run_orientations(one);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("so that their noise does not show and the angles have no error bars")));
+  EXPECT_TRUE(orientation_json(*outcome)["noise_sd_deg"].is_null());
+}
+
+TEST_F(RunOrientations, APoseThatIsNotHeldMissesItsGate) {
+  auto moving = job();
+  moving.pose = at("imu.sto");
+  moving.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitX()};
+  const auto outcome = run_orientations(moving);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 1);
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("a sensor turns within the pose that places the sensors by")));
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("give one in which the subject stands still")));
 }
 
 TEST_F(RunOrientations, AFirstFrameThatIsNoPoseMissesItsGate) {
@@ -97,6 +155,8 @@ TEST_F(RunOrientations, AFirstFrameThatIsNoPoseMissesItsGate) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 1);
   EXPECT_THAT(outcome->warnings, Contains(HasSubstr("give a recording of that pose, --calibration")));
+  EXPECT_THAT(outcome->warnings, Contains(HasSubstr("a sensor turns in the first half second, whose first "
+                                                    "frame is taken for the model's default pose, by")));
 }
 
 TEST_F(RunOrientations, AWrongVerticalMissesItsGate) {
@@ -107,6 +167,10 @@ TEST_F(RunOrientations, AWrongVerticalMissesItsGate) {
   const auto outcome = run_orientations(wrong);
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_THAT(outcome->warnings, Contains(HasSubstr("RMS angle between sensors and model")));
+  EXPECT_THAT(
+      outcome->warnings,
+      Contains(HasSubstr(
+          "is the pose that places the sensors the model's default, and --up the sensors' vertical?")));
   EXPECT_EQ(outcome->exit_status(), 1);
   wrong.up = "q";
   EXPECT_EQ(run_orientations(wrong).error().code, Code::usage);
