@@ -62,7 +62,9 @@ void add_orientation_options(CLI::App& command, OrientationArguments& a) {
     return command.add_option(name, value, text)->group("Orientations");
   };
   add("--orientations", a.job.orientations,
-      "Orientations of inertial sensors in place of markers, .sto of quaternions as OpenSense has it");
+      "Orientations of inertial sensors in place of markers: .sto of quaternions as OpenSense has it, or "
+      ".c3d "
+      "with rotations as of Theia");
   add("--calibration", a.job.pose,
       "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, the "
       "first frame that has all of them");

@@ -98,10 +98,10 @@ void describe_trial(const C3dHeader& header, const C3dParameters& parameters, co
   trial.analog.units.resize(trial.analog.names.size());
   trial.analog.rate_hz = layout.rate_hz * static_cast<double>(layout.samples_per_frame);
   if (layout.points == 0)
-    warnings.push_back(
-        parameters.has_group("ROTATION")
-            ? "has no points, only a ROTATION group (orientations of segments), which is not read"
-            : "has no points");
+    warnings.push_back(parameters.has_group("ROTATION")
+                           ? "has no points, only a ROTATION group (orientations of segments), which "
+                             "'kinemark ik --orientations' reads"
+                           : "has no points");
   read_events(header, parameters, trial);
   trial.force_plates = find_force_plates(parameters, layout, warnings);
   trial.unloaded_s = unloaded_times(parameters, trial.markers.time, warnings);

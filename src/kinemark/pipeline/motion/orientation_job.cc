@@ -15,6 +15,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
+#include "kinemark/io/c3d/rotations.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/orientation_table.h"
 #include "kinemark/pipeline/files/file_hash.h"
@@ -62,7 +63,7 @@ Result<model::Model> read_model(const std::filesystem::path& path, OrientationOu
 
 Result<data::Orientations> read_sensors(const char* role, const std::filesystem::path& path,
                                         OrientationOutcome& outcome) {
-  auto sensors = io::read_orientations(path);
+  auto sensors = ending_of(path) == ".c3d" ? io::read_c3d_rotations(path) : io::read_orientations(path);
   if (!sensors) return sensors;
   for (const auto& warning : sensors->warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", path.filename().string(), warning));

@@ -20,7 +20,7 @@ namespace kinemark::pipeline {
 /// Q_report.json.
 struct OrientationJob : JobSettings {
   std::filesystem::path model;         ///< .osim; it needs no markers
-  std::filesystem::path orientations;  ///< .sto of quaternions
+  std::filesystem::path orientations;  ///< .sto of quaternions, or .c3d with rotations
   std::filesystem::path pose;    ///< the same, in the model's default pose; empty: the first whole frame
   std::filesystem::path output;  ///< Q.mot
   std::string up;                ///< axis of the sensors' world that points up, "z"; empty: the model's
