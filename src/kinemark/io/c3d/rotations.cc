@@ -55,7 +55,7 @@ Result<Place> find_place(const C3dReader& reader, std::size_t size) {
   out.time.rate_hz *= ratio;
   out.time.frames *= static_cast<std::int64_t>(ratio);
   const double block = parameters.number("ROTATION", "DATA_START").value_or(0.0);
-  if (!(block >= 2.0) || block > static_cast<double>(size))
+  if (!(block >= 2.0) || (block - 1.0) * kC3dBlock > static_cast<double>(size))
     return fail(Code::bad_input, fmt::format("ROTATION:DATA_START is {}, outside of the file", block));
   out.begin = (static_cast<std::size_t>(block) - 1) * kC3dBlock;
   const auto there = size > out.begin ? (size - out.begin) / (used * kBytes) : 0;
