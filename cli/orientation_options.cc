@@ -25,6 +25,8 @@ Result<motion::FacingAxis> facing_of(const std::string& text) {
 
 std::string heading_text(const motion::OrientationFit& fit) {
   const double deg = kDegPerRad * fit.heading_rad;
+  if (fit.heading_source == motion::HeadingSource::model)
+    return "Sensors as the model places them, angles in the heading of their world";
   if (fit.heading_source == motion::HeadingSource::facing)
     return fmt::format("Heading {:.1f} deg, by the axis that faces forward", deg);
   return fmt::format("Heading {:.1f} deg (SD {:.1f}), estimated from the motion", deg,
@@ -66,8 +68,8 @@ void add_orientation_options(CLI::App& command, OrientationArguments& a) {
       ".c3d "
       "with rotations as of Theia");
   add("--calibration", a.job.pose,
-      "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, the "
-      "first frame that has all of them");
+      "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, as "
+      "frames of the model say (OpenSense), else as in the first frame that has all of them");
   add("--sensor", a.sensors,
       "The body that carries a sensor, SENSOR=BODY; others by name: tibia_r_imu. Repeatable.");
   add("--heading", a.heading,

@@ -16,6 +16,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
 #include "kinemark/io/c3d/rotations.h"
+#include "kinemark/io/osim/offset_frames.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/orientation_table.h"
 #include "kinemark/pipeline/files/file_hash.h"
@@ -71,6 +72,22 @@ Result<data::Orientations> read_sensors(const char* role, const std::filesystem:
   return sensors;
 }
 
+/// Sensors that the model has a frame for, as IMUPlacer adds them, where neither a pose nor a body is given.
+Status place_by_model(const model::Model& model, const data::Orientations& recording, OrientationJob& job) {
+  if (!job.pose.empty() || !job.options.sensors.empty()) return {};
+  const auto frames = io::read_offset_frames(job.model, model.description(), recording.names);
+  if (!frames) return std::unexpected(frames.error());
+  for (const auto& frame : *frames)
+    job.options.placed.push_back({.sensor = frame.name,
+                                  .body = model.description().bodies[at(frame.body_idx)].name,
+                                  .body_from_sensor = frame.body_from_frame.rotation});
+  if (!job.options.placed.empty() && job.options.facing)
+    return fail(Code::usage,
+                "--heading is for sensors that a pose places; the model has frames for them, and "
+                "--calibration would take their place");
+  return {};
+}
+
 data::Table errors_table(const OrientationResult& result) {
   data::Table table;
   table.name = "Orientation errors";
@@ -107,6 +124,7 @@ void judge(const OrientationJob& job, OrientationOutcome& outcome) {
   };
   gate("orientation_rms", fit.rms_rad, job.max_rms_rad, "RMS angle between sensors and model",
        "is the pose that places the sensors the model's default, and --up the sensors' vertical?");
+  if (fit.heading_source == motion::HeadingSource::model) return;
   gate("pose_drift", fit.pose_drift_rad, kMostDrift_rad,
        job.pose.empty() ? "a sensor turns in the first half second, whose first frame is taken for the "
                           "model's default pose, by"
@@ -163,6 +181,11 @@ Json sensors_json(const OrientationFit& fit) {
   return out;
 }
 
+const char* source_of(motion::HeadingSource source) {
+  constexpr std::array kNames{"motion", "model", "facing axis"};
+  return kNames[static_cast<std::size_t>(source)];
+}
+
 Json coordinates_json(const data::JointMotion& motion) {
   auto out = Json::array();
   for (std::int64_t c = 0; c < motion.size(); ++c) {
@@ -207,6 +230,7 @@ Result<OrientationOutcome> run_orientations(OrientationJob job) {
     if (!read) return std::unexpected(read.error());
     pose = std::move(*read);
   }
+  if (auto s = place_by_model(*model, *recording, job); !s) return std::unexpected(s.error());
   auto found =
       motion::solve_orientations(*model, *recording, pose ? &*pose : nullptr, job.options, job.progress);
   if (!found) return fail_at(job.orientations.string(), found.error());
@@ -243,7 +267,7 @@ Json orientation_json(const OrientationOutcome& outcome) {
           {"heading",
            {{"deg", degrees(fit.heading_rad)},
             {"sd_deg", degrees(fit.heading_sd_rad)},
-            {"from", fit.heading_source == motion::HeadingSource::motion ? "motion" : "facing axis"}}},
+            {"from", source_of(fit.heading_source)}}},
           {"pose_drift_deg", degrees(fit.pose_drift_rad)},
           {"noise_sd_deg", degrees(fit.noise_sd_rad)},
           {"rms_deg", degrees(fit.rms_rad)},

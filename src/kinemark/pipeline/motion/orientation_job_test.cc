@@ -176,6 +176,29 @@ TEST_F(RunOrientations, AWrongVerticalMissesItsGate) {
   EXPECT_EQ(run_orientations(wrong).error().code, Code::usage);
 }
 
+TEST_F(RunOrientations, FramesOfTheModelPlaceTheSensors) {
+  auto text = io::read_text(at("in/model.osim")).value();
+  const auto body = text.find("<Body name=\"tibia_r\"");
+  ASSERT_NE(body, std::string::npos);
+  text.insert(text.find('>', body) + 1,
+              "<components><PhysicalOffsetFrame "
+              "name=\"tibia_r_imu\"><socket_parent>..</socket_parent></PhysicalOffsetFrame></components>");
+  ASSERT_TRUE(io::write_text(at("placed.osim"), text, true));
+  auto placed = job();
+  placed.model = at("placed.osim");
+  placed.pose.clear();
+  const auto outcome = run_orientations(placed);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->result.fit.sensors.size(), 1U);
+  EXPECT_EQ(orientation_json(*outcome)["heading"]["from"], "model");
+  EXPECT_EQ(outcome->gates.size(), 1U) << "no pose, no gate on it";
+  placed.options.facing = motion::FacingAxis{.sensor = "tibia_r_imu", .axis = Eigen::Vector3d::UnitX()};
+  EXPECT_THAT(run_orientations(placed).error().message,
+              HasSubstr("--heading is for sensors that a pose places"));
+  placed.pose = at("pose.sto");
+  EXPECT_TRUE(run_orientations(placed)) << "a pose takes the place of the model's frames";
+}
+
 TEST_F(RunOrientations, WhatIsMissingIsSaid) {
   auto none = job();
   none.model.clear();

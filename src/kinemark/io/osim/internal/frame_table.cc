@@ -104,8 +104,12 @@ std::optional<Attachment> FrameTable::by_last_name(std::string_view path) {
   const std::string_view name = path.substr(path.rfind('/') + 1);
   if (const auto body = bodies_.find(name); body != bodies_.end())
     return Attachment{.body_idx = body->second};
-  if (by_name_.count(name) == 1) return offset_frame(by_name_.find(name)->second);
-  return std::nullopt;
+  return offset_frame(name);
+}
+
+std::optional<Attachment> FrameTable::offset_frame(std::string_view name) {
+  if (by_name_.count(name) != 1) return std::nullopt;
+  return offset_frame(by_name_.find(name)->second);
 }
 
 Attachment FrameTable::offset_frame(pugi::xml_node node) {

@@ -36,6 +36,10 @@ class FrameTable {
   /// value if the component has no such socket.
   [[nodiscard]] std::optional<Attachment> socket(pugi::xml_node owner, const std::string& name);
 
+  /// The PhysicalOffsetFrame of that name, wherever it stands; no value without one, or where several have
+  /// it.
+  [[nodiscard]] std::optional<Attachment> offset_frame(std::string_view name);
+
  private:
   [[nodiscard]] std::optional<Attachment> lookup(const std::string& absolute_path);
   [[nodiscard]] std::optional<Attachment> by_last_name(std::string_view path);

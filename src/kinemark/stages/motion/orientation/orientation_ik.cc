@@ -195,7 +195,9 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   const auto posed = internal::pose_sensors(model, recording, pose, options);
   if (!posed) return std::unexpected(posed.error());
   Heading heading;
-  if (options.facing) {
+  if (posed->by_model) {
+    // As it is.
+  } else if (options.facing) {
     const auto given = internal::heading_of(*posed, recording, *options.facing);
     if (!given) return std::unexpected(given.error());
     heading.rad = *given;
@@ -216,7 +218,9 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   fit.pose_drift_rad = posed->drift_rad;
   fit.heading_rad = heading.rad;
   fit.heading_sd_rad = heading.sd_rad;
-  fit.heading_source = options.facing ? HeadingSource::facing : HeadingSource::motion;
+  fit.heading_source = posed->by_model  ? HeadingSource::model
+                       : options.facing ? HeadingSource::facing
+                                        : HeadingSource::motion;
   for (const auto& sensor : posed->sensors)
     fit.sensors.push_back({.name = recording.names[at(sensor.column)],
                            .body = model.description().bodies[at(sensor.body_idx)].name,
@@ -225,7 +229,9 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   summarize_errors(out.error_rad, fit);
   if (options.noise_sd_rad > 0.0)
     // The pose is measured with the same noise as every frame.
-    fit.noise_sd_rad = options.noise_sd_rad * std::sqrt(1.0 + 1.0 / static_cast<double>(posed->pose_frames));
+    fit.noise_sd_rad =
+        options.noise_sd_rad *
+        (posed->by_model ? 1.0 : std::sqrt(1.0 + 1.0 / static_cast<double>(posed->pose_frames)));
   else if (options.error_bars)
     fit.noise_sd_rad =
         noise_in_residuals(model.description(), solved->motion, out.error_rad, fit.sensors.size());

@@ -26,6 +26,13 @@ struct SensorBody {
   std::string body;    ///< of the model
 };
 
+/// A sensor that is on its body already, as a model says.
+struct PlacedSensor {
+  std::string sensor;                                              ///< as the recording names it
+  std::string body;                                                ///< of the model
+  Eigen::Matrix3d body_from_sensor = Eigen::Matrix3d::Identity();  ///< rotation
+};
+
 /// The axis of a sensor that points where the body faces, in the pose that places the sensors.
 struct FacingAxis {
   std::string sensor;                               ///< as the recording names it
@@ -34,7 +41,8 @@ struct FacingAxis {
 
 /// Options of solve_orientations().
 struct OrientationOptions {
-  std::vector<SensorBody> sensors;  ///< others are matched by name: "tibia_r_imu", or the body's own name
+  std::vector<PlacedSensor> placed;  ///< where there are any, only these are used, and no pose is asked for
+  std::vector<SensorBody> sensors;   ///< others are matched by name: "tibia_r_imu", or the body's own name
   Eigen::Vector3d up_in_world = Eigen::Vector3d::Zero();  ///< of the sensors' world; 0: as the model's
   std::optional<FacingAxis> facing;  ///< gives the heading; none: it is estimated from the motion
   double noise_sd_rad = 0.0;         ///< of an orientation about each axis; 0: estimated from the residuals
@@ -62,6 +70,8 @@ struct FittedSensor {
 /// How the sensors' heading, about the vertical, was found.
 enum class HeadingSource : std::uint8_t {
   motion,  ///< estimated: the one with which the joints' axes explain the motion best
+  model,   ///< none is needed: the model says how sensors stand on bodies; angles are those of the sensors'
+           ///< world
   facing,  ///< the axis of a sensor faces where the model faces
 };
 

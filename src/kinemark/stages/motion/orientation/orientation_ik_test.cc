@@ -167,6 +167,29 @@ TEST(OrientationIk, AFacingAxisGivesTheHeading) {
               HasSubstr("upright"));
 }
 
+TEST(OrientationIk, SensorsThatAModelPlacesNeedNoPose) {
+  const auto s = session(25.0 * kDegree, 1.0 * kDegree, 9, 40);
+  const auto by_pose = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  auto options = kUpright;
+  for (const auto& sensor : by_pose.fit.sensors)
+    if (sensor.body != "thigh") options.placed.push_back({sensor.name, sensor.body, sensor.body_from_sensor});
+  const auto found = solve_orientations(s.model, s.recording, nullptr, options).value();
+  EXPECT_EQ(found.fit.heading_source, HeadingSource::model);
+  EXPECT_EQ(found.fit.heading_sd_rad, 0.0);
+  EXPECT_THAT(found.fit.left_out, ElementsAre("thigh_imu"));
+  const auto elbow = found.motion.find("elbow");
+  for (std::int64_t f = 0; f < found.motion.frames(); ++f)
+    EXPECT_NEAR(found.motion.q[found.motion.index(f, elbow)],
+                by_pose.motion.q[by_pose.motion.index(f, elbow)], 0.02 * kDegree)
+        << "joints do not feel the heading, which turns all bodies alike";
+  options.placed[0].body = "hand";
+  EXPECT_THAT(solve_orientations(s.model, s.recording, nullptr, options).error().message,
+              HasSubstr("body 'hand'"));
+  options.placed = {{"other_imu", "trunk", Eigen::Matrix3d::Identity()}};
+  EXPECT_THAT(solve_orientations(s.model, s.recording, nullptr, options).error().message,
+              HasSubstr("none of the sensors that are placed"));
+}
+
 TEST(OrientationIk, AHeadingThatTheMotionLeavesOpenIsNotGuessed) {
   // One free body turns alike under any heading.
   const auto s = session(0.5, 1.0 * kDegree, 4, 60, {"trunk"});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
@@ -95,11 +96,45 @@ Result<std::int64_t> first_whole_frame(const data::Orientations& recording, cons
               "no frame has the orientations of all sensors, from which they could be placed");
 }
 
+/// Sensors that are where the model says; their pose does not matter.
+Result<PosedSensors> sensors_of_model(const data::ModelDescription& description,
+                                      const data::Orientations& recording,
+                                      const std::vector<PlacedSensor>& placed, PosedSensors out) {
+  out.by_model = true;
+  for (std::int64_t s = 0; s < recording.size(); ++s) {
+    const auto& name = recording.names[at(s)];
+    const auto found = std::ranges::find(placed, name, &PlacedSensor::sensor);
+    if (found == placed.end()) {
+      out.left_out.push_back(name);
+      continue;
+    }
+    const int body = find_body(description, lower(found->body));
+    if (body == data::kGround)
+      return fail(
+          Code::bad_input,
+          fmt::format("sensor '{}' is put on body '{}', which the model does not have", name, found->body));
+    out.sensors.push_back({.column = s,
+                           .body_idx = body,
+                           .world_from_sensor = {},
+                           .world_from_body = {},
+                           .body_from_sensor = found->body_from_sensor});
+  }
+  if (out.sensors.empty())
+    return fail(Code::bad_input, "the recording has none of the sensors that are placed");
+  return out;
+}
+
 }  // namespace
 
 Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orientations& recording,
                                   const data::Orientations* pose, const OrientationOptions& options) {
   const auto& description = model.description();
+  PosedSensors out;
+  if (description.gravity.norm() > 0.0) out.up = -description.gravity.normalized();
+  if (options.up_in_world.norm() > 0.0)
+    out.model_from_world = math::rotation_between(options.up_in_world, out.up).toRotationMatrix();
+  if (!options.placed.empty())
+    return sensors_of_model(description, recording, options.placed, std::move(out));
   const auto bodies = match(description, recording.names, options.sensors);
   if (!bodies) return std::unexpected(bodies.error());
   if (std::ranges::all_of(*bodies, [](int b) { return b == data::kGround; })) {
@@ -111,10 +146,6 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
                     "recording has {}; the model has {}",
                     list(recording.names), list(names)));
   }
-  PosedSensors out;
-  if (description.gravity.norm() > 0.0) out.up = -description.gravity.normalized();
-  if (options.up_in_world.norm() > 0.0)
-    out.model_from_world = math::rotation_between(options.up_in_world, out.up).toRotationMatrix();
   std::int64_t first = 0;
   if (pose == nullptr) {
     const auto whole = first_whole_frame(recording, *bodies);
@@ -157,6 +188,7 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
 
 Eigen::Matrix3d body_from_sensor(const PosedSensors& posed, const PosedSensors::Sensor& sensor,
                                  double heading_rad) {
+  if (sensor.body_from_sensor) return *sensor.body_from_sensor;
   return sensor.world_from_body.transpose() * Eigen::AngleAxisd(heading_rad, posed.up) *
          sensor.world_from_sensor;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct PosedSensors {
     int body_idx = 0;                   ///< of the description
     Eigen::Matrix3d world_from_sensor;  ///< in the pose; the vertical is the model's already
     Eigen::Matrix3d world_from_body;    ///< of the model's default pose
+    std::optional<Eigen::Matrix3d> body_from_sensor = {};  ///< where the model says it
   };
   std::vector<Sensor> sensors;
+  bool by_model = false;  ///< all of them are placed by the model
   std::vector<std::string> left_out;
   Eigen::Matrix3d model_from_world = Eigen::Matrix3d::Identity();  ///< upright; the heading is still open
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();                   ///< of the model
