@@ -86,11 +86,31 @@ void add_foot_errors(MarkerEvents& out) {
   }
 }
 
+// What detectors contradict each other by is common to the events of a kind as far as half of them show it:
+// somebody's way to walk. The rest is the event's own.
+void add_contradiction(MarkerEvents& out) {
+  for (const FootEvent what : data::kFootEvents) {
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < out.events.size(); ++i)
+      if (out.events[i].what == what) squares.push_back(out.fused[i].beyond_s * out.fused[i].beyond_s);
+    if (squares.empty()) continue;
+    const double usual = math::median(squares);
+    for (std::size_t i = 0; i < out.events.size(); ++i) {
+      if (out.events[i].what != what) continue;
+      auto& [kind_s, foot_s, own_s] = out.fused[i].error;
+      const double all = out.fused[i].beyond_s * out.fused[i].beyond_s, common = std::min(all, usual);
+      kind_s = std::sqrt(kind_s * kind_s + common);
+      own_s = std::sqrt(own_s * own_s + all - common);
+    }
+  }
+}
+
 // Steps, events and the kind of gait on ground that moves evenly.
 void judge(const GaitPaths& paths, const Progress& progress, MarkerEvents& out) {
   out.steps = find_steps(paths, out.ground.velocity);
   add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
   add_foot_errors(out);
+  add_contradiction(out);
   auto in_time = out.events;
   std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
   out.belt = belt_velocity(paths, out.steps, out.ground);
