@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/gait/event_labels.h"
@@ -251,6 +252,11 @@ class GaitMeasurement {
         measure.interval.kind = data::IntervalKind::two_sided;
         measure.interval.low = pivoted.low;
         measure.interval.high = pivoted.high;
+        if (definition.squared && pivoted.low <= 0.0) {
+          measure.interval.kind = data::IntervalKind::at_most;
+          measure.interval.low = kNaN;
+          measure.remark = "not distinguishable from 0";
+        }
       } else {
         measure.remark = "no interval: more than a tenth of the refits do not determine it";
       }

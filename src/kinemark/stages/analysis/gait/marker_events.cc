@@ -110,7 +110,6 @@ void judge(const GaitPaths& paths, const Progress& progress, MarkerEvents& out) 
   out.steps = find_steps(paths, out.ground.velocity);
   add_events(paths, find_edges(paths, out.steps, out.ground.velocity, progress), out);
   add_foot_errors(out);
-  add_contradiction(out);
   auto in_time = out.events;
   std::ranges::stable_sort(in_time, {}, &data::GaitEvent::time_s);
   out.belt = belt_velocity(paths, out.steps, out.ground);
@@ -153,8 +152,9 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   for (std::size_t i = 0; i < out.events.size(); ++i) {
     auto& error = out.fused[i].error;
     error.kind_s *= factor, error.foot_s *= factor, error.own_s *= factor;
-    out.events[i].sd_s = error.sd_s();
   }
+  add_contradiction(out);
+  for (std::size_t i = 0; i < out.events.size(); ++i) out.events[i].sd_s = out.fused[i].error.sd_s();
   return out;
 }
 
