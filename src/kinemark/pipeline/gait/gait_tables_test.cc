@@ -125,9 +125,11 @@ TEST(GaitTables, ValuesAreJudgedWithTheirIntervals) {
     of_side.interval.kind = kind;
     return rows_of({of_side}, {norm})[0].judgement[0];
   };
-  EXPECT_EQ(one_sided(data::IntervalKind::at_most, 1.3, kNaN, 1.4), "above, but its interval reaches the norm");
+  EXPECT_EQ(one_sided(data::IntervalKind::at_most, 1.3, kNaN, 1.4),
+            "above, but its interval reaches the norm");
   EXPECT_EQ(one_sided(data::IntervalKind::at_most, 0.9, kNaN, 0.95), "below");
-  EXPECT_EQ(one_sided(data::IntervalKind::at_least, 0.9, 0.8, kNaN), "below, but its interval reaches the norm");
+  EXPECT_EQ(one_sided(data::IntervalKind::at_least, 0.9, 0.8, kNaN),
+            "below, but its interval reaches the norm");
 }
 
 TEST(GaitTables, NormsOfASideAndOfAnotherUnit) {

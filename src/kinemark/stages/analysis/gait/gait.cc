@@ -206,8 +206,8 @@ class GaitMeasurement {
     const double belt_error = std::sqrt(std::max(0.0, belt_variance)) * random.gaussian();
     const auto belt = even ? belt_velocity(paths, markers_.steps, ground) : markers_.belt;
     // What this recording would not have shown, no cycle begins or ends with.
-    auto cycles = analysis::cycles_of(paths, events, strides_, belt_of(markers_.kind, belt, belt_error),
-                                      backward());
+    auto cycles =
+        analysis::cycles_of(paths, events, strides_, belt_of(markers_.kind, belt, belt_error), backward());
     jitter(cycles, own_variances_, random);
     return values_of(cycles);
   }

@@ -52,7 +52,8 @@ Footprint print_of(const GaitPaths& paths, const FootPaths& foot, double strike_
 Times times_of(std::span<const data::GaitEvent> events) {
   Times out;
   for (const auto& event : events)
-    if (std::isfinite(event.time_s)) out[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
+    if (std::isfinite(event.time_s))
+      out[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
   for (auto& side : out)
     for (auto& kind : side) std::ranges::sort(kind);
   return out;

@@ -179,8 +179,8 @@ double nearest_peak(const Steps& steps, std::int64_t frame) {
   return out;
 }
 
-// A foot that only slows down where it comes into sight, or only speeds up where it goes, swung as fast before
-// or after as in the nearest swing: what is slow beside that is a foot that rolls.
+// A foot that only slows down where it comes into sight, or only speeds up where it goes, swung as fast
+// before or after as in the nearest swing: what is slow beside that is a foot that rolls.
 // @return  whether the usual speed there was less
 bool complete_ends(std::int64_t reach, Steps& out) {
   bool changed = false;

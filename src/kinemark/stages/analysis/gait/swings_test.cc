@@ -81,12 +81,11 @@ TEST(Swings, AGapIsCrossedStraightAndItsEndsAreThoseSeen) {
   EXPECT_NEAR(foot.speed[250], 1.3, 0.6);  // as fast as the body in the mean
 }
 
-// Two feet for four seconds at 100 Hz: the left one goes at a speed that falls to nothing within `falls_s` and
-// swings from 2 to 2.5 s at 1.5 m/s; the right one stands.
+// Two feet for four seconds at 100 Hz: the left one goes at a speed that falls to nothing within `falls_s`
+// and swings from 2 to 2.5 s at 1.5 m/s; the right one stands.
 GaitPaths beginning(double speed_m_per_s, double falls_s) {
   constexpr std::int64_t kFrames = 400;
-  GaitPaths out{
-      .rate_hz = 100.0, .start_s = 0.0, .feet = {}, .pelvis = math::SeriesMatrix::Zero(kFrames, 3)};
+  GaitPaths out{.rate_hz = 100.0, .start_s = 0.0, .feet = {}, .pelvis = math::SeriesMatrix::Zero(kFrames, 3)};
   for (auto& foot : out.feet) {
     foot.heel = foot.toe = math::SeriesMatrix::Zero(kFrames, 3);
     foot.known.assign(static_cast<std::size_t>(kFrames), true);

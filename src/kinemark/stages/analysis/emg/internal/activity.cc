@@ -21,8 +21,8 @@ constexpr double kGate_s = 0.2;     // half a period of the gate that shows what
 constexpr std::int64_t kReach = 4;  // bins
 constexpr double kQuiet_s = 0.5, kBurst_s = 0.7;  // beside an edge that are looked at
 constexpr double kTold_s = 0.25;  // of a quiet part: a strength that changes twice a second has shorter ones
-constexpr double kApart_s = 0.025;                // of rest from bursts
-constexpr double kLeast = 1e-12;                  // of the mean power: a channel may hold zeros
+constexpr double kApart_s = 0.025;  // of rest from bursts
+constexpr double kLeast = 1e-12;    // of the mean power: a channel may hold zeros
 
 std::vector<double> power_of_bins(const VectorXd& band, Index width) {
   std::vector<double> out(at(band.size() / width));

@@ -161,7 +161,8 @@ Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>
   if (active == 0 || levels.size() == 1)
     out.found = freedom_within(power, parts) < kModulated * freedom_still ? Quiet::Found::no_rest
                                                                           : Quiet::Found::steady;
-  else if (active == n || at_it < bins.rest || told < bins.rest || above > at_it || is_valley(power, out.active, freedom))
+  else if (active == n || at_it < bins.rest || told < bins.rest || above > at_it ||
+           is_valley(power, out.active, freedom))
     out.found = Quiet::Found::no_rest;
   else
     out.found = Quiet::Found::bursts;
