@@ -67,8 +67,14 @@ std::string value_text(const data::Measure& measure, double per_si) {
 std::string judged(const data::Measure& measure, double per_si, const NormMeasure& norm) {
   if (!std::isfinite(measure.value)) return {};
   const double value = per_si * measure.value;
-  const double low = std::isfinite(measure.interval.low) ? per_si * measure.interval.low : value,
-               high = std::isfinite(measure.interval.high) ? per_si * measure.interval.high : value;
+  const auto& interval = measure.interval;
+  // An end that an interval of one side does not have may lie anywhere.
+  const double low = std::isfinite(interval.low)                    ? per_si * interval.low
+                     : interval.kind == data::IntervalKind::at_most ? -INFINITY
+                                                                    : value,
+               high = std::isfinite(interval.high)                    ? per_si * interval.high
+                      : interval.kind == data::IntervalKind::at_least ? INFINITY
+                                                                      : value;
   if (value < norm.low) return high < norm.low ? "below" : "below, but its interval reaches the norm";
   if (value > norm.high) return low > norm.high ? "above" : "above, but its interval reaches the norm";
   return low < norm.low || high > norm.high ? "within, but its interval reaches beyond" : "within";

@@ -119,6 +119,17 @@ TEST(GaitTables, ValuesAreJudgedWithTheirIntervals) {
   EXPECT_EQ(judged(1.25, 1.15, 1.35), "above, but its interval reaches the norm");
   EXPECT_EQ(judged(1.02, 0.95, 1.09), "within, but its interval reaches beyond");
   EXPECT_EQ(judged(kNaN, kNaN, kNaN), "");
+  // An end that is not there may lie anywhere.
+  const auto one_sided = [&](data::IntervalKind kind, double value, double low, double high) {
+    auto of_side = measure("Left", value, low, high);
+    of_side.interval.kind = kind;
+    return rows_of({of_side}, {norm})[0].judgement[0];
+  };
+  EXPECT_EQ(one_sided(data::IntervalKind::at_most, 1.3, kNaN, 1.4),
+            "above, but its interval reaches the norm");
+  EXPECT_EQ(one_sided(data::IntervalKind::at_most, 0.9, kNaN, 0.95), "below");
+  EXPECT_EQ(one_sided(data::IntervalKind::at_least, 0.9, 0.8, kNaN),
+            "below, but its interval reaches the norm");
 }
 
 TEST(GaitTables, NormsOfASideAndOfAnotherUnit) {

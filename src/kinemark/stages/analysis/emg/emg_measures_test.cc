@@ -152,6 +152,23 @@ TEST(EmgMeasures, AModulatedStrengthHasNoRest) {
       << "of all of it";
 }
 
+TEST(EmgMeasures, ATremorHasNoRest) {
+  // Five times a second: never silent, and silent for a tenth of a second.
+  for (const bool silent : {false, true}) {
+    auto channel = burst(6, 0.0);
+    for (int i = 0; i < 4000; ++i) {
+      const double wave = std::sin(2.0 * M_PI * 5.0 * i / kEmg_hz);
+      channel.volts[i] =
+          (channel.volts[i] - 0.02) * (silent ? 0.05 + std::max(0.0, wave) : 0.55 + 0.45 * wave);
+    }
+    const auto out = measure_emg({channel}, kEmg_hz, 0.0, {.refits = 39}).value();
+    for (const std::string id : {"emg_onset", "emg_end", "emg_active", "emg_rest"}) {
+      EXPECT_TRUE(std::isnan(get(out, id).value)) << id << silent;
+      EXPECT_THAT(get(out, id).remark, HasSubstr("no part of the channel is surely at rest")) << silent;
+    }
+  }
+}
+
 TEST(EmgMeasures, TheShareOfOneBurstIsHeld) {
   int inside = 0;
   for (std::uint64_t seed = 100; seed < 112; ++seed) {

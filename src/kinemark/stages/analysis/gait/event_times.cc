@@ -49,6 +49,8 @@ constexpr Table kRunOff{{{{{50.03, 88.83, -74.29, 29.66}, 14.0},
                         {1.043, -0.0343, 0.0296, 0.0496, -0.0261}};
 
 constexpr double kMostApart_ms = 40.0, kOfSpread = 0.4;
+constexpr double kLearntSpread_ms =
+    20.0;                           // SD of the detectors of an event: the most of what was learnt from
 constexpr double kFoot_ms = 3.0;    // and of the means of its feet about the mean of both
 constexpr double kWithin_ms = 7.0;  // SD of the errors of one recording about their mean
 // Frames of most recordings learnt from: what they add is in the SDs, and is not counted a second time.
@@ -95,6 +97,7 @@ FusedTime fuse(const DetectorTimes& times, FootEvent what, bool running, FootSet
                 .own_s =
                     std::sqrt(1e-6 * (kWithin_ms * kWithin_ms + kOfSpread * kOfSpread * squares) +
                               std::max(0.0, frame_s * frame_s - kLearntFrame_s * kLearntFrame_s) / 12.0)},
+      .beyond_s = 1e-3 * std::sqrt(std::max(0.0, squares - kLearntSpread_ms * kLearntSpread_ms)),
       .apart_s = apart};
 }
 

@@ -30,6 +30,8 @@ using DetectorTimes = std::array<double, kDetectors>;
 struct FusedTime {
   double after_s = 0.0;    ///< detectors less their biases: the median, and weights of what they differ by
   data::EventError error;  ///< `own_s` grows with what the detectors differ by
+  double beyond_s = 0.0;   ///< what the detectors differ by beyond what they did where they were learnt: the
+                           ///< foot moves otherwise than feet there, and which of them is right is open
   DetectorTimes apart_s{kNaN, kNaN, kNaN, kNaN};  ///< each detector less its bias, from the median of all
 };
 

@@ -47,6 +47,9 @@ TEST(EventTimes, OneThatIsFarOffMovesTheTimeByItsClippedShareAndWidensTheSd) {
   EXPECT_NEAR(after.after_s - before.after_s, 0.4272 * 0.040, 1e-3);
   EXPECT_GT(after.error.own_s, 2.0 * before.error.own_s);
   EXPECT_EQ(after.error.kind_s, before.error.kind_s);
+  // Four times, one of them 300 ms away: an SD of 130 ms, of which 20 are usual.
+  EXPECT_EQ(before.beyond_s, 0.0);
+  EXPECT_NEAR(after.beyond_s, std::sqrt(3.0 / 16.0 * 0.3 * 0.3 - 0.02 * 0.02), 1e-3);
 }
 
 TEST(EventTimes, RunningHasBiasesOfItsOwn) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/gait/event_labels.h"
@@ -93,7 +94,9 @@ class GaitMeasurement {
 
   void measure(Gait& out) {
     const auto& paths = smoother_.paths();
-    out.cycles = find_cycles(paths, found_.events, belt_of(markers_.kind, markers_.belt), backward());
+    strides_ = find_strides(found_.events);
+    out.cycles = analysis::cycles_of(paths, found_.events, strides_, belt_of(markers_.kind, markers_.belt),
+                                     backward());
     const auto values = values_of(out.cycles);
     const auto refits = at(options_.refits);
     if (refits > 0) noise_alone_ = measure_noise();
@@ -151,7 +154,7 @@ class GaitMeasurement {
     std::array<double, 2> count{};
     for (std::int64_t k = 0; k < kPrintDraws; ++k) {
       const auto paths = smoother_.noise_alone(options_.seed ^ kPrintSeed, k);
-      for (const auto& cycle : find_cycles(paths, found_.events, {0.0, 0.0}))
+      for (const auto& cycle : analysis::cycles_of(paths, found_.events, strides_, {0.0, 0.0}))
         if (const auto side = data::index_of(cycle.side); std::isfinite(cycle.print.x.x()))
           out.print[side] += cycle.print.sd * cycle.print.sd, count[side] += 1.0;
       const double apart = belt_velocity(paths, markers_.steps, Ground{}).sd;
@@ -199,12 +202,12 @@ class GaitMeasurement {
                       error.foot_s * of_foot[data::index_of(event.side)][what] +
                       error.own_s * random.gaussian();
     }
-    // What this recording would not have shown, no cycle can begin or end with.
-    std::erase_if(events, [](const data::GaitEvent& event) { return !std::isfinite(event.time_s); });
     const double belt_variance = markers_.belt.sd * markers_.belt.sd - noise_alone_.belt;
     const double belt_error = std::sqrt(std::max(0.0, belt_variance)) * random.gaussian();
     const auto belt = even ? belt_velocity(paths, markers_.steps, ground) : markers_.belt;
-    auto cycles = find_cycles(paths, events, belt_of(markers_.kind, belt, belt_error), backward());
+    // What this recording would not have shown, no cycle begins or ends with.
+    auto cycles =
+        analysis::cycles_of(paths, events, strides_, belt_of(markers_.kind, belt, belt_error), backward());
     jitter(cycles, own_variances_, random);
     return values_of(cycles);
   }
@@ -249,6 +252,11 @@ class GaitMeasurement {
         measure.interval.kind = data::IntervalKind::two_sided;
         measure.interval.low = pivoted.low;
         measure.interval.high = pivoted.high;
+        if (definition.squared && pivoted.low <= 0.0) {
+          measure.interval.kind = data::IntervalKind::at_most;
+          measure.interval.low = kNaN;
+          measure.remark = "not distinguishable from 0";
+        }
       } else {
         measure.remark = "no interval: more than a tenth of the refits do not determine it";
       }
@@ -263,6 +271,7 @@ class GaitMeasurement {
   const GaitOptions& options_;
   std::vector<data::Region> regions_;
   std::vector<Slot> slots_;
+  std::vector<Stride> strides_;
   NoiseAlone noise_alone_;
   std::array<double, 2> own_variances_{};  // of standing heels
 };

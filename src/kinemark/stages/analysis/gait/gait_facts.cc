@@ -16,7 +16,7 @@ using data::FootEvent;
 using data::Side;
 using Eigen::Vector2d;
 
-constexpr double kLeastCycle_s = 0.3, kMostCycle_s = 3.0, kMostOfMedian = 1.6;
+constexpr double kLeastCycle_s = 0.3, kMostCycle_s = 6.0, kMostOfMedian = 1.6;
 constexpr double kPrintFrom = 0.2, kPrintTo = 0.45;  // of the stance
 constexpr double kUsualStance = 0.6;                 // of the cycle
 
@@ -52,7 +52,8 @@ Footprint print_of(const GaitPaths& paths, const FootPaths& foot, double strike_
 Times times_of(std::span<const data::GaitEvent> events) {
   Times out;
   for (const auto& event : events)
-    out[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
+    if (std::isfinite(event.time_s))
+      out[data::index_of(event.side)][data::index_of(event.what)].push_back(event.time_s);
   for (auto& side : out)
     for (auto& kind : side) std::ranges::sort(kind);
   return out;
@@ -99,21 +100,35 @@ std::vector<Bridge> find_bridges(std::span<const data::GaitEvent> events) {
   return out;
 }
 
-std::vector<GaitCycle> find_cycles(const GaitPaths& paths, std::span<const data::GaitEvent> events,
-                                   const Eigen::RowVector2d& ground, bool backward) {
-  const auto times = times_of(events);
+std::vector<Stride> find_strides(std::span<const data::GaitEvent> events) {
   const auto bridges = find_bridges(events);
-  std::vector<GaitCycle> out;
+  std::vector<Stride> out;
   for (const Side side : data::kBothSides) {
-    const auto& strikes = times[data::index_of(side)][data::index_of(FootEvent::strike)];
-    for (std::size_t i = 0; i + 1 < strikes.size(); ++i) {
-      const double duration = strikes[i + 1] - strikes[i];
+    std::vector<std::size_t> strikes;
+    for (std::size_t i = 0; i < events.size(); ++i)
+      if (events[i].side == side && events[i].what == FootEvent::strike) strikes.push_back(i);
+    std::ranges::stable_sort(strikes, {}, [&](std::size_t i) { return events[i].time_s; });
+    for (std::size_t k = 0; k + 1 < strikes.size(); ++k) {
+      const double start_s = events[strikes[k]].time_s, duration = events[strikes[k + 1]].time_s - start_s;
       const bool bridge = std::ranges::any_of(
-          bridges, [&](const Bridge& one) { return one.side == side && one.start_s == strikes[i]; });
-      if (bridge || duration < kLeastCycle_s || duration > kMostCycle_s) continue;
-      out.push_back({.side = side, .start_s = strikes[i], .end_s = strikes[i + 1], .backward = backward});
+          bridges, [&](const Bridge& one) { return one.side == side && one.start_s == start_s; });
+      if (!bridge && duration >= kLeastCycle_s && duration <= kMostCycle_s)
+        out.push_back({.start = strikes[k], .end = strikes[k + 1]});
     }
   }
+  return out;
+}
+
+std::vector<GaitCycle> cycles_of(const GaitPaths& paths, std::span<const data::GaitEvent> events,
+                                 std::span<const Stride> strides, const Eigen::RowVector2d& ground,
+                                 bool backward) {
+  const auto times = times_of(events);
+  std::vector<GaitCycle> out;
+  for (const auto& stride : strides)
+    if (const double start_s = events[stride.start].time_s, end_s = events[stride.end].time_s;
+        start_s < end_s)
+      out.push_back(
+          {.side = events[stride.start].side, .start_s = start_s, .end_s = end_s, .backward = backward});
   for (auto& cycle : out) {
     const Side other = data::opposite(cycle.side);
     const auto& own = times[data::index_of(cycle.side)];
@@ -132,6 +147,11 @@ std::vector<GaitCycle> find_cycles(const GaitPaths& paths, std::span<const data:
     cycle.other_print = print(other, cycle.other_strike_s);
   }
   return out;
+}
+
+std::vector<GaitCycle> find_cycles(const GaitPaths& paths, std::span<const data::GaitEvent> events,
+                                   const Eigen::RowVector2d& ground, bool backward) {
+  return cycles_of(paths, events, find_strides(events), ground, backward);
 }
 
 }  // namespace kinemark::analysis

@@ -55,8 +55,24 @@ struct Bridge {
 /// @param events  ascending in time
 [[nodiscard]] std::vector<Bridge> find_bridges(std::span<const data::GaitEvent> events);
 
-/// Cycles of both feet, ascending by side and time. A cycle lasts 0.3 to 3 s and is no bridge of
-/// find_bridges().
+/// The two strikes that a cycle goes from and to, as numbers of events.
+struct Stride {
+  std::size_t start = 0;  ///< of the events
+  std::size_t end = 0;    ///< the same foot's next
+};
+/// Strides of both feet, ascending by side and time. One lasts 0.3 to 6 s and is no bridge of find_bridges().
+/// @param events  ascending in time
+[[nodiscard]] std::vector<Stride> find_strides(std::span<const data::GaitEvent> events);
+
+/// Cycles of these strides, in their order, where the times of the events are others than those that the
+/// strides were found in: what is a stride is judged once, else errors of events would choose the short ones.
+/// @param events  a time that is NaN is that of no event
+[[nodiscard]] std::vector<GaitCycle> cycles_of(const GaitPaths& paths,
+                                               std::span<const data::GaitEvent> events,
+                                               std::span<const Stride> strides,
+                                               const Eigen::RowVector2d& ground, bool backward = false);
+
+/// Cycles of both feet, ascending by side and time, of find_strides().
 ///
 /// A footprint is the mean place of the heel from 20 to 45 % of the stance (of 60 % of the cycle, where the
 /// foot's leaving was not seen).

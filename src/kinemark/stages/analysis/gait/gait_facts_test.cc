@@ -136,10 +136,10 @@ TEST(FindCycles, AStrikeThatWasNotSeenLeavesNoPrint) {
   }
 }
 
-TEST(FindCycles, LastFromThreeTenthsOfASecondToThree) {
+TEST(FindCycles, LastFromThreeTenthsOfASecondToSix) {
   const Stepping walk;
   for (const auto& [duration_s, is_one] :
-       {std::pair{0.29, false}, std::pair{0.31, true}, std::pair{2.99, true}, std::pair{3.01, false}}) {
+       {std::pair{0.29, false}, std::pair{0.31, true}, std::pair{5.99, true}, std::pair{6.01, false}}) {
     const std::vector<data::GaitEvent> events{
         {.side = Side::left, .what = FootEvent::strike, .time_s = 1.0},
         {.side = Side::left, .what = FootEvent::strike, .time_s = 1.0 + duration_s}};
@@ -199,6 +199,24 @@ TEST(Bridges, AreStrikesBetweenWhichOneIsMissing) {
   EXPECT_TRUE(find_bridges(two).empty());
   two.push_back({.side = Side::left, .what = FootEvent::off, .time_s = 0.75});
   EXPECT_EQ(find_bridges(two).size(), 1u);
+}
+
+TEST(Strides, AreJudgedOnceAndKeptWhereTheirEventsErr) {
+  const Stepping walk;
+  std::vector<data::GaitEvent> events;
+  for (const double time_s : {0.0, 5.99, 11.97})
+    events.push_back({.side = Side::left, .what = FootEvent::strike, .time_s = time_s});
+  const auto strides = find_strides(events);
+  ASSERT_EQ(strides.size(), 2u);
+  EXPECT_EQ(strides[1].start, 1u);
+  EXPECT_EQ(strides[1].end, 2u);
+  events[2].time_s = 12.1;
+  const auto cycles = cycles_of(walk.paths(), events, strides, walk.ground);
+  ASSERT_EQ(cycles.size(), 2u) << "of 6.11 s";
+  EXPECT_EQ(cycles[1].end_s, 12.1);
+  EXPECT_EQ(find_cycles(walk.paths(), events, walk.ground).size(), 1u);
+  events[1].time_s = NAN;  // found no more
+  EXPECT_TRUE(cycles_of(walk.paths(), events, strides, walk.ground).empty());
 }
 
 TEST(Bridges, AreNoCycles) {

@@ -86,6 +86,25 @@ void add_foot_errors(MarkerEvents& out) {
   }
 }
 
+// What detectors contradict each other by is common to the events of a kind as far as half of them show it:
+// somebody's way to walk. The rest is the event's own.
+void add_contradiction(MarkerEvents& out) {
+  for (const FootEvent what : data::kFootEvents) {
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < out.events.size(); ++i)
+      if (out.events[i].what == what) squares.push_back(out.fused[i].beyond_s * out.fused[i].beyond_s);
+    if (squares.empty()) continue;
+    const double usual = math::median(squares);
+    for (std::size_t i = 0; i < out.events.size(); ++i) {
+      if (out.events[i].what != what) continue;
+      auto& [kind_s, foot_s, own_s] = out.fused[i].error;
+      const double all = out.fused[i].beyond_s * out.fused[i].beyond_s, common = std::min(all, usual);
+      kind_s = std::sqrt(kind_s * kind_s + common);
+      own_s = std::sqrt(own_s * own_s + all - common);
+    }
+  }
+}
+
 // Steps, events and the kind of gait on ground that moves evenly.
 void judge(const GaitPaths& paths, const Progress& progress, MarkerEvents& out) {
   out.steps = find_steps(paths, out.ground.velocity);
@@ -133,8 +152,9 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
   for (std::size_t i = 0; i < out.events.size(); ++i) {
     auto& error = out.fused[i].error;
     error.kind_s *= factor, error.foot_s *= factor, error.own_s *= factor;
-    out.events[i].sd_s = error.sd_s();
   }
+  add_contradiction(out);
+  for (std::size_t i = 0; i < out.events.size(); ++i) out.events[i].sd_s = out.fused[i].error.sd_s();
   return out;
 }
 

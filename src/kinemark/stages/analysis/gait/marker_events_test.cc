@@ -149,5 +149,32 @@ TEST(MarkerEvents, SdsAreCommonAndOwn) {
   EXPECT_EQ(sd_factor(GaitDirection::sideways), 1.5);
 }
 
+// Slow with small steps: detectors contradict each other in all events alike, and what they differ by is the
+// error of all.
+TEST(MarkerEvents, AGaitThatNoneWasLearntFromHasTheSdOfWhatItsDetectorsDifferBy) {
+  double worst = 0.0;
+  for (const double stride_s : {2.4, 3.0}) {
+    KnownWalk walk;
+    walk.stride_s = stride_s, walk.speed_m_per_s = 0.5 / stride_s, walk.duration_s = 14.0;
+    walk.stance = {0.78, 0.78};
+    const auto found = tell(walk.markers(0.0003, 3)).found;
+    ASSERT_GT(found.events.size(), 14u);
+    double kind_s = 0.0;
+    for (std::size_t i = 0; i < found.events.size(); ++i) {
+      const auto& event = found.events[i];
+      double error_s = INFINITY;
+      for (const auto& truth : walk.events())
+        if (const double later = event.time_s - truth.time_s;
+            truth.side == event.side && truth.what == event.what && std::abs(later) < std::abs(error_s))
+          error_s = later;
+      if (event.time_s > 0.2 && event.time_s < walk.duration_s - 0.2)
+        worst = std::max(worst, std::abs(error_s) / event.sd_s);
+      kind_s = std::max(kind_s, found.fused[i].error.kind_s);
+    }
+    EXPECT_GT(kind_s, 0.03) << stride_s;
+  }
+  EXPECT_LT(worst, 4.0);
+}
+
 }  // namespace
 }  // namespace kinemark::analysis

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/math/statistics.h"
 
 namespace kinemark::analysis {
@@ -157,6 +159,44 @@ void find_swings(const GaitPaths& paths, Side side, const RowVector2d& ground, S
   }
 }
 
+void find_swings_of_both(const GaitPaths& paths, const RowVector2d& ground, Steps& out) {
+  for (const Side side : data::kBothSides) {
+    out.feet[data::index_of(side)].swings.clear();
+    if (out.foot(side).speed.size() > 0) find_swings(paths, side, ground, out);
+  }
+}
+
+// Greatest speed of the swing of either foot that is nearest to a frame, of those whose greatest was seen;
+// NaN of none.
+double nearest_peak(const Steps& steps, std::int64_t frame) {
+  double out = kNaN;
+  std::int64_t away = std::numeric_limits<std::int64_t>::max();
+  for (const auto& foot : steps.feet)
+    for (const auto& swing : foot.swings)
+      if (const auto apart = std::abs(swing.peak - frame);
+          swing.peak > foot.seen.first && swing.peak < foot.seen.last && apart < away)
+        out = foot.speed[swing.peak], away = apart;
+  return out;
+}
+
+// A foot that only slows down where it comes into sight, or only speeds up where it goes, swung as fast
+// before or after as in the nearest swing: what is slow beside that is a foot that rolls.
+// @return  whether the usual speed there was less
+bool complete_ends(std::int64_t reach, Steps& out) {
+  bool changed = false;
+  for (const auto& foot : out.feet)
+    for (const auto& swing : foot.swings) {
+      if (swing.peak > foot.seen.first && swing.peak < foot.seen.last) continue;
+      const double peak = nearest_peak(out, swing.peak);
+      if (!(peak > out.usual[swing.peak])) continue;
+      const auto first = std::max<std::int64_t>(0, swing.peak - reach),
+                 last = std::min<std::int64_t>(out.usual.size() - 1, swing.peak + reach);
+      for (auto f = first; f <= last; ++f) out.usual[f] = std::max(out.usual[f], peak);
+      changed = true;
+    }
+  return changed;
+}
+
 double stride_of(const Steps& steps, double rate_hz) {
   std::vector<double> between, swings;
   for (const auto& foot : steps.feet) {
@@ -268,9 +308,10 @@ Steps find_steps(const GaitPaths& paths, const RowVector2d& ground) {
   const double least = std::max(
       kLeastTop_m_per_s,
       kShareOfTop * math::quantile(std::span(top.data(), static_cast<std::size_t>(top.size())), kTop));
-  out.usual = greatest_around(top, static_cast<std::int64_t>(kAround_s * paths.rate_hz)).cwiseMax(least);
-  for (const Side side : data::kBothSides)
-    if (out.foot(side).speed.size() > 0) find_swings(paths, side, ground, out);
+  const auto reach = static_cast<std::int64_t>(kAround_s * paths.rate_hz);
+  out.usual = greatest_around(top, reach).cwiseMax(least);
+  find_swings_of_both(paths, ground, out);
+  if (complete_ends(reach, out)) find_swings_of_both(paths, ground, out);
   out.stride_s = stride_of(out, paths.rate_hz);
   out.going.assign(at(paths.frames()), false);
   const std::int64_t half = std::llround(0.5 * out.stride_s * paths.rate_hz);

@@ -81,6 +81,38 @@ TEST(Swings, AGapIsCrossedStraightAndItsEndsAreThoseSeen) {
   EXPECT_NEAR(foot.speed[250], 1.3, 0.6);  // as fast as the body in the mean
 }
 
+// Two feet for four seconds at 100 Hz: the left one goes at a speed that falls to nothing within `falls_s`
+// and swings from 2 to 2.5 s at 1.5 m/s; the right one stands.
+GaitPaths beginning(double speed_m_per_s, double falls_s) {
+  constexpr std::int64_t kFrames = 400;
+  GaitPaths out{.rate_hz = 100.0, .start_s = 0.0, .feet = {}, .pelvis = math::SeriesMatrix::Zero(kFrames, 3)};
+  for (auto& foot : out.feet) {
+    foot.heel = foot.toe = math::SeriesMatrix::Zero(kFrames, 3);
+    foot.known.assign(static_cast<std::size_t>(kFrames), true);
+  }
+  double way = 0.0;
+  for (std::int64_t f = 0; f < kFrames; ++f) {
+    const double t = 0.01 * static_cast<double>(f);
+    const double swing = t > 2.0 && t < 2.5 ? 1.5 * std::sin(M_PI * (t - 2.0) / 0.5) : 0.0;
+    way += 0.01 * (swing + speed_m_per_s * std::max(0.0, 1.0 - t / falls_s));
+    out.feet[0].heel(f, 0) = out.feet[0].toe(f, 0) = way;
+  }
+  return out;
+}
+
+TEST(Swings, AFootThatRollsWhereTheRecordingBeginsDidNotSwing) {
+  const auto swings = [](double speed_m_per_s) {
+    return find_steps(beginning(speed_m_per_s, 0.3), {0.0, 0.0}).foot(Side::left).swings;
+  };
+  const auto rolls = swings(0.25), lands = swings(1.2);
+  ASSERT_EQ(rolls.size(), 1u);
+  EXPECT_NEAR(static_cast<double>(rolls[0].peak), 225.0, 2.0);
+  ASSERT_EQ(lands.size(), 2u) << "of four fifths of the other swing";
+  EXPECT_FALSE(lands[0].leaves.has_value());
+  ASSERT_TRUE(lands[0].lands.has_value());
+  EXPECT_NEAR(0.01 * static_cast<double>(*lands[0].lands), 0.3 * (1.0 - kStands * 1.5 / 1.2), 0.03);
+}
+
 TEST(Swings, SlopesAreCentral) {
   math::SeriesMatrix x(5, 1);
   x << 0.0, 1.0, 4.0, 9.0, 16.0;

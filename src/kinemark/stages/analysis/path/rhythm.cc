@@ -56,36 +56,6 @@ Row row_from(std::size_t first, std::span<const double> crossings, double period
 
 }  // namespace
 
-std::vector<MovementWindow> movements_of(const PathSamples& path) {
-  std::vector<MovementWindow> out;
-  const double rate_hz = path.rate_hz;
-  const Eigen::VectorXd speed = speed_of(path);
-  const auto hold = std::max<std::int64_t>(2, std::llround(kMovingHold_s * rate_hz));
-  const std::int64_t n = speed.size();
-  if (n == 0) return out;
-  const double level = kMovingShare * speed_peak(path, speed).speed;
-  std::int64_t first = -1, last = -1;  // samples of the movement that is open
-  const auto close = [&] {
-    if (first < 0) return;
-    out.push_back({.onset_s = first > 0 ? crossing_s(path, first - 1, first, level) : kNaN,
-                   .end_s = last + 1 < n ? crossing_s(path, last + 1, last, level) : kNaN});
-    first = -1;
-  };
-  std::int64_t above = 0, below = 0;
-  for (std::int64_t i = 0; i < n; ++i) {
-    const bool moves = speed[i] > level;
-    above = moves ? above + 1 : 0;
-    below = moves ? 0 : below + 1;
-    if (above >= hold) {
-      if (first < 0) first = i - above + 1;
-      last = i;
-    }
-    if (below >= hold) close();
-  }
-  close();
-  return out;
-}
-
 Period period_of(const SeriesMatrix& v, double rate_hz) {
   const std::int64_t n = v.rows(), most = n / 2;
   if (n < 8) return {};

@@ -17,11 +17,6 @@
 
 namespace kinemark::analysis {
 
-/// Movements that rests part from each other, in their order. A point moves beyond kMovingShare of the
-/// largest speed and rests where it stays below for kMovingHold_s; shorter stops belong to a movement,
-/// shorter movements to a rest. Onset and end are NaN where the samples begin or end within a movement.
-[[nodiscard]] std::vector<MovementWindow> movements_of(const PathSamples& path);
-
 /// How long a movement takes to repeat, and how much it is like itself then.
 struct Period {
   double s = kNaN;        ///< NaN: it does not come back to what it did

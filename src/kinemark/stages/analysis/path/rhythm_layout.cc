@@ -27,7 +27,7 @@ struct InstantsFound {
 
 InstantsFound instants_of(const PathSamples& path, const Eigen::Vector3d& axis) {
   InstantsFound out;
-  for (const auto& movement : movements_of(path)) {
+  for (const auto& movement : movements_of(path, speed_of(path))) {
     if (std::isfinite(movement.onset_s)) out.of_kind[0].push_back(movement.onset_s);
     if (std::isfinite(movement.end_s)) out.of_kind[1].push_back(movement.end_s);
   }
@@ -127,7 +127,7 @@ std::vector<double> lengths_of(const Repeats& found) {
 }  // namespace
 
 Repeats find_repeats(const PathSamples& path, const Eigen::Vector3d& axis, PathRhythm& out) {
-  Repeats found{.movements = movements_of(path),
+  Repeats found{.movements = movements_of(path, speed_of(path)),
                 .crossings = cycle_starts(path.x, axis, path.rate_hz, CycleTrend::of_samples),
                 .cycles = {}};
   const auto period = period_of(path.v, path.rate_hz);

@@ -30,9 +30,17 @@ PathSamples steps(const Eigen::VectorXd& speed) {
   return testing::straight_way(100.0, speed, Eigen::VectorXd::Zero(speed.size()));
 }
 
+std::vector<MovementWindow> movements_in(const PathSamples& path) {
+  return movements_of(path, speed_of(path));
+}
+
 TEST(MovementsOf, ReachesBetweenRestsAreFoundOneByOne) {
-  const auto found = movements_of(reaches(500, 100.0, 0.7, 0.5));
+  const auto path = reaches(500, 100.0, 0.7, 0.5);
+  const auto found = movements_in(path);
   ASSERT_EQ(found.size(), 4u);
+  const auto window = movement_window(path, speed_of(path));
+  EXPECT_EQ(window.onset_s, found[0].onset_s) << "of the first";
+  EXPECT_EQ(window.end_s, found[3].end_s) << "of the last";
   // The speed of a minimum-jerk way crosses 5 % of its peak at u (1 - u) = sqrt(0.05) / 4.
   const double u = 0.5 - std::sqrt(0.25 - std::sqrt(0.05) / 4.0);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -42,29 +50,20 @@ TEST(MovementsOf, ReachesBetweenRestsAreFoundOneByOne) {
   }
 }
 
-TEST(MovementsOf, OfOneMovementIsItsWindow) {
-  const auto path = testing::path_of(178, 100.0, testing::reach);
-  const auto window = movement_window(path, speed_of(path));
-  const auto found = movements_of(path);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].onset_s, window.onset_s);
-  EXPECT_EQ(found[0].end_s, window.end_s);
-}
-
 TEST(MovementsOf, AShortStopPartsNothingAndAShortJerkIsNone) {
   Eigen::VectorXd speed = Eigen::VectorXd::Ones(300);
   speed.segment(100, 9).setZero();  // 90 ms
-  auto found = movements_of(steps(speed));
+  auto found = movements_in(steps(speed));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(std::isnan(found[0].onset_s));
   EXPECT_TRUE(std::isnan(found[0].end_s));
   speed.segment(100, 100).setZero();
   speed.segment(150, 9).setOnes();  // moves for 90 ms
-  found = movements_of(steps(speed));
+  found = movements_in(steps(speed));
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].end_s, 0.9986465, 1e-7);  // 3 t^2 - 2 t^3 = 0.95 from 0.99 s on
   EXPECT_NEAR(found[1].onset_s, 1.9913535, 1e-7);
-  EXPECT_TRUE(movements_of({}).empty());
+  EXPECT_TRUE(movements_in({}).empty());
 }
 
 TEST(PeriodOf, AnEllipseIsATurnAndAFigureOfEightIsNoHalfOfOne) {

@@ -86,25 +86,39 @@ double crossing_s(const PathSamples& path, std::int64_t below, std::int64_t abov
          path.rate_hz;
 }
 
-MovementWindow movement_window(const PathSamples& path, const Eigen::VectorXd& speed) {
-  MovementWindow out;
+std::vector<MovementWindow> movements_of(const PathSamples& path, const Eigen::VectorXd& speed) {
+  std::vector<MovementWindow> out;
   const double rate_hz = path.rate_hz;
   const auto hold = std::max<std::int64_t>(2, std::llround(kMovingHold_s * rate_hz));
   const std::int64_t n = speed.size();
   if (n == 0) return out;
   const double level = kMovingShare * speed_peak(path, speed).speed;
-  std::int64_t first = -1, last = -1;
-  for (std::int64_t i = 0, run = 0; i < n && first < 0; ++i) {
-    run = speed[i] > level ? run + 1 : 0;
-    if (run == hold) first = i - run + 1;
+  std::int64_t first = -1, last = -1;  // samples of the movement that is open
+  const auto close = [&] {
+    if (first < 0) return;
+    out.push_back({.onset_s = first > 0 ? crossing_s(path, first - 1, first, level) : kNaN,
+                   .end_s = last + 1 < n ? crossing_s(path, last + 1, last, level) : kNaN});
+    first = -1;
+  };
+  std::int64_t above = 0, below = 0;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const bool moves = speed[i] > level;
+    above = moves ? above + 1 : 0;
+    below = moves ? 0 : below + 1;
+    if (above >= hold) {
+      if (first < 0) first = i - above + 1;
+      last = i;
+    }
+    if (below >= hold) close();
   }
-  for (std::int64_t i = n - 1, run = 0; i >= 0 && first >= 0 && last < 0; --i) {
-    run = speed[i] > level ? run + 1 : 0;
-    if (run == hold) last = i + run - 1;
-  }
-  if (first > 0) out.onset_s = crossing_s(path, first - 1, first, level);
-  if (last >= 0 && last + 1 < n) out.end_s = crossing_s(path, last + 1, last, level);
+  close();
   return out;
+}
+
+MovementWindow movement_window(const PathSamples& path, const Eigen::VectorXd& speed) {
+  const auto movements = movements_of(path, speed);
+  if (movements.empty()) return {};
+  return {.onset_s = movements.front().onset_s, .end_s = movements.back().end_s};
 }
 
 std::int64_t count_submovements(const Eigen::VectorXd& speed) {

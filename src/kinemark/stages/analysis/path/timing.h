@@ -45,8 +45,14 @@ struct MovementWindow {
   double onset_s = kNaN;  ///< NaN: it moves from the first sample on
   double end_s = kNaN;    ///< NaN: it moves to the last sample
 };
-/// Where the speed first crosses kMovingShare of its peak and stays above for kMovingHold_s, and where it
-/// last falls below likewise. About 40 ms after the true start of a minimum-jerk reach of 0.7 s.
+/// Movements that rests part from each other, in their order. A point moves beyond kMovingShare of the
+/// largest speed and rests where it stays below for kMovingHold_s; shorter stops belong to a movement,
+/// shorter movements to a rest. Onset and end are NaN where the samples begin or end within a movement.
+/// @param speed  speed_of() the path
+[[nodiscard]] std::vector<MovementWindow> movements_of(const PathSamples& path, const Eigen::VectorXd& speed);
+
+/// From the onset of the first of movements_of() to the end of the last one. About 40 ms after the true start
+/// of a minimum-jerk reach of 0.7 s.
 /// @param speed  speed_of() the path
 [[nodiscard]] MovementWindow movement_window(const PathSamples& path, const Eigen::VectorXd& speed);
 

@@ -17,6 +17,7 @@ constexpr double kStepCost = 2.0;     // beside the logarithm of the bins
 constexpr std::int64_t kBlock = 5;    // bins whose scatter tells the freedom
 constexpr double kActivePower = 2.0;  // of rest
 constexpr double kValley = 0.15;      // natural logarithm: outer over inner parts of what is quiet
+constexpr double kModulated = 0.5;    // degrees of freedom of an even strength
 constexpr std::int64_t kTrim = 3;     // bins beside a burst that may hold its beginning
 
 std::vector<PowerLevel> likeliest(const std::vector<double>& power, double freedom) {
@@ -118,7 +119,7 @@ std::vector<PowerLevel> power_levels(const std::vector<double>& power, double& f
 }
 
 Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>& levels, double freedom,
-                 double rest_bins, double least_bins) {
+                 double freedom_still, const QuietBins& bins) {
   const auto n = std::ssize(power);
   std::vector<double> of_bin(at(n));
   for (const auto& level : levels)
@@ -126,7 +127,7 @@ Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>
   auto sorted = of_bin;
   std::ranges::sort(sorted);
   Quiet out;
-  out.power = sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(rest_bins))];
+  out.power = sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(bins.rest))];
   for (int turn = 0; turn < 5; ++turn) {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < of_bin.size(); ++i)
@@ -146,14 +147,22 @@ Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>
   for (const char which : {char{0}, char{1}}) {  // short interruptions, then short bursts
     const auto before = out.active;
     each_run(before, which, [&](std::int64_t first, std::int64_t end) {
-      if (static_cast<double>(end - first) >= least_bins || (which == 0 && (first == 0 || end == n))) return;
+      if (static_cast<double>(end - first) >= bins.burst || (which == 0 && (first == 0 || end == n))) return;
       std::fill(out.active.begin() + first, out.active.begin() + end, which == 0 ? char{1} : char{0});
     });
   }
   const auto active = std::ranges::count(out.active, 1);
+  double told = 0.0;
+  std::vector<PowerLevel> parts;  // that are quiet
+  each_run(out.active, 0, [&](std::int64_t first, std::int64_t end) {
+    parts.push_back({.first = first, .end = end});
+    if (const auto length = static_cast<double>(end - first); length >= bins.told) told += length;
+  });
   if (active == 0 || levels.size() == 1)
-    out.found = Quiet::Found::steady;
-  else if (active == n || at_it < rest_bins || above > at_it || is_valley(power, out.active, freedom))
+    out.found = freedom_within(power, parts) < kModulated * freedom_still ? Quiet::Found::no_rest
+                                                                          : Quiet::Found::steady;
+  else if (active == n || at_it < bins.rest || told < bins.rest || above > at_it ||
+           is_valley(power, out.active, freedom))
     out.found = Quiet::Found::no_rest;
   else
     out.found = Quiet::Found::bursts;

@@ -30,10 +30,21 @@ struct Quiet {
   std::vector<char> active;     ///< one a bin
 };
 
-/// Rest is the lowest level that is kept for `rest_bins` in all; active is what has twice its power, for
-/// `least_bins` together. Rest is none where the channel spends more time just above it than at it, as a
-/// modulated strength does, or where its quiet parts are valleys rather than even.
+/// Lengths that count, in bins.
+struct QuietBins {
+  double rest = 0.0;   ///< the least rest of a channel
+  double burst = 0.0;  ///< the shortest burst and interruption
+  double told = 0.0;   ///< the shortest quiet part that tells rest from a valley between two bursts
+};
+
+/// Rest is the lowest level that is kept for `bins.rest` in all; active is what has twice its power, for
+/// `bins.burst` together. Rest is none where the channel spends more time just above it than at it, as a
+/// modulated strength does, where its quiet parts are valleys rather than even, or where they are too short
+/// to show which: `bins.rest` have to lie in parts of `bins.told` and more.
+/// @param freedom        of a bin within levels
+/// @param freedom_still  that of noise of the channel's spectrum and even strength: where nothing is active
+/// and bins scatter by twice as much, the strength is modulated
 [[nodiscard]] Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>& levels,
-                               double freedom, double rest_bins, double least_bins);
+                               double freedom, double freedom_still, const QuietBins& bins);
 
 }  // namespace kinemark::analysis

@@ -32,7 +32,7 @@ std::vector<double> bins_of(const F& power, std::uint64_t seed) {
 Quiet quiet_of(const std::vector<double>& power) {
   double freedom = kSquares;
   const auto levels = power_levels(power, freedom);
-  return find_quiet(power, levels, freedom, 100.0, 10.0);
+  return find_quiet(power, levels, freedom, kSquares, {.rest = 100.0, .burst = 10.0, .told = 50.0});
 }
 
 TEST(PowerLevels, AStepIsFoundWhereItIs) {
@@ -95,6 +95,20 @@ TEST(PowerLevels, AStrengthThatIsNeverLowForLongHasNoRest) {
     return std::pow(1.0 + 0.7 * std::sin(2.0 * std::numbers::pi * i / 300.0), 2);
   };
   EXPECT_NE(quiet_of(bins_of(valleys, 6)).found, Quiet::Found::bursts);
+}
+
+TEST(PowerLevels, QuietPartsThatAreTooShortTellNoRest) {
+  for (const double quiet : {40.0, 60.0}) {
+    const auto pulses = [quiet](double i) { return std::fmod(i, 100.0) < quiet ? 1.0 : 30.0; };
+    EXPECT_EQ(quiet_of(bins_of(pulses, 8)).found, quiet < 50.0 ? Quiet::Found::no_rest : Quiet::Found::bursts)
+        << quiet;
+  }
+}
+
+TEST(PowerLevels, OneLevelWhoseBinsScatterIsModulatedAndNotSteady) {
+  const auto fast = [](double i) { return std::pow(0.55 + 0.45 * std::sin(0.2 * std::numbers::pi * i), 2); };
+  for (std::uint64_t seed = 10; seed < 20; ++seed)
+    EXPECT_EQ(quiet_of(bins_of(fast, seed)).found, Quiet::Found::no_rest) << seed;
 }
 
 }  // namespace
