@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -20,7 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSmallestStep = 1e-10;                   // rad or m
+constexpr double kSmallestStep = 1e-10;  // rad or m
+constexpr double kPoor = 2.0;            // SD over the usual one, above which a path is bridged
 constexpr double kSmallestDoubt = 1e-12, kUnknown = 1.0;  // rad^2 or m^2
 constexpr double kAnyNoise = std::numeric_limits<double>::infinity();
 // Default third difference at 100 Hz, from a typical jerk of human motion, 100 rad/s^3.
@@ -130,8 +132,11 @@ SinglePaths single_paths(const model::Model& model, const data::JointMotion& mot
     const auto smooth =
         smooth_coordinate(y, sd, motion.time.rate_hz, motion.q_sd.empty() ? kAnyNoise : raised);
     if (smooth.known) variance[speed] = std::pow(std::max(smooth.step_sd, kSmallestStep), 2);
+    std::vector<double> known;
+    std::ranges::copy_if(sd, std::back_inserter(known), [](double s) { return s >= 0.0; });
+    const double most = kPoor * usual_of(known, 0.0);
     for (std::int64_t f = 0; f < F; ++f) {
-      const bool bridged = !(sd[at(f)] >= 0.0);
+      const bool bridged = !(sd[at(f)] <= most);
       paths.value(speed, f) = bridged ? smooth.value[f] : y[at(f)];
       if (bridged)
         paths.doubt(speed, f) = smooth.known ? std::max(smooth.covariance(0, f), kSmallestDoubt) : kUnknown;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "kinemark/core/index.h"
 #include "kinemark/stages/motion/smoother/coordinate_smoother.h"
@@ -54,6 +55,9 @@ StepModes step_modes(const model::Model& model, const Observations& observations
     seen[at(f)] = seen_markers(rows.information());
   }
 
+  std::ptrdiff_t most = 0;
+  for (const auto& markers : seen) most = std::max(most, std::ranges::count(markers, 1));
+
   // V' mean V = 1 and V' own V = diag(1 / step variance).
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(own, mean);
   if (modes.info() != Eigen::Success) return out;
@@ -80,6 +84,8 @@ StepModes step_modes(const model::Model& model, const Observations& observations
     spread = inverse.transpose();
     llt.matrixL().solveInPlace(spread);
     weight.col(f) = spread.colwise().squaredNorm().transpose().cwiseInverse();
+    // Where markers come and go, what is slow on each of them jumps.
+    if (std::ranges::count(seen[at(f)], 1) < most) weight.col(f) /= beyond_white;
   }
   VectorXd strength(n);
   for (Index k = 0; k < n; ++k) {
