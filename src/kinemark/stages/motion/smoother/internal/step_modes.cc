@@ -81,6 +81,8 @@ StepModes step_modes(const model::Model& model, const Observations& observations
     for (Index i = 0; i < n; ++i)
       if (doubt[i] > 0.0) mean(i, i) += 1.0 / doubt[i];
     llt.compute(mean);
+    weight.col(f).setZero();
+    if (llt.info() != Eigen::Success) continue;  // numbers have no digits left for it: not seen
     spread = inverse.transpose();
     llt.matrixL().solveInPlace(spread);
     weight.col(f) = spread.colwise().squaredNorm().transpose().cwiseInverse();
@@ -89,8 +91,10 @@ StepModes step_modes(const model::Model& model, const Observations& observations
   }
   VectorXd strength(n);
   for (Index k = 0; k < n; ++k) {
-    const auto nearest =
-        nearest_curve(curves.row(k), weight.row(k), 1.0 / modes.eigenvalues()[k], beyond_white);
+    // The basis has no digits left for modes that no marker tells of: all stays as it was.
+    if (!(modes.eigenvalues()[k] > 0.0)) return out;
+    const double first = 1.0 / modes.eigenvalues()[k];
+    const auto nearest = nearest_curve(curves.row(k), weight.row(k), first, beyond_white);
     strength[k] = 1.0 / nearest.step_variance;
     out.spread.row(k) = nearest.spread;
   }
