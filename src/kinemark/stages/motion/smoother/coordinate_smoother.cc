@@ -139,6 +139,44 @@ double best_ratio(const VectorXd& y, const VectorXd& weight, double largest) {
   return std::exp(refined.middle());
 }
 
+/// Curve of a ratio: what C_p and the likelihood are made of.
+struct Fit {
+  double squares = 0.0;       ///< misfit to the samples
+  double all_squares = 0.0;   ///< and roughness
+  double determinants = 0.0;  ///< log det(A)
+  double freedom = 0.0, steps = 0.0;
+  VectorXd curve;  ///< where one stretch is all
+
+  /// The noise variance profiled out, not above `largest`, and the given one at least.
+  [[nodiscard]] double noise(double largest) const {
+    return std::clamp(all_squares / std::max(freedom, 1.0), 1.0, largest);
+  }
+  [[nodiscard]] double misfit(double ratio, double largest) const {
+    const double variance = noise(largest);
+    return all_squares / variance + freedom * std::log(variance) + determinants + steps * std::log(ratio);
+  }
+};
+
+Fit fit(const VectorXd& y, const VectorXd& weight, double ratio) {
+  const auto first = stretches(y.size());
+  const Index length = first.size() == 1 ? y.size() : kBlock;
+  Fit out;
+  for (const Index f : first) {
+    const VectorXd w = weight.segment(f, length), values = y.segment(f, length);
+    const auto seen = static_cast<double>((w.array() > 0.0).count());
+    if (seen < kFewestSamples) continue;
+    const Band band(w, ratio);
+    VectorXd x = w.cwiseProduct(values);
+    band.solve_in_place(x);
+    out.squares += (w.array() * (values - x).array().square()).sum();
+    out.all_squares += squares_of(values, w, x, ratio);
+    out.determinants += band.log_determinant();
+    out.freedom += seen - 3.0, out.steps += static_cast<double>(length - 3);
+    if (first.size() == 1) out.curve = std::move(x);
+  }
+  return out;
+}
+
 VectorXd weights_of(std::span<const double> sd, Index frames) {
   if (sd.empty()) return VectorXd::Ones(frames);
   std::vector<double> seen;
@@ -175,6 +213,61 @@ void fill_covariance(const Eigen::Matrix4Xd& band, double variance, double rate_
 }
 
 }  // namespace
+
+NearestCurve nearest_curve(const VectorXd& y, const VectorXd& weight, double first, double largest) {
+  constexpr double kSpacing = 1.0;       // of log ratio
+  constexpr double kBeyond = 10.0;       // of C_p above the best, where weights are small
+  constexpr double kFlat = 0.02;         // of C_p from one ratio to the next
+  constexpr int kLeast = 2, kMost = 30;  // ratios on either side
+  constexpr double kSharpness =
+      0.25;  // of the weights by C_p: half of Akaike's, as C_p has a scatter of its own
+  check(y.size() == weight.size(), "need one weight for every sample");
+  NearestCurve out{.step_variance = first, .spread = VectorXd::Zero(y.size())};
+  if ((weight.array() > 0.0).count() < kFewestSamples) return out;
+  const VectorXd values = y.array() - weight.dot(y) / weight.sum();
+  const double middle = std::log(std::clamp(first, kSmallestRatio, kLargestRatio));
+  std::vector<Fit> fits(2 * kMost + 1);
+  const auto ratio_at = [&](int i) { return middle + kSpacing * (i - kMost); };
+  const auto fit_at = [&](int i) -> Fit& { return fits[static_cast<std::size_t>(i)]; };
+  double noise = 1.0, least_misfit = std::numeric_limits<double>::infinity();
+  const auto ask = [&](int i) {
+    fit_at(i) = fit(values, weight, std::exp(ratio_at(i)));
+    const double misfit = fit_at(i).misfit(std::exp(ratio_at(i)), largest);
+    if (misfit < least_misfit) least_misfit = misfit, noise = fit_at(i).noise(largest);
+  };
+  // C_p = squares / noise + 2 tr(A^-1 W), the trace from the slope of log det(A), but for the number of
+  // frames.
+  const auto distance = [&](int i) {
+    return fit_at(i).squares / noise + (fit_at(i + 1).determinants - fit_at(i - 1).determinants) / kSpacing;
+  };
+  int low = kMost - kLeast, high = kMost + kLeast;
+  for (int i = low - 1; i <= high + 1; ++i) ask(i);
+  const auto best = [&] {
+    double least = distance(low);
+    for (int i = low + 1; i <= high; ++i) least = std::min(least, distance(i));
+    return least;
+  };
+  const auto go_on = [&](int i, int inner) {
+    return distance(i) < best() + kBeyond && std::abs(distance(i) - distance(inner)) > kFlat;
+  };
+  while (low > 1 && ratio_at(low - 2) > std::log(kSmallestRatio) && go_on(low, low + 1)) ask(--low - 1);
+  while (high + 2 < 2 * kMost && ratio_at(high + 2) < std::log(kLargestRatio) && go_on(high, high - 1))
+    ask(++high + 1);
+  double weights = 0.0, bandwidths = 0.0;
+  const double least = best();
+  VectorXd sum = VectorXd::Zero(y.size());
+  for (int i = low; i <= high; ++i) {
+    const double likely = std::exp(kSharpness * (least - distance(i)));
+    weights += likely, bandwidths += likely * std::exp(ratio_at(i) / 6.0);
+    if (const auto& curve = fit_at(i).curve; curve.size() > 0) {
+      sum += likely * curve;
+      out.spread.array() += likely * curve.array().square();
+    }
+  }
+  out.step_variance = noise * std::pow(bandwidths / weights, 6);
+  out.spread = (out.spread.array() / weights - (sum.array() / weights).square()).cwiseMax(0.0);
+  return out;
+}
 
 void five_point_rates(const VectorXd& y, double rate_hz, VectorXd& rate, VectorXd& acceleration) {
   const Index F = y.size();

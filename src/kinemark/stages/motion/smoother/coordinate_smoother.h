@@ -38,6 +38,27 @@ inline constexpr int kFewestSamples = 8;  ///< below it nothing is estimated
     std::span<const double> y, std::span<const double> sd, double rate_hz,
     double largest_noise_scale = std::numeric_limits<double>::infinity());
 
+/// What nearest_curve() finds.
+struct NearestCurve {
+  double step_variance = 0.0;  ///< of a third difference
+  /// F, variance of the curve by what is not known of the step variance; 0 in recordings of more than 6000
+  /// frames, where there is no doubt about it.
+  Eigen::VectorXd spread;
+};
+
+/// Variance of a step where the noise is known: that of the curve which lies nearest to the truth, whatever
+/// its spectrum. Mallows' C_p (1973, Technometrics 15:661) estimates the distance; bandwidths are averaged
+/// with weights exp(-C_p / 4). A likelihood would take the variance from the lowest frequencies, of which
+/// there are most that noise does not hide, and where a movement has less than white steps would have: it is
+/// then too small where noise and movement meet. O(F), about 2 us per frame.
+/// @param y        finite
+/// @param weight   as long as y, the inverse variance of each sample's noise; 0: not seen
+/// @param first    step variance from which the search begins; returned where fewer than 8 samples are seen
+/// @param largest  >= 1, how often as large the variance of noise may be; above 1 it is found by its
+/// likelihood
+[[nodiscard]] NearestCurve nearest_curve(const Eigen::VectorXd& y, const Eigen::VectorXd& weight,
+                                         double first, double largest = 1.0);
+
 /// Rate and acceleration of an evenly sampled smooth number: five-point differences, at the ends continued
 /// with a constant second difference. F >= 3.
 void five_point_rates(const Eigen::VectorXd& y, double rate_hz, Eigen::VectorXd& rate,

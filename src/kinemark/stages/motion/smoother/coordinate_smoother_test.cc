@@ -118,6 +118,98 @@ TEST(CoordinateSmoother, FindsTheNoiseAndItsBarsCover) {
   EXPECT_LT(inside[2], 0.99 * all);
 }
 
+/// A movement like those of walks: its spectrum rises no further below 3 Hz. Of SD 1.
+Eigen::VectorXd movement(std::uint64_t seed, int frames) {
+  constexpr int kBefore = 300;
+  const double kept = std::exp(-2.0 * M_PI * 3.0 / kRate);
+  Random random(seed, 12);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(kBefore + frames);
+  for (Eigen::Index k = 3; k < x.size(); ++k)
+    x[k] = 3.0 * kept * x[k - 1] - 3.0 * kept * kept * x[k - 2] + kept * kept * kept * x[k - 3] +
+           random.gaussian();
+  x = x.tail(frames).eval();
+  x.array() -= x.mean();
+  return x / std::sqrt(x.squaredNorm() / frames);
+}
+
+constexpr int kWalk = 400;
+
+Eigen::VectorXd with_noise(Eigen::VectorXd y, double noise_sd, std::uint64_t seed) {
+  Random random(seed, 11);
+  for (double& value : y) value += noise_sd * random.gaussian();
+  return y;
+}
+
+/// Value and bars of a curve with this variance of a step, by dense matrices.
+struct DenseCurve {
+  Eigen::VectorXd value, variance;
+  DenseCurve(const Eigen::VectorXd& y, double noise_sd, double step_variance) {
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(kWalk - 3, kWalk);
+    for (int k = 0; k + 3 < kWalk; ++k) D.block<1, 4>(k, k) << -1.0, 3.0, -3.0, 1.0;
+    const double information = 1.0 / (noise_sd * noise_sd);
+    Eigen::MatrixXd A = D.transpose() * D / step_variance;
+    A.diagonal().array() += information;
+    const Eigen::MatrixXd C = A.inverse();
+    value = C * (information * y);
+    variance = C.diagonal();
+  }
+};
+
+struct Held {
+  double one = 0.0, two = 0.0, squares = 0.0;
+  void add(const DenseCurve& curve, const Eigen::VectorXd& spread, const Eigen::VectorXd& truth) {
+    for (int f = 0; f < kWalk; ++f) {
+      const double off = curve.value[f] - truth[f];
+      const double z = std::abs(off) / std::sqrt(curve.variance[f] + spread[f]);
+      one += z < 1.0, two += z < 1.96, squares += off * off;
+    }
+  }
+};
+
+TEST(CoordinateSmoother, TheNearestCurveOfAWalkIsHeldByItsBarsWhereTheLikeliestIsNot) {
+  constexpr double kNoise = 0.5;
+  constexpr int kDraws = 12;
+  Held nearest, likeliest;
+  for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
+    const auto truth = movement(seed, kWalk), y = with_noise(truth, kNoise, seed);
+    const Eigen::VectorXd weight = Eigen::VectorXd::Constant(kWalk, 1.0 / (kNoise * kNoise));
+    const auto likely = smooth_coordinate({y.data(), kWalk}, std::vector<double>(kWalk, kNoise), kRate, 1.0);
+    const double first = likely.step_sd * likely.step_sd;
+    const auto curve = nearest_curve(y, weight, first);
+    nearest.add(DenseCurve(y, kNoise, curve.step_variance), curve.spread, truth);
+    likeliest.add(DenseCurve(y, kNoise, first), Eigen::VectorXd::Zero(kWalk), truth);
+    // The search finds it from wherever it begins.
+    EXPECT_NEAR(std::log(nearest_curve(y, weight, 100.0 * first).step_variance / curve.step_variance), 0.0,
+                0.3);
+  }
+  EXPECT_GT(nearest.one, 0.62 * kDraws * kWalk);
+  EXPECT_LT(nearest.one, 0.76 * kDraws * kWalk);
+  EXPECT_GT(nearest.two, 0.92 * kDraws * kWalk);
+  EXPECT_LT(nearest.two, 0.98 * kDraws * kWalk);
+  EXPECT_LT(likeliest.two, 0.91 * kDraws * kWalk) << "without it this movement shows nothing";
+  EXPECT_LT(nearest.squares, likeliest.squares);
+}
+
+TEST(CoordinateSmoother, TheNearestCurveFindsNoiseThatMayBeLarger) {
+  constexpr double kNoise = 0.1;
+  const auto y = with_noise(movement(5, kWalk), 3.0 * kNoise, 5);
+  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(kWalk, 1.0 / (kNoise * kNoise));
+  const double known = nearest_curve(y, weight / 9.0, 1e-3).step_variance,
+               found = nearest_curve(y, weight, 1e-3, 20.0).step_variance,
+               believed = nearest_curve(y, weight, 1e-3).step_variance;
+  EXPECT_NEAR(std::log(found / known), 0.0, 0.5);
+  EXPECT_GT(believed, 100.0 * known) << "what noise cannot be is motion";
+}
+
+TEST(CoordinateSmoother, TheNearestCurveOfTooFewSamplesIsWhereItBegan) {
+  const Eigen::VectorXd y = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(50);
+  weight.head(7).setOnes();
+  const auto curve = nearest_curve(y, weight, 0.125);
+  EXPECT_EQ(curve.step_variance, 0.125);
+  EXPECT_EQ(curve.spread, Eigen::VectorXd::Zero(50));
+}
+
 TEST(CoordinateSmoother, ExactDataPassThrough) {
   const auto y = sampled(300, 0.0, 1);
   const auto smooth = smooth_coordinate(y, {}, kRate);

@@ -31,7 +31,7 @@ class SlowErrorsTest : public ::testing::Test {
       : model_(model::Model::compile(testing_body::description()).value()),
         markers_(testing_body::record(model_, kSeen)),
         trust_(at(model_.marker_count()), {.information = 1e6}),
-        variance_(VectorXd::Constant(model_.speed_count(), 1e-10)) {
+        precision_(1e10 * MatrixXd::Identity(model_.speed_count(), model_.speed_count())) {
     for (std::int64_t f = 60; f < 85; ++f) markers_.set_missing(f, 3);
     bounds_.fixed.assign(at(model_.speed_count()), 0);
     bounds_.lower.setConstant(model_.speed_count(), -1e300);
@@ -53,7 +53,7 @@ class SlowErrorsTest : public ::testing::Test {
     states.resize(model_.state_count(), kSeen);
     for (std::int64_t f = 0; f < kSeen; ++f)
       states.col(f) = model::state_from_coordinates(model_, testing_body::coordinates(model_, f));
-    WholeTrajectory trajectory(model_, observations, kSeen, variance_, bounds_);
+    WholeTrajectory trajectory(model_, observations, kSeen, precision_, bounds_);
     EXPECT_TRUE(trajectory.solve(states, 30, {}).converged);
     data::JointMotion motion;
     motion.time = markers.time;
@@ -64,7 +64,7 @@ class SlowErrorsTest : public ::testing::Test {
 
   [[nodiscard]] SlowErrors slow_errors() const {
     const MarkerObservations observations(markers_, columns(), 0, trust_);
-    return {model_, observations, noise_, bounds_.fixed, base_, states_, variance_, 1};
+    return {model_, observations, noise_, bounds_.fixed, base_, states_, precision_, 1};
   }
 
   /// Sum over the axes of the squared change of every coordinate when these markers lie elsewhere.
@@ -96,7 +96,7 @@ class SlowErrorsTest : public ::testing::Test {
   model::Model model_;
   data::Trajectories markers_;
   std::vector<MarkerTrust> trust_;
-  VectorXd variance_;
+  MatrixXd precision_;
   SpeedBounds bounds_;
   NoiseSplit noise_;
   MatrixXd states_;

@@ -23,6 +23,7 @@
 #include "kinemark/stages/motion/smoother/internal/run.h"
 #include "kinemark/stages/motion/smoother/internal/slow_errors.h"
 #include "kinemark/stages/motion/smoother/internal/start.h"
+#include "kinemark/stages/motion/smoother/internal/step_modes.h"
 #include "kinemark/stages/motion/smoother/internal/whole_trajectory.h"
 
 namespace kinemark::motion {
@@ -64,13 +65,13 @@ void fill_marker_errors(const Problem& problem, const data::Trajectories& marker
 
 /// q_sd, determined, the covariances and the frames' status.
 void fill_bars(const Problem& problem, const Observations& observations, const internal::NoiseSplit& noise,
-               const MatrixXd& states, const VectorXd& step_variance, int threads,
+               const MatrixXd& states, const internal::StepModes& steps, int threads,
                internal::WholeTrajectory& trajectory, SmootherResult& result) {
   const auto& model = problem.model;
   auto& motion = result.motion;
   const std::int64_t F = motion.frames(), n = motion.size();
   const internal::SlowErrors slow(model, observations, noise, problem.fixed_speed, motion, states,
-                                  step_variance, threads);
+                                  steps.precision, threads);
   motion.q_sd.assign(at(F * n), kNaN);
   motion.determined.assign(at(F * n), 0);
   result.errors.covariance.assign(at(6 * F * n), kNaN);
@@ -85,10 +86,11 @@ void fill_bars(const Problem& problem, const Observations& observations, const i
     for (Eigen::Index i = 0; i < E.cols(); ++i)
       if (problem.fixed_speed[at(i)]) E.col(i).setZero();
     internal::coordinate_covariances(joint, index, motion.time.rate_hz, E, covariance);
+    const VectorXd unsure = steps.variance(E, f);
     bool all = true;
     for (int c = 0; c < n; ++c) {
       const auto i = motion.index(f, c);
-      const double sd = std::sqrt(std::max(0.0, covariance(0, c)) + slow.variance(f, c));
+      const double sd = std::sqrt(std::max(0.0, covariance(0, c)) + unsure[c] + slow.variance(f, c));
       const bool good = sd <= kLargestStateSd;
       motion.determined[i] = good;
       if (good) motion.q_sd[i] = sd;
@@ -164,10 +166,12 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
   const Problem& problem = prepared.problem;
   MatrixXd states = bridged_states(problem.model, prepared.start.motion);
   for (std::int64_t f = 0; f < problem.frames; ++f) problem.prescribe(f, states.col(f));
-  const VectorXd variance = step_variances(problem.model, prepared.start.motion, states, noise.raised);
+  const auto steps = internal::step_modes(
+      problem.model, observations, problem.fixed_speed, states,
+      single_paths(problem.model, prepared.start.motion, states, noise.raised), noise.beyond_white);
   SmootherResult result = begin_result(prepared.start, problem.model);
   result.start_seconds = prepared.seconds;
-  WholeTrajectory trajectory(problem.model, observations, problem.frames, variance,
+  WholeTrajectory trajectory(problem.model, observations, problem.frames, steps.precision,
                              {.fixed = problem.fixed_speed, .lower = problem.lower, .upper = problem.upper});
   const auto outcome = trajectory.solve(states, options.max_iterations, progress);
   if (outcome.stopped) return fail(Code::cancelled, "the smoother was stopped");
@@ -182,7 +186,7 @@ Result<SmootherResult> run(Prepared& prepared, const data::Trajectories& markers
     result.motion.status.push_back(unsettled ? data::FrameStatus::not_converged
                                              : data::FrameStatus::converged);
   if (options.error_bars)
-    fill_bars(problem, observations, noise, states, variance, options.ik.threads, trajectory, result);
+    fill_bars(problem, observations, noise, states, steps, options.ik.threads, trajectory, result);
   fill_marker_errors(problem, markers, states, result);
   result.solve_seconds = seconds_since(solving);
   return result;

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemark/core/random.h"
+#include "kinemark/model/kinematics.h"
+#include "kinemark/model/state.h"
 #include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion {
@@ -70,6 +73,57 @@ TEST(Smoother, HalvesTheErrorOfLeastSquaresAndItsBarsCover) {
   EXPECT_LT(covers.one, 0.82);
   EXPECT_GT(covers.two, 0.91);
   EXPECT_TRUE(smooth.motion.validate());
+}
+
+/// Angles like those of walks, whose spectrum rises no further below 2.5 Hz; shoulder and elbow move against
+/// each other. Coordinates x frames.
+Eigen::MatrixXd walk_like(const model::Model& model, std::uint64_t seed) {
+  constexpr int kBefore = 200;
+  const double kept = std::exp(-2.0 * M_PI * 2.5 / 100.0);
+  Random random(seed, 5);
+  Eigen::MatrixXd q(model.coordinate_count(), kFrames);
+  for (int c = 0; c < 12; ++c) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(kBefore + kFrames);
+    for (Eigen::Index k = 3; k < x.size(); ++k)
+      x[k] = 3.0 * kept * x[k - 1] - 3.0 * kept * kept * x[k - 2] + kept * kept * kept * x[k - 3] +
+             random.gaussian();
+    x = x.tail(kFrames).eval();
+    q.row(c) = testing_body::coordinates(model, 0)[c] +
+               0.05 * (x.array() - x.mean()).transpose() / std::sqrt(x.squaredNorm() / kFrames);
+  }
+  q.row(9) -= 0.7 * (q.row(8).array() - q.row(8).mean()).matrix();
+  q.row(12) = 0.6 * q.row(11).array() + 0.05;
+  return q;
+}
+
+TEST(Smoother, BarsHoldAMovementWithACornerFrequency) {
+  const auto model = body();
+  constexpr int kDraws = 6;
+  double one = 0.0, two = 0.0, count = 0.0;
+  for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
+    const auto q = walk_like(model, seed);
+    auto markers = testing_body::record(model, kFrames);
+    model::Workspace w(model);
+    Random random(seed, 6);
+    for (std::int64_t f = 0; f < kFrames; ++f) {
+      model::kinematics(model, w, model::state_from_coordinates(model, q.col(f)));
+      for (std::int64_t m = 0; m < markers.markers(); ++m) {
+        const Eigen::Vector3d noise{random.gaussian(), random.gaussian(), random.gaussian()};
+        markers.x(f, m) = w.marker.col(m) + 0.004 * noise;
+      }
+    }
+    const auto smooth = smooth_motion(model, markers).value();
+    for (std::int64_t f = 0; f < kFrames; ++f)
+      for (int c = 0; c < 12; ++c) {
+        const auto i = smooth.motion.index(f, c);
+        const double z = std::abs(smooth.motion.q[i] - q(c, f)) / smooth.motion.q_sd[i];
+        one += z < 1.0, two += z < 1.96, count += 1.0;
+      }
+  }
+  EXPECT_GT(one, 0.62 * count);
+  EXPECT_LT(one, 0.76 * count);
+  EXPECT_GT(two, 0.92 * count);
+  EXPECT_LT(two, 0.98 * count);
 }
 
 TEST(Smoother, RatesAreThoseOfTheMotion) {

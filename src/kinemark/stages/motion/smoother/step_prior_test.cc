@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -22,17 +23,21 @@ using Eigen::VectorXd;
 struct Path {
   model::Model model = model::Model::compile(testing_body::description()).value();
   std::array<VectorXd, 4> x;
-  VectorXd variance;
+  MatrixXd precision;
 
   Path() {
     for (int a = 0; a < 4; ++a)  // 8 Hz: steps of several degrees
       x[static_cast<std::size_t>(a)] =
           model::state_from_coordinates(model, testing_body::coordinates(model, 5 + a, 8.0));
-    variance.resize(model.speed_count());
-    for (int i = 0; i < variance.size(); ++i) variance[i] = 1e-4 * (1 + i);
+    // Steps of speeds beside each other belong together.
+    const int n = model.speed_count();
+    MatrixXd covariance = MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i) covariance(i, i) = 1e-4 * (1 + i);
+    for (int i = 0; i + 1 < n; ++i) covariance(i, i + 1) = covariance(i + 1, i) = 4e-5 * (1 + i);
+    precision = covariance.inverse();
   }
   [[nodiscard]] double cost() const {
-    StepPrior prior(model, variance);
+    StepPrior prior(model, precision);
     return prior.visit(x[0], x[1], x[2], x[3]);
   }
   [[nodiscard]] double cost_after(int a, int i, double h) const {
@@ -46,7 +51,7 @@ struct Path {
 
 TEST(StepPrior, GradientIsTheSlopeOfTheCost) {
   const Path path;
-  StepPrior prior(path.model, path.variance);
+  StepPrior prior(path.model, path.precision);
   EXPECT_GT(prior.visit(path.x[0], path.x[1], path.x[2], path.x[3]), 0.1);
   for (int a = 0; a < 4; ++a) {
     VectorXd g = VectorXd::Zero(path.model.speed_count());
@@ -62,7 +67,7 @@ TEST(StepPrior, GradientIsTheSlopeOfTheCost) {
 TEST(StepPrior, MatrixIsGaussNewton) {
   const Path path;
   const int n = path.model.speed_count();
-  StepPrior prior(path.model, path.variance);
+  StepPrior prior(path.model, path.precision);
   Window window(n);
   // At a path of constant speed the cost is exactly quadratic to second order: compare with its curvature.
   Path still;
@@ -105,10 +110,28 @@ TEST(StepPrior, InverseJacobianTurnsWithTheLogarithm) {
   }
 }
 
-TEST(StepPrior, NeedsPositiveVariances) {
+TEST(StepPrior, StepsThatBelongTogetherCostLessTogether) {
   const Path path;
-  EXPECT_THROW(StepPrior(path.model, VectorXd::Zero(path.model.speed_count())), ContractError);
-  EXPECT_THROW(StepPrior(path.model, VectorXd::Ones(2)), ContractError);
+  Path plain = path;
+  plain.precision = path.precision.inverse().diagonal().cwiseInverse().asDiagonal();
+  const int shoulder = 6;  // the speed behind those of the root, and the next
+  const auto cost = [](const Path& of, double first, double second) {
+    Path moved = of;
+    for (auto& x : moved.x) x = of.x[0];
+    VectorXd way = VectorXd::Zero(of.model.speed_count());
+    way[shoulder] = first, way[shoulder + 1] = second;
+    model::integrate(moved.model, moved.x[3], way);
+    return moved.cost();
+  };
+  EXPECT_LT(cost(path, 0.1, 0.1), 0.9 * cost(plain, 0.1, 0.1));
+  EXPECT_GT(cost(path, 0.1, -0.1), 1.1 * cost(plain, 0.1, -0.1));
+}
+
+TEST(StepPrior, NeedsAPositivePrecision) {
+  const Path path;
+  EXPECT_THROW(StepPrior(path.model, MatrixXd::Zero(path.model.speed_count(), path.model.speed_count())),
+               ContractError);
+  EXPECT_THROW(StepPrior(path.model, MatrixXd::Identity(2, 2)), ContractError);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ data::Trajectories record(std::uint64_t seed) {
 std::vector<MarkerTrust> trust() {
   return std::vector<MarkerTrust>(3, MarkerTrust{.information = 1.0 / (kNoise_m * kNoise_m)});
 }
-VectorXd step_variance() { return VectorXd::Constant(1, kStepSd_m * kStepSd_m); }
+MatrixXd step_precision() { return MatrixXd::Constant(1, 1, 1.0 / (kStepSd_m * kStepSd_m)); }
 
 /// The same by dense least squares: normal matrix and gradient, frame by frame.
 struct Dense {
@@ -98,7 +98,7 @@ Solved solve(const model::Model& model, const data::Trajectories& markers, const
              double low = -kInfinity, double high = kInfinity) {
   const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   WholeTrajectory trajectory(
-      model, observations, kFrames, step_variance(),
+      model, observations, kFrames, step_precision(),
       {.fixed = {0}, .lower = VectorXd::Constant(1, low), .upper = VectorXd::Constant(1, high)});
   const int row = model.coordinates()[0].state_idx;
   MatrixXd states = MatrixXd::Zero(model.state_count(), kFrames);
@@ -196,7 +196,7 @@ TEST(WholeTrajectory, AFixedSpeedNeverMoves) {
   const auto markers = record(4);
   const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   WholeTrajectory trajectory(
-      model, observations, kFrames, step_variance(),
+      model, observations, kFrames, step_precision(),
       {.fixed = {1}, .lower = VectorXd::Constant(1, -kInfinity), .upper = VectorXd::Constant(1, kInfinity)});
   MatrixXd states = MatrixXd::Constant(model.state_count(), kFrames, 0.125);
   const MatrixXd before = states;
@@ -208,7 +208,7 @@ TEST(WholeTrajectory, ThreeFramesAreNoTrajectory) {
   const auto model = rail();
   const auto markers = record(1);
   const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
-  EXPECT_THROW(WholeTrajectory(model, observations, 3, step_variance(), {}), ContractError);
+  EXPECT_THROW(WholeTrajectory(model, observations, 3, step_precision(), {}), ContractError);
 }
 
 }  // namespace

@@ -134,6 +134,7 @@ NoiseSplit split_noise(const Problem& problem, const IkResult& start, double giv
   const VectorXd total = own + common;
   const double usual_total = usual_of(total), usual_white = usual_of(split.white);
   const double usual_weight = usual_of(problem.weight);
+  split.beyond_white = std::max(1.0, usual_total / usual_white);
   for (Index m = 0; m < M; ++m) {
     MarkerTrust trust;
     trust.information = problem.weight[m] / usual_weight * std::sqrt(usual_total / total[m]) / usual_white;

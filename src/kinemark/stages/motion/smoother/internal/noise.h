@@ -18,6 +18,7 @@ struct NoiseSplit {
   Eigen::VectorXd white, slow;     ///< M, parts of the marker's own variance
   Eigen::VectorXd common_slow;     ///< per body, part that its markers share
   std::vector<MarkerTrust> trust;  ///< M, for the smoother: white noise, pooled between markers
+  double beyond_white = 1.0;       ///< the usual whole variance over the white part that the smoother takes
   double raised = 1.0;  ///< how often the usual noise is that estimated; above 1 where that is below 10 um
 };
 

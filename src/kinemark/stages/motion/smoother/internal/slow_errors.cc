@@ -48,7 +48,7 @@ class Stretch {
  public:
   Stretch(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
           const Slides& slides, const std::vector<std::uint8_t>& fixed, const MatrixXd& states,
-          const VectorXd& node_variance, std::int64_t frames_per_node)
+          const MatrixXd& node_precision, std::int64_t frames_per_node)
       : model_(model),
         observations_(observations),
         noise_(noise),
@@ -57,7 +57,7 @@ class Stretch {
         states_(states),
         per_node_(frames_per_node),
         rows_(model),
-        prior_(model, node_variance),
+        prior_(model, node_precision),
         window_(model.speed_count()) {}
 
   /// Nodes [first, end) of all, of whose answers E x, squared and summed, the variances of [keep_first,
@@ -175,7 +175,7 @@ class Stretch {
 
 SlowErrors::SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
                        const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
-                       const MatrixXd& states, const VectorXd& step_variance, int threads) {
+                       const MatrixXd& states, const MatrixXd& step_precision, int threads) {
   const std::int64_t F = motion.frames();
   frames_per_node_ = std::max<std::int64_t>(1, std::llround(kNode_s * motion.time.rate_hz));
   const Index nodes = (F + frames_per_node_ - 1) / frames_per_node_;
@@ -183,10 +183,10 @@ SlowErrors::SlowErrors(const model::Model& model, const Observations& observatio
   const Slides slides = slides_of(noise);
   if (slides.columns() == 0) return;
   // The same density of the jerk, seen in wider steps.
-  const VectorXd node_variance = step_variance * std::pow(static_cast<double>(frames_per_node_), 5);
+  const MatrixXd node_precision = step_precision / std::pow(static_cast<double>(frames_per_node_), 5);
   const Index stretches = (nodes + kStretch - 1) / kStretch;
   parallel_for(stretches, 1, threads, [&](std::int64_t begin, std::int64_t end) {
-    Stretch stretch(model, observations, noise, slides, fixed, states, node_variance, frames_per_node_);
+    Stretch stretch(model, observations, noise, slides, fixed, states, node_precision, frames_per_node_);
     for (std::int64_t s = begin; s < end; ++s) {
       const Index first = s * kStretch, last = std::min(nodes, first + kStretch);
       stretch.solve(std::max<Index>(0, first - kBeside), std::min(nodes, last + kBeside), first, last, motion,

@@ -20,10 +20,10 @@ namespace kinemark::motion::internal {
 class SlowErrors {
  public:
   /// At the solved states. Fixed speeds have no error. Frames are taken together in nodes of 0.05 s.
-  /// @param step_variance  of the smoother, per speed, of a third difference between frames
+  /// @param step_precision  of the smoother, inverse of the covariance of a third difference between frames
   SlowErrors(const model::Model& model, const Observations& observations, const NoiseSplit& noise,
              const std::vector<std::uint8_t>& fixed, const data::JointMotion& motion,
-             const Eigen::MatrixXd& states, const Eigen::VectorXd& step_variance, int threads);
+             const Eigen::MatrixXd& states, const Eigen::MatrixXd& step_precision, int threads);
 
   /// Variance of coordinate c in frame f.
   [[nodiscard]] double variance(std::int64_t f, int c) const;

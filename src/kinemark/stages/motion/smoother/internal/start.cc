@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -21,6 +22,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kSmallestStep = 1e-10;  // rad or m
+constexpr double kPoor = 2.0;            // SD over the usual one, above which a path is bridged
+constexpr double kSmallestDoubt = 1e-12, kUnknown = 1.0;  // rad^2 or m^2
 constexpr double kAnyNoise = std::numeric_limits<double>::infinity();
 // Default third difference at 100 Hz, from a typical jerk of human motion, 100 rad/s^3.
 constexpr double kUsualStep = 1e-4, kUsualRate_hz = 100.0;
@@ -115,10 +118,13 @@ MatrixXd bridged_states(const model::Model& model, const data::JointMotion& moti
   return states;
 }
 
-VectorXd step_variances(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states,
-                        double raised) {
+SinglePaths single_paths(const model::Model& model, const data::JointMotion& motion, const MatrixXd& states,
+                         double raised) {
   const std::int64_t F = motion.frames();
-  VectorXd variance = VectorXd::Constant(model.speed_count(), kNaN);
+  SinglePaths paths{.step_variance = VectorXd::Constant(model.speed_count(), kNaN),
+                    .value = MatrixXd::Zero(model.speed_count(), F),
+                    .doubt = MatrixXd::Zero(model.speed_count(), F)};
+  VectorXd& variance = paths.step_variance;
   std::vector<std::uint8_t> is_rotation(at(model.speed_count()), 0);
   std::vector<double> y(at(F)), sd(at(F));
   const auto estimate = [&](int speed) {
@@ -126,6 +132,15 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     const auto smooth =
         smooth_coordinate(y, sd, motion.time.rate_hz, motion.q_sd.empty() ? kAnyNoise : raised);
     if (smooth.known) variance[speed] = std::pow(std::max(smooth.step_sd, kSmallestStep), 2);
+    std::vector<double> known;
+    std::ranges::copy_if(sd, std::back_inserter(known), [](double s) { return s >= 0.0; });
+    const double most = kPoor * usual_of(known, 0.0);
+    for (std::int64_t f = 0; f < F; ++f) {
+      const bool bridged = !(sd[at(f)] <= most);
+      paths.value(speed, f) = bridged ? smooth.value[f] : y[at(f)];
+      if (bridged)
+        paths.doubt(speed, f) = smooth.known ? std::max(smooth.covariance(0, f), kSmallestDoubt) : kUnknown;
+    }
   };
   for (int c = 0; c < model.coordinate_count(); ++c) {
     const auto& coordinate = model.coordinates()[at(c)];
@@ -172,7 +187,7 @@ VectorXd step_variances(const model::Model& model, const data::JointMotion& moti
     for (Index i = 0; i < variance.size(); ++i)
       if (std::isnan(variance[i]) && (is_rotation[at(i)] != 0) == rotation) variance[i] = usual;
   }
-  return variance;
+  return paths;
 }
 
 }  // namespace kinemark::motion::internal

@@ -15,6 +15,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -32,10 +33,11 @@ Matrix3d inverse_right_jacobian(const Vector3d& d) {
   return Matrix3d::Identity() + 0.5 * cross + second * (cross * cross);
 }
 
-StepPrior::StepPrior(const model::Model& model, VectorXd variance)
-    : model_(model), variance_(std::move(variance)), plain_(at(model.speed_count()), 1) {
-  check(variance_.size() == model.speed_count() && (variance_.array() > 0.0).all(),
-        "need one positive step variance for every speed");
+StepPrior::StepPrior(const model::Model& model, MatrixXd precision)
+    : model_(model), precision_(std::move(precision)), plain_(at(model.speed_count()), 1) {
+  check(precision_.rows() == model.speed_count() && precision_.cols() == model.speed_count() &&
+            (precision_.diagonal().array() > 0.0).all(),
+        "need a positive step precision for every speed");
   for (const auto& free : model.free_joints())
     for (int i = 3; i < 6; ++i) plain_[at(free.speed_idx + i)] = 0;
   for (auto& d : d_) d.setZero(model.speed_count());
@@ -57,34 +59,37 @@ double StepPrior::visit(const VectorXd& x0, const VectorXd& x1, const VectorXd& 
     rotation_[j][2] = -2.0 * R[1] - R[2].transpose();
     rotation_[j][3] = R[2];
   }
-  return 0.5 * (e_.array().square() / variance_.array()).sum();
+  weighed_.noalias() = precision_ * e_;
+  return 0.5 * e_.dot(weighed_);
 }
 
 void StepPrior::add_gradient(int a, Eigen::Ref<VectorXd> g) const {
   for (Index i = 0; i < e_.size(); ++i)
-    if (plain_[at(i)]) g[i] += kSlope[at(a)] * e_[i] / variance_[i];
+    if (plain_[at(i)]) g[i] += kSlope[at(a)] * weighed_[i];
   for (std::size_t j = 0; j < rotation_.size(); ++j) {
     const int speed = model_.free_joints()[j].speed_idx + 3;
-    const Vector3d weighed = e_.segment<3>(speed).cwiseQuotient(variance_.segment<3>(speed));
-    g.segment<3>(speed) += rotation_[j][at(a)].transpose() * weighed;
+    g.segment<3>(speed) += rotation_[j][at(a)].transpose() * weighed_.segment<3>(speed);
   }
 }
 
-void StepPrior::add_to(Window& window) const {
+void StepPrior::add_to(Window& window) {
   const Index n = e_.size();
   auto& M = window.matrix();
-  for (Index a = 0; a < 4; ++a)
-    for (Index b = 0; b <= a; ++b) {
-      const double product = kSlope[at(a)] * kSlope[at(b)];
-      for (Index i = 0; i < n; ++i)
-        if (plain_[at(i)]) M(a * n + i, b * n + i) += product / variance_[i];
+  for (Index b = 0; b < 4; ++b) {
+    sloped_ = kSlope[at(b)] * precision_;
+    for (std::size_t j = 0; j < rotation_.size(); ++j) {
+      const int speed = model_.free_joints()[j].speed_idx + 3;
+      sloped_.middleCols<3>(speed) = precision_.middleCols<3>(speed) * rotation_[j][at(b)];
+    }
+    for (Index a = b; a < 4; ++a) {
+      M.block(a * n, b * n, n, n) += kSlope[at(a)] * sloped_;
       for (std::size_t j = 0; j < rotation_.size(); ++j) {
         const int speed = model_.free_joints()[j].speed_idx + 3;
-        const Vector3d weight = variance_.segment<3>(speed).cwiseInverse();
-        M.block<3, 3>(a * n + speed, b * n + speed) +=
-            rotation_[j][at(a)].transpose() * weight.asDiagonal() * rotation_[j][at(b)];
+        const Matrix3d beyond = rotation_[j][at(a)].transpose() - kSlope[at(a)] * Matrix3d::Identity();
+        M.block(a * n + speed, b * n, 3, n) += beyond * sloped_.middleRows<3>(speed);
       }
     }
+  }
 }
 
 }  // namespace kinemark::motion::internal

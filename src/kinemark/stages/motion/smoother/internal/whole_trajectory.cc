@@ -31,14 +31,14 @@ constexpr double kPriorOfStep = 20.0;  // 1 + 9 + 9 + 1: how the prior holds one
 }  // namespace
 
 WholeTrajectory::WholeTrajectory(const model::Model& model, const Observations& observations,
-                                 std::int64_t frames, const VectorXd& variance, SpeedBounds bounds)
+                                 std::int64_t frames, const MatrixXd& step_precision, SpeedBounds bounds)
     : model_(model),
       observations_(observations),
       frames_(frames),
       segment_(frames <= kOneSegment ? frames : kSegment),
       bounds_(std::move(bounds)),
       rows_(model),
-      prior_(model, variance),
+      prior_(model, step_precision),
       window_(model.speed_count()),
       floor_(1.0 / (kFloorSd * kFloorSd * static_cast<double>(frames))) {
   check(frames >= 4, "a trajectory needs four frames or more");
@@ -118,7 +118,7 @@ void WholeTrajectory::add_springs(const MatrixXd& states, std::int64_t k) {
   for (const auto& c : model_.coordinates()) {
     const int i = c.speed_idx;
     if (i < 0 || side_[at(k * n + i)] == 0) continue;
-    const double spring = kSpring * (H_(i, i) + kPriorOfStep / prior_.variance()[i]);
+    const double spring = kSpring * (H_(i, i) + kPriorOfStep * prior_.precision()(i, i));
     const double limit = side_[at(k * n + i)] > 0 ? bounds_.upper[i] : bounds_.lower[i];
     H_(i, i) += spring;
     g_[i] += spring * (limit - states(c.state_idx, k));

@@ -25,9 +25,9 @@ struct SpeedBounds {
 
 class WholeTrajectory {
  public:
-  /// @param variance  per speed, of a third difference.
+  /// @param step_precision  inverse of the covariance of a third difference, speeds x speeds.
   WholeTrajectory(const model::Model& model, const Observations& observations, std::int64_t frames,
-                  const Eigen::VectorXd& variance, SpeedBounds bounds);
+                  const Eigen::MatrixXd& step_precision, SpeedBounds bounds);
 
   struct Outcome {
     bool converged = false, stopped = false;
