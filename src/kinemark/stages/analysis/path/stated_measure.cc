@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kRestCounts =
     0.05;                         // share of a stretch at rest from which a path's length is an upper bound
+constexpr double kApart = 1.5;    // deviations, from which two estimates are not one with noise
 constexpr double kTooWide = 0.5;  // half-width over value
 constexpr double kMostlyDoubt = 2.0;  // spread among refits with most noise over that with least
 constexpr double kBand_hz = 12.0;     // up to which tremor is looked for
@@ -101,7 +102,7 @@ std::string no_interval(const PathDefinition& definition, const StretchSummary& 
 // The interval of the smoothed path, widened to hold what a fit with sharp starts and stops gives where the
 // two are further apart than noise brings them.
 bool hold_both(const SharpValue& sharp, double value, Pivoted& ends) {
-  if (std::isfinite(sharp.value) && !(std::abs(sharp.value - value) > ends.sd)) return false;
+  if (std::isfinite(sharp.value) && !(std::abs(sharp.value - value) > kApart * ends.sd)) return false;
   const double low = std::fmin(ends.low, sharp.low), high = std::fmax(ends.high, sharp.high);
   const bool wider = low < ends.low || high > ends.high;
   ends.low = low, ends.high = high;
