@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRestCounts =
     0.05;                         // share of a stretch at rest from which a path's length is an upper bound
-constexpr double kApart = 1.5;    // deviations, from which two estimates are not one with noise
+constexpr double kApart = 2.0;    // deviations, from which two estimates are not one with noise
 constexpr double kTooWide = 0.5;  // half-width over value
 constexpr double kMostlyDoubt = 2.0;  // spread among refits with most noise over that with least
 constexpr double kBand_hz = 12.0;     // up to which tremor is looked for
