@@ -39,6 +39,14 @@ enum class Weakness : std::uint8_t {
   approximate_if_discrete   ///< likewise for discrete movements alone
 };
 
+/// What a velocity that jumps, as at an impact, leaves of a measure.
+enum class AtJumps : std::uint8_t {
+  holds,      ///< all of it
+  at_least,   ///< there is more than is seen
+  unbounded,  ///< nothing: jerk
+  of_speed,   ///< nothing where the speed is largest at a jump
+};
+
 /// One measure of a path.
 struct PathDefinition {
   data::MeasureDefinition what;                       ///< its line in `--list`
@@ -51,6 +59,7 @@ struct PathDefinition {
   double (*thinned)(const ThinnedExtremes& extremes) = nullptr;
   /// Square of the deviation that repetitions add which differ, as noise makes them as well; null: none.
   double (*wander)(const PathFacts& facts) = nullptr;
+  AtJumps at_jumps = AtJumps::holds;  ///< what is left of it where the velocity jumps
 };
 
 /// All of them, in the order in which they are shown.

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
 #include "kinemark/stages/analysis/path/definitions.h"
+#include "kinemark/stages/analysis/path/internal/movement_ends.h"
 #include "kinemark/stages/analysis/path/internal/refit_values.h"
 #include "kinemark/stages/analysis/path/noise_sentences.h"
 #include "kinemark/stages/analysis/path/stated_measure.h"
@@ -29,6 +31,8 @@ constexpr double kMemoryCycles = 6.0;       // of the cut-off, beyond which a sm
 constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
 constexpr std::int64_t kLeastDraws = 99;    // of the noise's models
 constexpr double kSlow_s = 1.0, kQuick_s = 0.25;  // whose means are trends, slow and quick
+constexpr double kSlow_hz = 2.0;                  // of the noise that moves ends of movements
+constexpr double kNearJump_s = 0.1;               // within which a smoother rounds off a jump
 constexpr std::int64_t kManySamples = 1 << 15;    // of a stretch, from which one copy thins an extreme
 
 std::int64_t edge_samples(double rate_hz) {
@@ -146,15 +150,17 @@ std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajec
     }
   out.first_s_ = markers.time.time_s(first);
   out.first_number_ = markers.time.number(first);
-  const auto outliers = single_frame_outliers(recording.x, recording.seen);
   const auto whole = recording.seen;
+  out.jumps_ = internal::find_velocity_jumps(recording.x, whole, recording.rate_hz);
+  const SeriesMatrix level = internal::without_jumps(recording.x, out.jumps_);
+  const auto outliers = single_frame_outliers(level, whole);
   auto regular = whole;
   for (std::size_t i = 0; i < outliers.size(); ++i)
     if (outliers[i]) regular[i] = false;
   if (!options.keep_outliers) recording.seen = regular;
 
   const bool says_filter = !raw && !markers.filters.empty();
-  auto noise = find_path_noise(recording.x, without_spikes(recording.x, whole), recording.rate_hz,
+  auto noise = find_path_noise(level, without_spikes(level, whole), recording.rate_hz,
                                {.stated_sd_m = options.noise_sd_m,
                                 .filter = says_filter ? &markers.filters[at(marker)] : nullptr,
                                 .draws = std::max<std::int64_t>(kLeastDraws, options.refits),
@@ -375,6 +381,50 @@ StretchSummary MeasuredPath::summary_of(const Stretch& stretch, const PathFrame&
   return out;
 }
 
+internal::MovementEnds MeasuredPath::ends_of(const Stretch& stretch, const PathSamples& path) const {
+  const double rate = recording_.rate_hz, first_s = static_cast<double>(stretch.first) / rate;
+  const auto speed = speed_of(path);
+  const auto window = movement_window(path, speed);
+  internal::MovementEnds out;
+  if (noise_.unusable() || !(window.end_s > window.onset_s)) return out;
+  const auto fit = [&](bool begins) {
+    return internal::fit_sharp_end(
+        recording_.x, recording_.seen, rate,
+        {.begins = begins,
+         .near_s = first_s + (begins ? window.onset_s : window.end_s),
+         .movement_s = window.end_s - window.onset_s,
+         .level = kMovingShare * speed_peak(path, speed).speed,
+         .noise_variance = noise_.model.power(kSlow_hz / rate),
+         .deviations = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * options_.level)});
+  };
+  out.onset = fit(true), out.end = fit(false);
+  out.first_s = first_s_;
+  out.smooth_onset_s = first_s + window.onset_s, out.smooth_end_s = first_s + window.end_s;
+  return out;
+}
+
+// When the velocity jumps in a stretch, in its samples or by the fits of its ends.
+void MeasuredPath::put_jumps(const Stretch& stretch, const PathSamples& path,
+                             const internal::MovementEnds& ends, StretchSummary& summary) const {
+  const double first_s = static_cast<double>(stretch.first) / recording_.rate_hz;
+  const double last_s = first_s + static_cast<double>(stretch.count) / recording_.rate_hz;
+  std::vector<double> jumps;
+  for (const auto& jump : jumps_)
+    if (const double at_s = jump.at / recording_.rate_hz; at_s >= first_s && at_s < last_s)
+      jumps.push_back(at_s);
+  const auto near = [&](double at_s) {
+    return std::ranges::any_of(jumps, [&](double jump) { return std::abs(jump - at_s) < kNearJump_s; });
+  };
+  for (const auto& end : {ends.onset, ends.end})
+    if (end && end->velocity_jumps && !near(end->time_s)) jumps.push_back(end->time_s);
+  if (jumps.empty()) return;
+  summary.peak_at_jump = near(first_s + speed_peak(path, speed_of(path)).time_s);
+  const double earliest = first_s_ + std::ranges::min(jumps);
+  summary.velocity_jumps = jumps.size() == 1
+                               ? fmt::format("at {:.3f} s", earliest)
+                               : fmt::format("{} times, first at {:.3f} s", jumps.size(), earliest);
+}
+
 std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(const data::Region& region,
                                                                              PathCurves* curves) const {
   const Stretch stretch = stretch_of(region);
@@ -416,7 +466,9 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
     curves->region = region.name;
   }
 
+  const auto ends = intervals && frame.discrete ? ends_of(stretch, less) : internal::MovementEnds{};
   auto summary = summary_of(stretch, frame, intervals);
+  put_jumps(stretch, less, ends, summary);
   summary.region = region.name;
   std::vector<data::Measure> out;
   for (std::size_t i = 0; i < refits.definitions.size(); ++i) {
@@ -433,7 +485,8 @@ std::expected<std::vector<data::Measure>, std::string> MeasuredPath::measure(con
                                   .deviations = deviations,
                                   .deviations_of_interval = refits.by_least[i],
                                   .thinned = thinned,
-                                  .doubt = refits.doubt(least ? refits.by_least[i] : deviations)});
+                                  .doubt = refits.doubt(least ? refits.by_least[i] : deviations),
+                                  .sharp = ends.value_of(definition.what.id, refits.less[i])});
     if (thinned && std::isfinite(measure.uncorrected)) measure.uncorrected = refits.less[i];
     out.push_back(std::move(measure));
   }

@@ -11,6 +11,7 @@
 
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/analysis/path/internal/velocity_jumps.h"
 #include "kinemark/stages/analysis/path/path_facts.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/stages/analysis/path/path_noise.h"
@@ -21,8 +22,9 @@
 namespace kinemark::analysis {
 
 namespace internal {
+struct MovementEnds;
 struct RefitValues;
-}
+}  // namespace internal
 
 /// Why a marker is not measured.
 enum class NotMeasuredWhy : std::uint8_t {
@@ -83,6 +85,9 @@ class MeasuredPath {
   [[nodiscard]] Neighbourhood around(const Stretch& stretch) const;
   void refit(const Stretch& stretch, const Neighbourhood& near, const SeriesMatrix& pilot,
              const PathFrame& frame, internal::RefitValues& refits, CurveSpread* spread) const;
+  [[nodiscard]] internal::MovementEnds ends_of(const Stretch& stretch, const PathSamples& path) const;
+  void put_jumps(const Stretch& stretch, const PathSamples& path, const internal::MovementEnds& ends,
+                 StretchSummary& summary) const;
   // Times the noise by which the stretch moves about its slow trend at most; 0: by more.
   [[nodiscard]] double below_noise(const Stretch& stretch) const;
   [[nodiscard]] double excess_about_mean(const Stretch& stretch, double seconds) const;
@@ -96,6 +101,7 @@ class MeasuredPath {
   std::int64_t first_number_ = 0;  // of its frame, in the file
   PathMeasureOptions options_;
   Recording recording_;
+  std::vector<internal::VelocityJump> jumps_;  // in the recording
   SeriesMatrix less_, least_;  // smoothed by kLessSmooth, kLeastSmooth; the latter for intervals alone
 };
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinemark/stages/analysis/path/testing/known_noise.h"
@@ -164,6 +165,48 @@ TEST(MeasuredPathTest, OutliersAreLeftOutUnlessTheyAreKept) {
   EXPECT_GT(with->measures.front().value, without->measures.front().value);
   EXPECT_NEAR(with->noises.front().sd_m(), clean.noises.front().sd_m(), 4e-5)
       << "the noise is that of the others";
+}
+
+/// 0.06 m up and down once in 0.6 s: at the bottom the velocity turns round.
+Eigen::Vector3d tapping(double t) { return {0.06 * std::abs(std::sin(M_PI * (t - 0.4) / 0.6)), 0.0, 1.0}; }
+
+TEST(MeasuredJumps, TappingIsNoCorrelatedNoiseAndHasNoLargestAcceleration) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto markers = testing::recording_of(testing::sampled(1600, 200.0, tapping), 200.0, 3e-4, seed);
+    const auto found = measure_paths(markers, {.measures = {"peak_acceleration", "peak_speed"}});
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->noises.front().correlated()) << seed;
+    EXPECT_NEAR(found->noises.front().sd_m(), 3e-4, 3e-5);
+    EXPECT_EQ(found->measures[0].interval.kind, data::IntervalKind::none) << seed;
+    EXPECT_EQ(found->measures[1].interval.kind, data::IntervalKind::at_least) << seed;
+    EXPECT_THAT(found->measures[1].remark, HasSubstr("the velocity jumps (13 times, first at 0.4"));
+  }
+}
+
+TEST(MeasuredJumps, ASharpStopLiesInTheIntervalsAndASmoothOneIsNotAccused) {
+  const auto stop = [](double t) {
+    const double u = std::clamp((t - 1.0) / 0.65, 0.0, 1.0);
+    return Eigen::Vector3d(0.35 * u * u * u * (4.0 - 3.0 * u), 0.0, 1.0);
+  };
+  const double ends_s = 1.0 + 0.65 * 0.99248, largest = 12.0 * 0.35 / 0.65 / 0.65;
+  int end_held = 0, acceleration_held = 0, accused = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PathMeasureOptions options{.measures = {"peak_acceleration", "movement_end"}};
+    const auto sharp =
+        measure_paths(testing::recording_of(testing::sampled(300, 100.0, stop), 100.0, 5e-4, seed), options);
+    ASSERT_TRUE(sharp);
+    const auto& acceleration = sharp->measures[0].interval;
+    const auto& end = sharp->measures[1].interval;
+    acceleration_held += acceleration.low <= largest && largest <= acceleration.high;
+    end_held += end.low <= ends_s && ends_s <= end.high;
+    const auto smooth = measure_paths(
+        testing::recording_of(testing::sampled(300, 100.0, testing::reach), 100.0, 5e-4, seed), options);
+    ASSERT_TRUE(smooth);
+    for (const auto& one : smooth->measures) accused += one.remark.find("jumps") != std::string::npos;
+  }
+  EXPECT_GE(end_held, 17);
+  EXPECT_GE(acceleration_held, 17);
+  EXPECT_EQ(accused, 0);
 }
 
 }  // namespace

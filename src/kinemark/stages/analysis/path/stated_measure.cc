@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kRestCounts =
     0.05;                         // share of a stretch at rest from which a path's length is an upper bound
+constexpr double kApart = 2.0;    // deviations, from which two estimates are not one with noise
 constexpr double kTooWide = 0.5;  // half-width over value
 constexpr double kMostlyDoubt = 2.0;  // spread among refits with most noise over that with least
 constexpr double kBand_hz = 12.0;     // up to which tremor is looked for
@@ -84,11 +85,28 @@ std::string no_interval(const PathDefinition& definition, const StretchSummary& 
         1e3 * stretch.slow_low_m, 1e3 * stretch.slow_high_m);
   if (stretch.correlated && frame.discrete && fails_under_correlation(definition))
     return "no interval: the noise is correlated, and an upper end would not hold between two rests";
+  if (!stretch.velocity_jumps.empty() && definition.at_jumps == AtJumps::unbounded)
+    return fmt::format("no interval: the velocity jumps ({}), and jerk has no bound there",
+                       stretch.velocity_jumps);
+  if (stretch.peak_at_jump && definition.at_jumps == AtJumps::of_speed)
+    return fmt::format(
+        "no interval: the velocity jumps ({}) where it is largest, and smoothing adds to it there",
+        stretch.velocity_jumps);
   if (stretch.filtered_within && is_peak(definition))
     return "no interval: the spectrum falls within the movement's band as behind a low-pass, how much that "
            "took away is "
            "not in the data";
   return {};
+}
+
+// The interval of the smoothed path, widened to hold what a fit with sharp starts and stops gives where the
+// two are further apart than noise brings them.
+bool hold_both(const SharpValue& sharp, double value, Pivoted& ends) {
+  if (std::isfinite(sharp.value) && !(std::abs(sharp.value - value) > kApart * ends.sd)) return false;
+  const double low = std::fmin(ends.low, sharp.low), high = std::fmax(ends.high, sharp.high);
+  const bool wider = low < ends.low || high > ends.high;
+  ends.low = low, ends.high = high;
+  return wider;
 }
 
 void put_interval(data::Measure& measure, const PathDefinition& definition, const Pivoted& pivoted,
@@ -113,6 +131,13 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
     only_at_most(measure, "noise can only lengthen it");
   else if (definition.weakness == Weakness::upper_alone_if_discrete && frame.discrete)
     only_at_most(measure, "a start has jerk that no filter passes");
+  if (!stretch.velocity_jumps.empty() && definition.at_jumps == AtJumps::at_least) {
+    interval.kind = data::IntervalKind::at_least;
+    interval.low = std::isnan(interval.low) ? 0.0 : interval.low;
+    interval.high = kNaN;
+    remark(measure,
+           fmt::format("the velocity jumps ({}), quicker than samples can tell", stretch.velocity_jumps));
+  }
   if (definition.pivot == Pivot::raw_squared && stretch.filtered_hz < kBand_hz) {
     interval.kind = data::IntervalKind::at_least;
     interval.low = std::isnan(interval.low) ? 0.0 : interval.low;
@@ -178,7 +203,11 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
     remark(out, "depends on how strongly the path is smoothed: value and interval of the weaker smoothing");
   }
   if (!std::isfinite(ends.low)) return out;
+  const bool sharp = hold_both(numbers.sharp, out.value, ends);
   put_interval(out, definition, ends, frame, stretch);
+  if (sharp && out.interval.kind == data::IntervalKind::two_sided)
+    remark(out,
+           "smoothing rounds off sharp starts and stops: the interval holds what a fit with them gives, too");
   if (numbers.doubt > kMostlyDoubt) remark(out, "most of the interval's width is doubt about the noise");
   return out;
 }

@@ -32,10 +32,19 @@ struct StretchSummary {
   bool correlated = false;       ///< the noise, from sample to sample
   bool filtered_within = false;  ///< low-passed within the movement's band
   double filtered_hz = kNaN;     ///< -3 dB of the filter that it went through; NaN: none
+  std::string velocity_jumps;    ///< when, where the velocity jumps; empty: it does not
+  bool peak_at_jump = false;     ///< within 0.1 s of such a jump the speed is largest
   double cut_off_hz = kNaN;      ///< of least expected error
   int order = 0;                 ///< of the smoother
   double level = 0.95;           ///< of the intervals
   std::int64_t refits = 0;       ///< behind them; 0: no intervals
+};
+
+/// What a fit makes of a measure that lets the movement start and stop sharply, which a smoother rounds off.
+struct SharpValue {
+  double value = kNaN;  ///< NaN: only what it can be at most is known
+  double low = kNaN;    ///< of its interval; NaN: there is none
+  double high = kNaN;   ///< of its interval; NaN: there is none
 };
 
 /// Numbers of one measure. Deviations as Pivot says, of squares where it says so.
@@ -47,6 +56,7 @@ struct MeasureNumbers {
   bool thinned = false;                            ///< estimate and deviations are of thinned_extremes()
   /// Spread of the deviations among the third of refits with most noise over that with least.
   double doubt = 1.0;
+  SharpValue sharp;  ///< of a discrete movement, where there is one
 };
 
 /// Longest gap across which intervals were tried; there is none beyond it, s.

@@ -220,6 +220,62 @@ TEST_F(StatedMeasure, NoIntervalWhereRefitsDoNotDetermineIt) {
   EXPECT_EQ(of().value, 1.0);
 }
 
+TEST_F(StatedMeasure, WhereTheVelocityJumpsPeaksAreBoundsAndJerkHasNone) {
+  for (const auto* id : {"peak_acceleration", "rms_jerk", "ldlj", "ldlj_speed", "peak_speed"}) {
+    const auto smooth = tell(id, 8.0, 0.1, 0.2);
+    EXPECT_EQ(smooth.interval.kind, data::IntervalKind::two_sided) << id;
+    EXPECT_FALSE(says(smooth, "the velocity jumps")) << id;
+    EXPECT_FALSE(says(smooth, "quicker than samples can tell")) << id;
+    EXPECT_FALSE(says(smooth, "and jerk has no bound there")) << id;
+    EXPECT_FALSE(says(smooth, "where it is largest, and smoothing adds to it there")) << id;
+  }
+  stretch_.velocity_jumps = "at 1.250 s";
+  const auto peak = tell("peak_acceleration", 8.0, 0.1, 0.2);
+  EXPECT_EQ(peak.interval.kind, data::IntervalKind::at_least);
+  EXPECT_NEAR(peak.interval.low, 7.7, 0.02);
+  EXPECT_TRUE(says(peak, "the velocity jumps (at 1.250 s), quicker than samples can tell"));
+  for (const auto* id : {"rms_jerk", "ldlj", "ldlj_speed"}) {
+    const auto jerk = tell(id, 8.0, 0.1, 0.2);
+    EXPECT_EQ(jerk.interval.kind, data::IntervalKind::none) << id;
+    EXPECT_TRUE(says(jerk, "no interval: the velocity jumps (at 1.250 s), and jerk has no bound there"))
+        << id;
+  }
+  EXPECT_EQ(tell("peak_speed", 8.0, 0.1, 0.2).interval.kind, data::IntervalKind::two_sided);
+  stretch_.peak_at_jump = true;
+  const auto speed = tell("peak_speed", 8.0, 0.1, 0.2);
+  EXPECT_EQ(speed.interval.kind, data::IntervalKind::none);
+  EXPECT_TRUE(says(
+      speed,
+      "no interval: the velocity jumps (at 1.250 s) where it is largest, and smoothing adds to it there"));
+  EXPECT_EQ(tell("path_length", 8.0, 0.1, 0.2).interval.kind, data::IntervalKind::two_sided);
+}
+
+TEST_F(StatedMeasure, HoldsWhatAFitWithSharpEndsGivesWhereTheyDisagree) {
+  const auto with = [this](std::string_view id, const SharpValue& sharp) {
+    const auto deviations = around(0.0, 0.01);
+    return state_measure(definition(id), stretch_, frame_,
+                         {.estimate = 1.7, .deviations = deviations, .sharp = sharp});
+  };
+  constexpr auto kSaid = "smoothing rounds off sharp starts and stops";
+  const auto alone = with("movement_end", {});
+  EXPECT_FALSE(says(alone, kSaid));
+  EXPECT_NEAR(alone.interval.low, 1.69, 1e-3);
+  const auto agrees = with("movement_end", {.value = 1.698, .low = 1.68, .high = 1.71});
+  EXPECT_EQ(agrees.interval.low, alone.interval.low);
+  EXPECT_FALSE(says(agrees, "smoothing rounds off sharp starts and stops: the interval holds what a fit"));
+  const auto apart = with("movement_end", {.value = 1.688, .low = 1.684, .high = 1.692});
+  EXPECT_EQ(apart.value, alone.value);
+  EXPECT_EQ(apart.interval.low, 1.684);
+  EXPECT_EQ(apart.interval.high, alone.interval.high);
+  EXPECT_TRUE(says(
+      apart,
+      "smoothing rounds off sharp starts and stops: the interval holds what a fit with them gives, too"));
+  const auto acceleration = with("peak_acceleration", {.high = 2.5});
+  EXPECT_EQ(acceleration.interval.high, 2.5);
+  EXPECT_TRUE(says(acceleration, kSaid));
+  EXPECT_FALSE(says(with("peak_acceleration", {.high = 1.5}), kSaid));
+}
+
 TEST(PathDefinitions, HaveOneIdEachAndSayWhatTheyAre) {
   std::vector<std::string_view> ids;
   for (const auto& d : path_definitions()) {
