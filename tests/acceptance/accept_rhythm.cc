@@ -143,7 +143,7 @@ Counts judge(const analysis::PathSamples& path, const analysis::PathRhythm& foun
                                    .j = path.j.middleRows(first, count)};
   const analysis::SeriesMatrix x = span.x;
   std::array<std::vector<double>, 3> truth;
-  for (const auto& movement : analysis::movements_of(span)) {
+  for (const auto& movement : analysis::movements_of(span, analysis::speed_of(span))) {
     if (std::isfinite(movement.onset_s)) truth[0].push_back(found.start_s + movement.onset_s);
     if (std::isfinite(movement.end_s)) truth[1].push_back(found.start_s + movement.end_s);
   }
