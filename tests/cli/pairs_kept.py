@@ -91,6 +91,9 @@ class Bench:
         self._make("edit", "body/markers.c3d", "--region", "all", "--from", 1, "--to", 2)
         self._make("edit", "arm/markers.c3d", "--edits", "other.jsonl", "--region", "all", "--from", 1, "--to", 2)
         self._make("ik", "-m", "body/model.osim", "-t", "body/markers.c3d", "-o", "q.mot")
+        for name in ("imu.sto", "imu_pose.sto"):
+            rows = "".join(f"{i / 100}\t1,0,0,0\n" for i in range(40))
+            (place / name).write_text(f"DataType=Quaternion\nversion=3\nendheader\ntime\tpelvis_imu\n{rows}")
         write_trc(place / "walk.trc", walk(3.0), names=NAMES)
         write_trc(place / "reach.trc", [[wheel(i)] for i in range(400)])
         write_trc(place / "again.trc", walk(3.0), names=NAMES)
@@ -207,6 +210,8 @@ class Bench:
             "scale by a setup": ["scale", "--setup", "in/scale.xml", "-o", "out/x.osim"],
             "ik": ["ik", *body, "-o", "out/x.mot", "--report", "out/x.html", "--tasks", "in/tasks.xml", "--forces", "in/loads.xml", "--locations"],
             "ik by a setup": ["ik", "--setup", "in/ik.xml", "-o", "out/x.mot", "--force"],
+            "ik of sensors": ["ik", "-m", "in/body/model.osim", "--orientations", "in/imu.sto", "--calibration", "in/imu_pose.sto", "--heading", "pelvis_imu:x",
+                              "-o", "out/x.mot"],
             "ik of several": ["ik", "-m", "in/body/model.osim", "-t", "in/body/markers.c3d", "-t", "in/body/truth.trc", "-o", "out", "--report", "out/pages"],
             "track": ["track", *body, "-o", "out/x.mot", "--report", "out/x.html", "--forces", "in/loads.xml"],
             "track images": ["track", *body, "-o", "out/x.mot", "--rig", "in/rig.toml", "--images", "left=in/left.csv"],

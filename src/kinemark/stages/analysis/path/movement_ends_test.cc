@@ -87,7 +87,7 @@ TEST(SharpEnds, OfASmoothReachNeitherJumpNorMove) {
   EXPECT_GE(held, 34);
 }
 
-TEST(SharpEnds, AreNotToldWhereThePointDoesNotRestOrWasNotSeen) {
+TEST(SharpEnds, AreNotFoundWhereThePointDoesNotRestOrWasNotSeen) {
   EXPECT_TRUE(end_of(way(stopping, 3), question(false, 1.65)));
   EXPECT_FALSE(end_of(way(stopping, 3, 0.1), question(false, 1.65)));
   std::vector<bool> seen(300, true);

@@ -85,7 +85,7 @@ Series series_of(const SeriesMatrix& x, const std::vector<bool>& seen, std::int6
 }
 
 // Places whose surroundings are whole.
-std::vector<std::int64_t> places_of(const Series& series, std::int64_t reach) {
+std::vector<std::int64_t> instants_of(const Series& series, std::int64_t reach) {
   std::vector<std::int64_t> out;
   std::int64_t run = 0;
   for (std::int64_t i = 0; i < series.x.rows(); ++i) {
@@ -100,28 +100,28 @@ class Search {
   explicit Search(const Series& series, std::int64_t reach) : series_(series), about_(reach) {}
 
   std::vector<VelocityJump> found() {
-    const auto places = places_of(series_, about_.reach());
-    if (std::ssize(places) < 4 * about_.reach()) return {};
-    measure(places);
+    const auto instants = instants_of(series_, about_.reach());
+    if (std::ssize(instants) < 4 * about_.reach()) return {};
+    measure(instants);
     // Where quiet samples hold more than what differs from one to the next, a jump could be that as well.
     if (residual_ > kMostOfWhite * white_variance()) return {};
     std::vector<std::int64_t> standing;
-    for (std::size_t p = 0; p < places.size(); ++p)
-      if (stands_out(places, p)) standing.push_back(places[p]);
+    for (std::size_t p = 0; p < instants.size(); ++p)
+      if (stands_out(instants, p)) standing.push_back(instants[p]);
     // Where one velocity jumps, others may: of those it is enough that nothing else is likelier.
     if (jumps_at(standing, kLikelier).empty()) return {};
     return jumps_at(standing, 0.0);
   }
 
  private:
-  // Squares of the ramp's size at each place, and what quiet places have of it and of residuals.
-  void measure(const std::vector<std::int64_t>& places) {
+  // Squares of the ramp's size at each place, and what quiet instants have of it and of residuals.
+  void measure(const std::vector<std::int64_t>& instants) {
     const Eigen::VectorXd ramp = about_.begins(0.0, 1).normalized();
     std::vector<double> residuals;
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      squares_.push_back((ramp.transpose() * around(places[p])).squaredNorm());
+    for (std::size_t p = 0; p < instants.size(); ++p) {
+      squares_.push_back((ramp.transpose() * around(instants[p])).squaredNorm());
       if (static_cast<std::int64_t>(p) % (about_.reach() / 2) == 0)
-        residuals.push_back(about_.without_polynomial(around(places[p])).squaredNorm());
+        residuals.push_back(about_.without_polynomial(around(instants[p])).squaredNorm());
     }
     noise_ = math::quantile(squares_, kQuiet) / kQuietSquare;
     residual_ = math::quantile(residuals, kQuiet) / (about_.samples() - kDegree - 1.0);
@@ -147,20 +147,20 @@ class Search {
     return series_.x.middleRows(first, 2 * about_.reach() + 1).rowwise() - series_.x.row(place);
   }
 
-  [[nodiscard]] bool stands_out(const std::vector<std::int64_t>& places, std::size_t p) const {
+  [[nodiscard]] bool stands_out(const std::vector<std::int64_t>& instants, std::size_t p) const {
     if (!(squares_[p] > 2.0 * kSurely * noise_)) return false;
-    for (std::size_t k = p; k-- > 0 && places[p] - places[k] <= about_.reach();)
+    for (std::size_t k = p; k-- > 0 && instants[p] - instants[k] <= about_.reach();)
       if (squares_[k] > squares_[p]) return false;
-    for (std::size_t k = p + 1; k < places.size() && places[k] - places[p] <= about_.reach(); ++k)
+    for (std::size_t k = p + 1; k < instants.size() && instants[k] - instants[p] <= about_.reach(); ++k)
       if (squares_[k] >= squares_[p]) return false;
     return true;
   }
 
   // @param likelier  nats by which a jump must be likelier than others
-  [[nodiscard]] std::vector<VelocityJump> jumps_at(const std::vector<std::int64_t>& places,
+  [[nodiscard]] std::vector<VelocityJump> jumps_at(const std::vector<std::int64_t>& instants,
                                                    double likelier) const {
     std::vector<VelocityJump> out;
-    for (const auto place : places)
+    for (const auto place : instants)
       if (const auto jump = jump_near(place, likelier); jump.at >= 0.0) out.push_back(jump);
     return out;
   }

@@ -167,7 +167,7 @@ TEST(OrientationIk, AFacingAxisGivesTheHeading) {
               HasSubstr("upright"));
 }
 
-TEST(OrientationIk, SensorsThatAModelPlacesNeedNoPose) {
+TEST(OrientationIk, SensorsOfAModelNeedNoPose) {
   const auto s = session(25.0 * kDegree, 1.0 * kDegree, 9, 40);
   const auto by_pose = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
   auto options = kUpright;
@@ -199,7 +199,7 @@ TEST(OrientationIk, AHeadingThatTheMotionLeavesOpenIsNotGuessed) {
   EXPECT_THAT(found.error().message, HasSubstr("heading of the sensors is not determined by the motion"));
 }
 
-TEST(OrientationIk, HingesThatBendBothWaysLeaveHalfATurnOpen) {
+TEST(OrientationIk, HingesOfBothDirectionsLeaveHalfATurnOpen) {
   const auto s = session(0.5, 1.0 * kDegree, 4, 60);
   auto options = kUpright;
   options.limits = false;

@@ -20,7 +20,8 @@ constexpr double kSlow_s = 0.1;     // of the strength that noise is freed of
 constexpr double kGate_s = 0.2;     // half a period of the gate that shows what the filter spreads
 constexpr std::int64_t kReach = 4;  // bins
 constexpr double kQuiet_s = 0.5, kBurst_s = 0.7;  // beside an edge that are looked at
-constexpr double kTold_s = 0.25;  // of a quiet part: a strength that changes twice a second has shorter ones
+constexpr double kJudged_s =
+    0.25;  // of a quiet part: a strength that changes twice a second has shorter ones
 constexpr double kApart_s = 0.025;  // of rest from bursts
 constexpr double kLeast = 1e-12;    // of the mean power: a channel may hold zeros
 
@@ -125,7 +126,7 @@ Activity find_activity(const VectorXd& band, double rate_hz, const ActivityOptio
   const auto quiet = find_quiet(power, levels, freedom, still,
                                 {.rest = options.rest_s / bin_s,
                                  .burst = options.burst_s / bin_s,
-                                 .told = std::min(kTold_s, options.rest_s) / bin_s});
+                                 .judged = std::min(kJudged_s, options.rest_s) / bin_s});
   out.found = quiet.found;
   if (quiet.found != Quiet::Found::bursts) return out;
   std::vector<double> of_bin;

@@ -152,16 +152,16 @@ Quiet find_quiet(const std::vector<double>& power, const std::vector<PowerLevel>
     });
   }
   const auto active = std::ranges::count(out.active, 1);
-  double told = 0.0;
+  double judged = 0.0;
   std::vector<PowerLevel> parts;  // that are quiet
   each_run(out.active, 0, [&](std::int64_t first, std::int64_t end) {
     parts.push_back({.first = first, .end = end});
-    if (const auto length = static_cast<double>(end - first); length >= bins.told) told += length;
+    if (const auto length = static_cast<double>(end - first); length >= bins.judged) judged += length;
   });
   if (active == 0 || levels.size() == 1)
     out.found = freedom_within(power, parts) < kModulated * freedom_still ? Quiet::Found::no_rest
                                                                           : Quiet::Found::steady;
-  else if (active == n || at_it < bins.rest || told < bins.rest || above > at_it ||
+  else if (active == n || at_it < bins.rest || judged < bins.rest || above > at_it ||
            is_valley(power, out.active, freedom))
     out.found = Quiet::Found::no_rest;
   else

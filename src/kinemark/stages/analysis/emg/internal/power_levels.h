@@ -32,15 +32,15 @@ struct Quiet {
 
 /// Lengths that count, in bins.
 struct QuietBins {
-  double rest = 0.0;   ///< the least rest of a channel
-  double burst = 0.0;  ///< the shortest burst and interruption
-  double told = 0.0;   ///< the shortest quiet part that tells rest from a valley between two bursts
+  double rest = 0.0;    ///< the least rest of a channel
+  double burst = 0.0;   ///< the shortest burst and interruption
+  double judged = 0.0;  ///< the shortest quiet part that tells rest from a valley between two bursts
 };
 
 /// Rest is the lowest level that is kept for `bins.rest` in all; active is what has twice its power, for
 /// `bins.burst` together. Rest is none where the channel spends more time just above it than at it, as a
 /// modulated strength does, where its quiet parts are valleys rather than even, or where they are too short
-/// to show which: `bins.rest` have to lie in parts of `bins.told` and more.
+/// to show which: `bins.rest` have to lie in parts of `bins.judged` and more.
 /// @param freedom        of a bin within levels
 /// @param freedom_still  that of noise of the channel's spectrum and even strength: where nothing is active
 /// and bins scatter by twice as much, the strength is modulated

@@ -32,7 +32,7 @@ std::vector<double> bins_of(const F& power, std::uint64_t seed) {
 Quiet quiet_of(const std::vector<double>& power) {
   double freedom = kSquares;
   const auto levels = power_levels(power, freedom);
-  return find_quiet(power, levels, freedom, kSquares, {.rest = 100.0, .burst = 10.0, .told = 50.0});
+  return find_quiet(power, levels, freedom, kSquares, {.rest = 100.0, .burst = 10.0, .judged = 50.0});
 }
 
 TEST(PowerLevels, AStepIsFoundWhereItIs) {
