@@ -52,7 +52,7 @@ std::string number_text(double value) { return fmt::format("{:.4g}", value); }
 std::string value_text(const data::Measure& measure, double per_si) {
   if (!std::isfinite(measure.value)) return "not determined";
   const auto& interval = measure.interval;
-  const std::string value = number_text(per_si * measure.value);
+  std::string value = number_text(per_si * measure.value);
   if (interval.kind == data::IntervalKind::two_sided)
     return fmt::format("{} [{} to {}]", value, number_text(per_si * interval.low),
                        number_text(per_si * interval.high));

@@ -149,8 +149,8 @@ class Search {
 
   [[nodiscard]] bool stands_out(const std::vector<std::int64_t>& instants, std::size_t p) const {
     if (!(squares_[p] > 2.0 * kSurely * noise_)) return false;
-    for (std::size_t k = p; k-- > 0 && instants[p] - instants[k] <= about_.reach();)
-      if (squares_[k] > squares_[p]) return false;
+    for (std::size_t k = p; k > 0 && instants[p] - instants[k - 1] <= about_.reach(); --k)
+      if (squares_[k - 1] > squares_[p]) return false;
     for (std::size_t k = p + 1; k < instants.size() && instants[k] - instants[p] <= about_.reach(); ++k)
       if (squares_[k] >= squares_[p]) return false;
     return true;
