@@ -14,6 +14,7 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/core/random.h"
+#include "kinemark/stages/motion/smoother/internal/step_modes.h"
 #include "kinemark/stages/motion/smoother/observations.h"
 
 namespace kinemark::motion::internal {
@@ -209,6 +210,27 @@ TEST(WholeTrajectory, ThreeFramesAreNoTrajectory) {
   const auto markers = record(1);
   const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
   EXPECT_THROW(WholeTrajectory(model, observations, 3, step_precision(), {}), ContractError);
+}
+
+TEST(StepModes, KeepWhatIsGivenWhereNextToNothingIsWhiteNoise) {
+  const auto model = rail();
+  const auto markers = record(3);
+  const MarkerObservations observations(markers, {0, 1, 2}, 0, trust());
+  const double given = 1e-3;  // far more than the movement has
+  SinglePaths paths{.step_variance = VectorXd::Constant(1, given),
+                    .value = MatrixXd::Zero(1, kFrames),
+                    .doubt = MatrixXd::Zero(1, kFrames)};
+  for (int f = 0; f < kFrames; ++f) {
+    const bool seen = f < 20 || f >= 30;
+    paths.value(0, f) = seen ? markers.x(f, 0).x() : truth(f);
+    if (!seen) paths.doubt(0, f) = kNoise_m * kNoise_m;
+  }
+  const auto white = step_modes(model, observations, {0}, paths.value, paths, 1.0);
+  EXPECT_GT(white.precision(0, 0), 5.0 / given) << "the nearest curve is smoother than what was given";
+  EXPECT_GT(white.spread.maxCoeff(), 0.0);
+  const auto slow = step_modes(model, observations, {0}, paths.value, paths, 101.0);
+  EXPECT_DOUBLE_EQ(slow.precision(0, 0), 1.0 / given);
+  EXPECT_TRUE(slow.spread.isZero(0.0));
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLeastInformation = 1e-13;  // of a frame, over that of the prior about one step
-constexpr Index kAlike = 4;                  // frames, with the same markers seen, in which noise is the same
+constexpr double kMostBeyond = 100.0;  // white noise is less than a tenth of what markers do otherwise (SD)
+constexpr Index kAlike = 4;            // frames, with the same markers seen, in which noise is the same
 
 std::vector<std::uint8_t> seen_markers(const MarkerInformation& information) {
   std::vector<std::uint8_t> out(at(information.weight.size()));
@@ -42,7 +43,9 @@ StepModes step_modes(const model::Model& model, const Observations& observations
   const Index F = states.cols();
   out.basis.setZero(paths.step_variance.size(), n);
   out.spread.setZero(n, F);
-  if (n == 0) return out;
+  // The nearest curve is known by white noise. Where nearly all is slow, as of skin, joints would get that as
+  // their common motion.
+  if (n == 0 || beyond_white > kMostBeyond) return out;
   const MatrixXd own = out.precision(free, free);
 
   FrameRows rows(model);

@@ -31,7 +31,7 @@ struct StepModes {
 /// the segments beyond stay where they are, get the covariance that they have.
 /// @param paths  of the speeds by themselves; fixed ones and those of which no marker tells keep their
 /// variance
-/// @param beyond_white  of NoiseSplit
+/// @param beyond_white  of NoiseSplit; above 100 all variances stay as given
 [[nodiscard]] StepModes step_modes(const model::Model& model, const Observations& observations,
                                    const std::vector<std::uint8_t>& fixed, const Eigen::MatrixXd& states,
                                    const SinglePaths& paths, double beyond_white);
