@@ -104,6 +104,9 @@ void judge(const OrientationJob& job, OrientationOutcome& outcome) {
   if (!fit.left_out.empty())
     outcome.warnings.push_back(fmt::format("no body carries these sensors, which are not used: {}",
                                            join_some(fit.left_out, kNamed)));
+  if (!fit.never_seen.empty())
+    outcome.warnings.push_back(fmt::format("no frame that is solved has an orientation of these sensors: {}",
+                                           join_some(fit.never_seen, kNamed)));
   if (job.options.error_bars && std::isnan(fit.noise_sd_rad))
     outcome.warnings.emplace_back(
         "the sensors measure no more than is solved for, so that their noise does not show and the angles "

@@ -92,6 +92,7 @@ TEST_F(RunOrientations, WritesAnglesThatTheSensorsTookPartIn) {
     EXPECT_THAT(warning, Not(HasSubstr("no body carries these sensors, which are not used")));
     EXPECT_THAT(warning,
                 Not(HasSubstr("so that their noise does not show and the angles have no error bars")));
+    EXPECT_THAT(warning, Not(HasSubstr("no frame that is solved has an orientation of these sensors")));
     EXPECT_THAT(warning, Not(HasSubstr("RMS angle between sensors and model")));
     EXPECT_THAT(
         warning,
@@ -117,6 +118,26 @@ TEST_F(RunOrientations, SensorsThatNoBodyCarriesAreNamed) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_THAT(outcome->warnings,
               Contains(HasSubstr("no body carries these sensors, which are not used: wristwatch")));
+}
+
+TEST_F(RunOrientations, SensorsThatAreNeverSeenAreNamed) {
+  std::string text = "DataType=Quaternion\nversion=3\nendheader\ntime\tpelvis_imu\ttibia_r_imu\n",
+              pose = text;
+  for (int i = 0; i < 40; ++i) {
+    text += fmt::format("{}\t1,0,0,0\tnan,nan,nan,nan\n", 0.01 * i);
+    pose += fmt::format("{}\t1,0,0,0\t1,0,0,0\n", 0.01 * i);
+  }
+  ASSERT_TRUE(io::write_text(at("lost.sto"), text, true));
+  ASSERT_TRUE(io::write_text(at("lost_pose.sto"), pose, true));
+  auto lost = job();
+  lost.orientations = at("lost.sto");
+  lost.pose = at("lost_pose.sto");
+  lost.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitX()};
+  const auto outcome = run_orientations(lost);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(
+      outcome->warnings,
+      Contains(HasSubstr("no frame that is solved has an orientation of these sensors: tibia_r_imu")));
 }
 
 TEST_F(RunOrientations, ASensorAloneHasNoErrorBars) {

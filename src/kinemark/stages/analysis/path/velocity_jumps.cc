@@ -116,10 +116,13 @@ class Search {
  private:
   // Squares of the ramp's size at each place, and what quiet instants have of it and of residuals.
   void measure(const std::vector<std::int64_t>& instants) {
-    const Eigen::VectorXd ramp = about_.begins(0.0, 1).normalized();
+    // The ramp has nothing of a constant, so that nothing need be taken off.
+    const Eigen::RowVectorXd ramp = about_.begins(0.0, 1).normalized().transpose();
     std::vector<double> residuals;
+    squares_.reserve(instants.size());
     for (std::size_t p = 0; p < instants.size(); ++p) {
-      squares_.push_back((ramp.transpose() * around(instants[p])).squaredNorm());
+      const Eigen::RowVector3d size = ramp * series_.x.middleRows(instants[p] - about_.reach(), ramp.size());
+      squares_.push_back(size.squaredNorm());
       if (static_cast<std::int64_t>(p) % (about_.reach() / 2) == 0)
         residuals.push_back(about_.without_polynomial(around(instants[p])).squaredNorm());
     }

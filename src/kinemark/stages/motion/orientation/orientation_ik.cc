@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -41,40 +42,19 @@ Result<std::vector<std::int64_t>> frames_within(const data::Orientations& record
   return frames;
 }
 
-/// Solves the frames under a heading.
-class Turned {
- public:
-  Turned(const model::Model& model, const data::Orientations& recording, const PosedSensors& posed,
-         const std::vector<std::int64_t>& frames, const OrientationOptions& options)
-      : model_(model), recording_(recording), posed_(posed), frames_(frames) {
-    options_.judge_samples = false;
-    options_.limits = options.limits;
-    options_.seed = options.seed;
-    options_.threads = options.threads;
-  }
-
-  /// @param noise_sd_rad  0: without error bars
-  [[nodiscard]] Result<IkResult> solve(double heading_rad, double noise_sd_rad,
-                                       const Progress& progress) const {
-    const auto tips = internal::tips_of(posed_, heading_rad);
-    const auto turning = model::Model::compile(internal::turning_model(model_.description(), tips),
-                                               {.free_roots = !model_.free_joints().empty()});
-    if (!turning) return std::unexpected(turning.error());
-    IkOptions options = options_;
-    options.error_bars = noise_sd_rad > 0.0;
-    options.marker_noise_sd_m = internal::kTipNoise_m * noise_sd_rad;
-    return solve_ik(*turning,
-                    internal::record_tips(recording_, tips, internal::turn_of(posed_, heading_rad), frames_),
-                    options, progress);
-  }
-
- private:
-  const model::Model& model_;
-  const data::Orientations& recording_;
-  const PosedSensors& posed_;
-  const std::vector<std::int64_t>& frames_;
-  IkOptions options_;
-};
+/// Leaves sensors out that none of the frames has.
+Status drop_unseen(const data::Orientations& recording, const std::vector<std::int64_t>& frames,
+                   PosedSensors& posed, std::vector<std::string>& never_seen) {
+  std::erase_if(posed.sensors, [&](const auto& sensor) {
+    const bool seen =
+        std::ranges::any_of(frames, [&](auto f) { return recording.present(f, sensor.column); });
+    if (!seen) never_seen.push_back(recording.names[at(sensor.column)]);
+    return !seen;
+  });
+  if (posed.sensors.empty())
+    return fail(Code::bad_input, "no frame of the time range has an orientation of a sensor on a body");
+  return {};
+}
 
 /// F x S angles between measured and model.
 Array<double> errors_of(const data::JointMotion& motion, std::int64_t sensors) {
@@ -164,8 +144,11 @@ void keep_lengths(const model::Model& model, data::JointMotion& motion) {
 /// What the heading does not know adds to what the sensors do not.
 void add_heading(const data::JointMotion& other, double step_rad, double heading_sd_rad,
                  data::JointMotion& motion) {
+  // Angles may have gone to another turn; lengths do not differ.
   for (std::size_t i = 0; i < motion.q.size(); ++i)
-    motion.q_sd[i] = std::hypot(motion.q_sd[i], (other.q[i] - motion.q[i]) / step_rad * heading_sd_rad);
+    motion.q_sd[i] =
+        std::hypot(motion.q_sd[i], std::remainder(other.q[i] - motion.q[i], 2.0 * std::numbers::pi) /
+                                       step_rad * heading_sd_rad);
 }
 
 }  // namespace
@@ -192,8 +175,11 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   const auto start = std::chrono::steady_clock::now();
   const auto frames = frames_within(recording, options);
   if (!frames) return std::unexpected(frames.error());
-  const auto posed = internal::pose_sensors(model, recording, pose, options);
+  auto posed = internal::pose_sensors(model, recording, pose, options);
   if (!posed) return std::unexpected(posed.error());
+  OrientationResult out;
+  auto& fit = out.fit;
+  if (auto s = drop_unseen(recording, *frames, *posed, fit.never_seen); !s) return std::unexpected(s.error());
   Heading heading;
   if (posed->by_model) {
     // As it is.
@@ -207,12 +193,19 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
     heading = *found;
   }
 
-  const Turned turned(model, recording, *posed, *frames, options);
+  const auto solve = [&](double heading_rad, double noise_sd_rad) {
+    return internal::solve_turned(model.description(), recording, *posed, *frames, heading_rad,
+                                  {.limits = options.limits,
+                                   .marker_noise_sd_m = internal::kTipNoise_m * noise_sd_rad,
+                                   .judge_samples = false,
+                                   .error_bars = noise_sd_rad > 0.0,
+                                   .seed = options.seed,
+                                   .threads = options.threads},
+                                  progress);
+  };
   const double first_noise = options.noise_sd_rad > 0.0 ? options.noise_sd_rad : kNominalNoise;
-  auto solved = turned.solve(heading.rad, options.error_bars ? first_noise : 0.0, progress);
+  auto solved = solve(heading.rad, options.error_bars ? first_noise : 0.0);
   if (!solved) return std::unexpected(solved.error());
-  OrientationResult out;
-  auto& fit = out.fit;
   fit.first_frame = frames->front();
   fit.left_out = posed->left_out;
   fit.pose_drift_rad = posed->drift_rad;
@@ -236,10 +229,10 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
     fit.noise_sd_rad =
         noise_in_residuals(model.description(), solved->motion, out.error_rad, fit.sensors.size());
   if (options.error_bars && fit.noise_sd_rad > 0.0) {
-    solved = turned.solve(heading.rad, fit.noise_sd_rad, progress);
+    solved = solve(heading.rad, fit.noise_sd_rad);
     if (!solved) return std::unexpected(solved.error());
     if (heading.sd_rad > 0.0) {
-      const auto other = turned.solve(heading.rad + kHeadingStep, 0.0, progress);
+      const auto other = solve(heading.rad + kHeadingStep, 0.0);
       if (!other) return std::unexpected(other.error());
       add_heading(other->motion, kHeadingStep, heading.sd_rad, solved->motion);
     }

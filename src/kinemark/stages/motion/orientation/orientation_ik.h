@@ -77,9 +77,10 @@ enum class HeadingSource : std::uint8_t {
 
 /// How orientations and a model fit.
 struct OrientationFit {
-  std::int64_t first_frame = 0;       ///< index in the recording of the motion's frame 0
-  std::vector<FittedSensor> sensors;  ///< those used
-  std::vector<std::string> left_out;  ///< sensors that no body carries
+  std::int64_t first_frame = 0;         ///< index in the recording of the motion's frame 0
+  std::vector<FittedSensor> sensors;    ///< those used
+  std::vector<std::string> left_out;    ///< sensors that no body carries
+  std::vector<std::string> never_seen;  ///< sensors on bodies that no solved frame has
   double pose_drift_rad = 0.0;  ///< largest turn of a sensor within the pose, or the recording's first 0.5 s
   double heading_rad = 0.0;     ///< turn about the model's vertical of the sensors' world
   double heading_sd_rad = 0.0;  ///< one standard deviation; 0 where it is given

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -236,6 +237,24 @@ TEST(OrientationIk, AMissingSensorLeavesItsJointsOpen) {
   EXPECT_EQ(found.motion.status[15], data::FrameStatus::underdetermined);
   EXPECT_TRUE(std::isnan(found.error_rad[15 * 5 + 2]));
   EXPECT_NEAR(found.fit.sensors[2].seen, 0.75, 1e-12);
+}
+
+TEST(OrientationIk, ASensorThatNoSolvedFrameHasIsLeftOut) {
+  auto s = session(0.0, 1.0 * kDegree, 12, 40);
+  for (std::int64_t f = 0; f < 40; ++f)
+    for (std::int64_t k = 0; k < 4; ++k)
+      s.recording.quaternion[static_cast<std::size_t>(4 * (f * 5 + 1) + k)] =
+          std::numeric_limits<double>::quiet_NaN();
+  const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  EXPECT_THAT(found.fit.never_seen, ElementsAre("upper_arm_imu"));
+  ASSERT_EQ(found.fit.sensors.size(), 4U);
+  EXPECT_EQ(found.error_rad.size(), 160U);
+  EXPECT_LT(found.fit.rms_rad, 3.0 * kDegree);
+  EXPECT_FALSE(found.motion.determined[found.motion.index(5, found.motion.find("elbow"))]);
+  EXPECT_TRUE(found.motion.determined[found.motion.index(5, found.motion.find("knee"))]);
+  std::ranges::fill(s.recording.quaternion, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(solve_orientations(s.model, s.recording, &s.pose, kUpright).error().message,
+              HasSubstr("no frame of the time range has an orientation"));
 }
 
 TEST(OrientationIk, MatchesSensorsAndBodies) {

@@ -7,12 +7,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/golden_section.h"
-#include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/orientation/internal/turning_model.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -55,11 +56,7 @@ class HeadingCost {
 
   /// Infinite where nothing can be solved.
   double operator()(double heading_rad) const {
-    const auto tips = tips_of(posed_, heading_rad);
-    const auto turning = model::Model::compile(turning_model(description_, tips), {.free_roots = false});
-    if (!turning) return std::numeric_limits<double>::infinity();
-    const auto markers = record_tips(recording_, tips, turn_of(posed_, heading_rad), frames_);
-    const auto solved = solve_ik(*turning, markers, options_);
+    const auto solved = solve_turned(description_, recording_, posed_, frames_, heading_rad, options_);
     if (!solved) return std::numeric_limits<double>::infinity();
     double squares = 0.0;
     for (const double e : solved->motion.marker_error)
@@ -110,17 +107,19 @@ std::vector<Candidate> valleys(const HeadingCost& cost) {
 
 }  // namespace
 
-std::vector<SensorTips> tips_of(const PosedSensors& posed, double heading_rad) {
-  std::vector<SensorTips> out;
+Result<IkResult> solve_turned(const data::ModelDescription& model, const data::Orientations& recording,
+                              const PosedSensors& posed, const std::vector<std::int64_t>& frames,
+                              double heading_rad, const IkOptions& options, const Progress& progress) {
+  std::vector<SensorTips> tips;
   for (const auto& sensor : posed.sensors)
-    out.push_back({.column = sensor.column,
-                   .body_idx = sensor.body_idx,
-                   .body_from_sensor = body_from_sensor(posed, sensor, heading_rad)});
-  return out;
-}
-
-Eigen::Matrix3d turn_of(const PosedSensors& posed, double heading_rad) {
-  return Eigen::AngleAxisd(heading_rad, posed.up) * posed.model_from_world;
+    tips.push_back({.column = sensor.column,
+                    .body_idx = sensor.body_idx,
+                    .body_from_sensor = body_from_sensor(posed, sensor, heading_rad)});
+  // Without translations no joint is free: the file's Euler angles are the states.
+  const auto turning = model::Model::compile(turning_model(model, tips), {.free_roots = false});
+  if (!turning) return std::unexpected(turning.error());
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(heading_rad, posed.up) * posed.model_from_world;
+  return solve_ik(*turning, record_tips(recording, tips, turn, frames), options, progress);
 }
 
 Result<Heading> estimate_heading(const model::Model& model, const data::Orientations& recording,

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/model_description.h"
 #include "kinemark/data/orientations.h"
 #include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_placement.h"
-#include "kinemark/stages/motion/orientation/internal/turning_model.h"
 #include "kinemark/stages/motion/orientation/orientation_ik.h"
 
 namespace kinemark::motion::internal {
@@ -27,9 +28,11 @@ struct Heading {
                                                const std::vector<std::int64_t>& frames,
                                                const OrientationOptions& options);
 
-/// How the sensors stand on their bodies under a heading.
-[[nodiscard]] std::vector<SensorTips> tips_of(const PosedSensors& posed, double heading_rad);
-/// model_from_world under a heading.
-[[nodiscard]] Eigen::Matrix3d turn_of(const PosedSensors& posed, double heading_rad);
+/// Angles of these frames under a heading, by the model without lengths; markers are the tips of the sensors'
+/// axes, three a sensor, where it is seen at all.
+[[nodiscard]] Result<IkResult> solve_turned(const data::ModelDescription& model,
+                                            const data::Orientations& recording, const PosedSensors& posed,
+                                            const std::vector<std::int64_t>& frames, double heading_rad,
+                                            const IkOptions& options, const Progress& progress = {});
 
 }  // namespace kinemark::motion::internal

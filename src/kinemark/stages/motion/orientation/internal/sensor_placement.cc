@@ -175,13 +175,10 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
       return fail(Code::bad_input,
                   fmt::format("sensor '{}' is missing in the pose that places the sensors", name));
     out.drift_rad = std::max(out.drift_rad, drift_of(source, column, first, still));
-    Eigen::Matrix3d world_from_body = Eigen::Matrix3d::Identity();
-    for (std::size_t b = 0; b < model.bodies().size(); ++b)
-      if (model.bodies()[b].description_idx == body) world_from_body = w.rotation[b];
     out.sensors.push_back({.column = s,
                            .body_idx = body,
                            .world_from_sensor = out.model_from_world * *mean,
-                           .world_from_body = world_from_body});
+                           .world_from_body = w.rotation[at(model.body_of(body))]});
   }
   return out;
 }
