@@ -116,18 +116,34 @@ class Search {
  private:
   // Squares of the ramp's size at each place, and what quiet instants have of it and of residuals.
   void measure(const std::vector<std::int64_t>& instants) {
-    // The ramp has nothing of a constant, so that nothing need be taken off.
-    const Eigen::RowVectorXd ramp = about_.begins(0.0, 1).normalized().transpose();
+    const Eigen::VectorXd all = squares_of_ramp();
     std::vector<double> residuals;
     squares_.reserve(instants.size());
     for (std::size_t p = 0; p < instants.size(); ++p) {
-      const Eigen::RowVector3d size = ramp * series_.x.middleRows(instants[p] - about_.reach(), ramp.size());
-      squares_.push_back(size.squaredNorm());
+      squares_.push_back(all[instants[p] - about_.reach()]);
       if (static_cast<std::int64_t>(p) % (about_.reach() / 2) == 0)
         residuals.push_back(about_.without_polynomial(around(instants[p])).squaredNorm());
     }
     noise_ = math::quantile(squares_, kQuiet) / kQuietSquare;
     residual_ = math::quantile(residuals, kQuiet) / (about_.samples() - kDegree - 1.0);
+  }
+
+  // Squares of the ramp's size at every place, whole or not. The ramp has nothing of a constant, so that
+  // samples are taken as they are; block by block, as the processor reads them fastest.
+  [[nodiscard]] Eigen::VectorXd squares_of_ramp() const {
+    constexpr Eigen::Index kBlock = 512;
+    const Eigen::VectorXd ramp = about_.begins(0.0, 1).normalized();
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(series_.x.rows() - ramp.size() + 1), size;
+    for (Eigen::Index axis = 0; axis < series_.x.cols(); ++axis) {
+      const Eigen::VectorXd x = series_.x.col(axis);
+      for (Eigen::Index first = 0; first < out.size(); first += kBlock) {
+        const Eigen::Index n = std::min(kBlock, out.size() - first);
+        size.setZero(n);
+        for (Eigen::Index k = 0; k < ramp.size(); ++k) size += ramp[k] * x.segment(first + k, n);
+        out.segment(first, n) += size.cwiseAbs2();
+      }
+    }
+    return out;
   }
 
   // Of white noise on three axes, from the distances of samples to the cubic through their neighbours.
