@@ -103,42 +103,6 @@ std::vector<Index> stretches(Index frames) {
   return first;
 }
 
-/// -2 log of the marginal likelihood of a ratio, the noise variance profiled out, but not above `largest`.
-double misfit(const VectorXd& y, const VectorXd& weight, double ratio, double largest) {
-  const auto first = stretches(y.size());
-  const Index length = first.size() == 1 ? y.size() : kBlock;
-  double squares = 0.0, determinants = 0.0, freedom = 0.0;
-  for (const Index f : first) {
-    const VectorXd w = weight.segment(f, length), values = y.segment(f, length);
-    const auto seen = static_cast<double>((w.array() > 0.0).count());
-    if (seen < kFewestSamples) continue;
-    const Band band(w, ratio);
-    VectorXd x = w.cwiseProduct(values);
-    band.solve_in_place(x);
-    squares += squares_of(values, w, x, ratio);
-    determinants += band.log_determinant() + static_cast<double>(length - 3) * std::log(ratio);
-    freedom += seen - 3.0;
-  }
-  const double variance = std::min(largest, squares / std::max(freedom, 1.0)) + 1e-30;
-  return squares / variance + freedom * std::log(variance) + determinants;
-}
-
-double best_ratio(const VectorXd& y, const VectorXd& weight, double largest) {
-  const auto at_log = [&](double log_ratio) { return misfit(y, weight, std::exp(log_ratio), largest); };
-  const double low = std::log(kSmallestRatio), high = std::log(kLargestRatio);
-  constexpr int kGrid = 13;
-  const double spacing = (high - low) / (kGrid - 1);
-  double best = low, best_misfit = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kGrid; ++i) {
-    const double here = at_log(low + i * spacing);
-    if (here < best_misfit) best_misfit = here, best = low + i * spacing;
-  }
-  // Golden section between the neighbours of the best grid point, to 2 % of the ratio.
-  const auto refined = math::golden_section(at_log, std::max(low, best - spacing),
-                                            std::min(high, best + spacing), {.width = 0.05});
-  return std::exp(refined.middle());
-}
-
 /// Curve of a ratio: what C_p and the likelihood are made of.
 struct Fit {
   double squares = 0.0;       ///< misfit to the samples
@@ -151,8 +115,8 @@ struct Fit {
   [[nodiscard]] double noise(double largest) const {
     return std::clamp(all_squares / std::max(freedom, 1.0), 1.0, largest);
   }
-  [[nodiscard]] double misfit(double ratio, double largest) const {
-    const double variance = noise(largest);
+  /// -2 log of the marginal likelihood of a ratio, with noise of this variance.
+  [[nodiscard]] double misfit(double ratio, double variance) const {
     return all_squares / variance + freedom * std::log(variance) + determinants + steps * std::log(ratio);
   }
 };
@@ -175,6 +139,28 @@ Fit fit(const VectorXd& y, const VectorXd& weight, double ratio) {
     if (first.size() == 1) out.curve = std::move(x);
   }
   return out;
+}
+
+/// -2 log of the marginal likelihood of a ratio, the noise variance profiled out, but not above `largest`.
+double misfit(const VectorXd& y, const VectorXd& weight, double ratio, double largest) {
+  const Fit found = fit(y, weight, ratio);
+  return found.misfit(ratio, std::min(largest, found.all_squares / std::max(found.freedom, 1.0)) + 1e-30);
+}
+
+double best_ratio(const VectorXd& y, const VectorXd& weight, double largest) {
+  const auto at_log = [&](double log_ratio) { return misfit(y, weight, std::exp(log_ratio), largest); };
+  const double low = std::log(kSmallestRatio), high = std::log(kLargestRatio);
+  constexpr int kGrid = 13;
+  const double spacing = (high - low) / (kGrid - 1);
+  double best = low, best_misfit = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kGrid; ++i) {
+    const double here = at_log(low + i * spacing);
+    if (here < best_misfit) best_misfit = here, best = low + i * spacing;
+  }
+  // Golden section between the neighbours of the best grid point, to 2 % of the ratio.
+  const auto refined = math::golden_section(at_log, std::max(low, best - spacing),
+                                            std::min(high, best + spacing), {.width = 0.05});
+  return std::exp(refined.middle());
 }
 
 VectorXd weights_of(std::span<const double> sd, Index frames) {
@@ -232,8 +218,9 @@ NearestCurve nearest_curve(const VectorXd& y, const VectorXd& weight, double fir
   double noise = 1.0, least_misfit = std::numeric_limits<double>::infinity();
   const auto ask = [&](int i) {
     fit_at(i) = fit(values, weight, std::exp(ratio_at(i)));
-    const double misfit = fit_at(i).misfit(std::exp(ratio_at(i)), largest);
-    if (misfit < least_misfit) least_misfit = misfit, noise = fit_at(i).noise(largest);
+    const double variance = fit_at(i).noise(largest),
+                 misfit = fit_at(i).misfit(std::exp(ratio_at(i)), variance);
+    if (misfit < least_misfit) least_misfit = misfit, noise = variance;
   };
   // C_p = squares / noise + 2 tr(A^-1 W), the trace from the slope of log det(A), but for the number of
   // frames.
