@@ -50,9 +50,11 @@ workflow::RepairOptions repair_options(const CleanJob& job) {
 }
 
 /// Smooth marker by marker, each into the report and to the output as soon as it is done.
-Status smooth_trial(const CleanJob& job, const data::Trajectories& before, const data::Trial& trial,
+Status smooth_trial(const CleanJob& job, const workflow::Repaired& repaired, const data::Trial& trial,
                     internal::CleanOutput& output, report::CleanReport& report) {
+  const auto& before = repaired.before;
   auto options = job.filter;
+  options.leave = repaired.apart.all();
   options.threads = job.threads;
   options.progress = job.progress;
   return trajectory::smooth_each(trial.markers, options, [&](trajectory::MarkerResult&& result) -> Status {
@@ -125,7 +127,7 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   report.time = trial.markers.time;
   auto output = internal::CleanOutput::create(job, staging->path_of(files.recording), trial, report.run);
   if (!output) return staging->failure(output.error());
-  if (auto s = smooth_trial(job, repaired->before, trial, *output, report); !s)
+  if (auto s = smooth_trial(job, *repaired, trial, *output, report); !s)
     return s.error().code == Code::io ? staging->failure(s.error()) : fail_at(job.input.string(), s.error());
   report.run.clean_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Write.

@@ -82,6 +82,8 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
+  for (const auto m : workflow::find_points_apart(markers).computed)
+    facts.computed.push_back(markers.names[static_cast<std::size_t>(m)]);
   out.facts = std::move(facts);
   if (job.find_exchanges)
     workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);

@@ -43,6 +43,7 @@ struct MarkerFileFacts {
   double analog_rate_hz = 0.0;                   ///< of each channel; 0 without
   std::size_t force_plates = 0, events = 0;      ///< how many there are
   std::vector<std::string> labels;               ///< of the markers
+  std::vector<std::string> computed;             ///< those of them that a model made of others, or middles
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
   std::vector<ChannelFacts> channels;            ///< points that are no markers
   std::string up;        ///< "z, by the force plates": which way is up; empty: nothing says it

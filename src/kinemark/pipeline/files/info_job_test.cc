@@ -63,12 +63,17 @@ TEST(RunInfo, ChannelsAreNoMarkers) {
   EXPECT_EQ(facts["points"], 2);
   EXPECT_EQ(facts["labels"], nlohmann::ordered_json({"LASI", "*12"}));
   EXPECT_EQ(facts["unlabelled"], nlohmann::ordered_json({"*12"}));
+  EXPECT_EQ(facts["computed"], nlohmann::ordered_json::array());
   ASSERT_EQ(facts["channels"].size(), 1U);
   EXPECT_EQ(facts["channels"][0]["name"], "LKneeAngles");
   EXPECT_EQ(facts["channels"][0]["kind"], "angle");
   EXPECT_EQ(facts["channels"][0]["unit"], "deg");
   EXPECT_EQ(facts["channels"][0]["rate_hz"], 100.0);
   EXPECT_EQ(facts["channels"][0]["missing"], 0);
+  auto named = trial;
+  named.markers.names[1] = "LFEO";
+  ASSERT_TRUE(io::write_markers(scratch / "named.c3d", named, false));
+  EXPECT_EQ(facts_of(scratch / "named.c3d").value()["computed"], nlohmann::ordered_json({"LFEO"}));
   auto gap = trial;
   for (std::size_t i = 0; i < 3; ++i) gap.channels.values[i] = std::numeric_limits<double>::quiet_NaN();
   ASSERT_TRUE(io::write_markers(scratch / "gap.c3d", gap, false));

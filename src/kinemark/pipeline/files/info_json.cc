@@ -91,6 +91,7 @@ void add(const MarkerFileFacts& facts, Json& to) {
   to["events"] = facts.events;
   to["software"] = facts.software;
   to["labels"] = facts.labels;
+  to["computed"] = facts.computed;
   to["unlabelled"] = facts.unlabelled;
   to["channels"] = Json::array();
   for (const ChannelFacts& channel : facts.channels)

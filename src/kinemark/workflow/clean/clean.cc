@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/data/filtering.h"
@@ -21,6 +23,7 @@ Status screen(const RepairOptions& options, Repaired& repaired) {
   auto screening = screen_markers(recording.trial, {.recorder_made = options.recorder_made,
                                                     .exchange_back = options.exchange_back,
                                                     .swapped = recording.edits.swapped,
+                                                    .apart = repaired.apart.all(),
                                                     .reject_defects = options.reject_doubtful,
                                                     .sure = kSure});
   if (!screening) return std::unexpected(screening.error());
@@ -31,7 +34,7 @@ Status screen(const RepairOptions& options, Repaired& repaired) {
                                screening->rejected ? screening->sure : std::vector<data::Finding>{});
   account.upsampling = std::move(*screening->upsampling);
   internal::settle_upsampling(options.recorder_made, account.upsampling);
-  repaired.remarks.warnings = std::move(screening->warnings);
+  std::ranges::move(screening->warnings, std::back_inserter(repaired.remarks.warnings));
   return {};
 }
 
@@ -40,6 +43,7 @@ Status fill(const RepairOptions& options, Repaired& repaired) {
   auto gaps = options.gaps;
   gaps.seed = options.seed;
   gaps.threads = options.threads;
+  gaps.leave = repaired.apart.all();
   auto& markers = repaired.recording.trial.markers;
   auto filled = trajectory::fill_gaps(markers, gaps);
   if (!filled) return std::unexpected(filled.error());
@@ -68,6 +72,11 @@ Result<Repaired> repair(data::Recording recording, const RepairOptions& options)
   if (auto s = options.gaps.check(); !s) return std::unexpected(s.error());
   Repaired repaired;
   repaired.recording = std::move(recording);
+  const auto& markers = repaired.recording.trial.markers;
+  repaired.apart = find_points_apart(markers);
+  if (const auto points = repaired.apart.describe(markers.names); !points.empty())
+    repaired.remarks.warnings.push_back(
+        fmt::format("No markers, and left as they are unless they are selected alone: {}", points));
   if (auto s = screen(options, repaired); !s) return std::unexpected(s.error());
   repaired.before = repaired.recording.trial.markers;
   if (auto s = fill(options, repaired); !s) return std::unexpected(s.error());
@@ -79,7 +88,9 @@ Result<Cleaned> clean(data::Recording recording, const CleanOptions& options) {
   auto filters = begin_unfiltered(recording.trial.markers, smooths);
   auto repaired = repair(std::move(recording), options.repair);
   if (!repaired) return std::unexpected(repaired.error());
-  auto smooth = trajectory::smooth(repaired->recording.trial.markers, options.filter);
+  auto filter = options.filter;
+  filter.leave = repaired->apart.all();
+  auto smooth = trajectory::smooth(repaired->recording.trial.markers, filter);
   if (!smooth) return std::unexpected(smooth.error());
   Cleaned cleaned{.recording = std::move(repaired->recording),
                   .derivatives = std::move(smooth->derivatives),

@@ -15,6 +15,7 @@
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
 #include "kinemark/stages/trajectory/smoothing/smooth_options.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/selection.h"
 #include "kinemark/workflow/remarks.h"
 
 namespace kinemark::workflow {
@@ -33,11 +34,13 @@ struct RepairOptions {
 struct Repaired {
   data::Recording recording;        ///< screened and filled
   data::Trajectories before;        ///< its markers before gaps were filled
+  PointsApart apart = {};           ///< points that are no markers: they stay as they are
   data::CleanAccount account = {};  ///< of the recorder, of defects, of gaps
   Remarks remarks;                  ///< what had to go with frames that went
 };
 
-/// Find what the recorder did, do about it what the options say, and fill gaps. Fails as screen_markers() and
+/// Find what the recorder did, do about it what the options say, and fill gaps. Points that are no markers
+/// (find_points_apart()) stay as they are, and nothing is learned from them. Fails as screen_markers() and
 /// trajectory::fill_gaps().
 [[nodiscard]] Result<Repaired> repair(data::Recording recording, const RepairOptions& options = {});
 

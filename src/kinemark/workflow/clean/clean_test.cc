@@ -16,6 +16,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kNoise = 5e-4;
 
@@ -53,6 +54,28 @@ TEST(Clean, SmoothsWhatIsThereAndGivesRates) {
   EXPECT_EQ(cleaned.derivatives.velocity.size(), recording.trial.markers.x_in_world.size());
   EXPECT_FALSE(cleaned.recording.trial.markers.present(105, 0)) << "gaps stay unless they are to be filled";
   EXPECT_THAT(cleaned.remarks.warnings, IsEmpty());
+}
+
+TEST(Clean, PointsThatAreNoMarkersStayAsTheyAre) {
+  auto recording = noisy();
+  recording.trial.markers.names[0] = "RHJC";
+  CleanOptions options;
+  options.repair.gaps.method = trajectory::GapMethod::cubic;
+  const auto cleaned = clean(recording, options).value();
+  const auto& markers = cleaned.recording.trial.markers;
+  EXPECT_EQ(markers.x(50, 0), recording.trial.markers.x(50, 0));
+  EXPECT_NE(markers.x(50, 1), recording.trial.markers.x(50, 1));
+  EXPECT_FALSE(markers.present(105, 0)) << "its gap is nobody's to fill";
+  EXPECT_THAT(cleaned.account.gaps, IsEmpty());
+  EXPECT_EQ(cleaned.account.markers[0].used.method, "none");
+  EXPECT_THAT(
+      cleaned.remarks.warnings,
+      Contains("No markers, and left as they are unless they are selected alone: 1 computed point (RHJC)"));
+  recording.trial.markers.names[1] = "LHJC";
+  const auto alone = clean(recording, options).value();
+  EXPECT_TRUE(alone.recording.trial.markers.present(105, 0)) << "no marker is left beside them";
+  EXPECT_THAT(alone.remarks.warnings,
+              Not(Contains(HasSubstr("No markers, and left as they are unless they are selected alone"))));
 }
 
 TEST(Clean, FillsGapsWhereThatIsAskedFor) {

@@ -6,11 +6,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
+#include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/selection.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -153,6 +157,22 @@ Status measure_all(const MeasureOptions& options, const AskedMeasures& asked,
   return {};
 }
 
+/// Points that are no markers go, with a remark.
+void leave_points_apart(Measured& found) {
+  auto& trial = found.recording.trial;
+  const auto apart = find_points_apart(trial.markers);
+  const auto all = apart.all();
+  if (all.empty()) return;
+  found.remarks.warnings.push_back(
+      fmt::format("No markers, and not measured unless they are selected alone: {}",
+                  apart.describe(trial.markers.names)));
+  std::vector<std::int64_t> kept, channels(at(trial.channels.count()));
+  for (std::int64_t m = 0; m < trial.markers.markers(); ++m)
+    if (!std::ranges::binary_search(all, m)) kept.push_back(m);
+  std::iota(channels.begin(), channels.end(), 0);
+  trajectory::keep_part(trial, {.first = 0, .count = trial.markers.frames()}, kept, channels);
+}
+
 Result<Measured> measure_as(MeasuresOf of, data::Recording recording, MeasureOptions options) {
   options.of = of;
   return measure_recording(std::move(recording), options);
@@ -173,6 +193,7 @@ Result<Measured> measure_recording(data::Recording recording, const MeasureOptio
   if (!asked) return std::unexpected(asked.error());
   Measured found;
   found.recording = std::move(recording);
+  leave_points_apart(found);
   if (auto s = leave_out_defects(found.recording.trial, options.keep_doubtful, found.recording.edits.swapped,
                                  found.remarks.warnings);
       !s)

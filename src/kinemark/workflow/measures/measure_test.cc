@@ -82,6 +82,30 @@ TEST(Measure, WhatIsNotThereIsAFailureOrARemark) {
               Not(Contains(HasSubstr("not measured"))));
 }
 
+TEST(Measure, PointsThatAreNoMarkersAreNotMeasured) {
+  auto recording = circle();
+  auto& markers = recording.trial.markers;
+  const auto only_hand = markers;
+  markers = data::Trajectories::all_missing({"LFEA", "hand", "*3"}, only_hand.time);
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < 3; ++m) {
+      markers.x(f, m) = only_hand.x(f, 0) + Eigen::Vector3d(0.0, 0.0, 0.1 * static_cast<double>(m));
+      markers.state[markers.index(f, m)] = data::SampleState::measured;
+    }
+  MeasureOptions options;
+  options.measures = {"path_length"};
+  options.refits = 0;
+  const auto found = measure(recording, options).value();
+  ASSERT_EQ(found.measures.size(), 1U);
+  EXPECT_EQ(found.measures[0].subject, "hand");
+  EXPECT_THAT(found.remarks.warnings,
+              Contains("No markers, and not measured unless they are selected alone: 1 computed point (LFEA) "
+                       "and 1 without a name"));
+  const auto alone = measure(circle(), options).value();
+  EXPECT_THAT(alone.remarks.warnings,
+              Not(Contains(HasSubstr("No markers, and not measured unless they are selected alone"))));
+}
+
 TEST(Measure, EventsOfTheMarkersOwnMovements) {
   MeasureOptions options;
   options.refits = 0;

@@ -34,12 +34,22 @@ bool by_hand(const data::Finding& swap, const std::vector<std::pair<std::string,
   });
 }
 
+/// Whether a finding is of one of some markers.
+bool is_of(const std::vector<std::int64_t>& which, const std::vector<std::string>& names,
+           const data::Finding& finding) {
+  return std::ranges::any_of(which, [&](std::int64_t m) {
+    const auto& name = names[static_cast<std::size_t>(m)];
+    return name == finding.subject || name == finding.partner;
+  });
+}
+
 Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
   if (!rules.find_defects) return {};
   const auto& markers = trial.markers;
   auto defects = trajectory::screen(markers);
   if (!defects) return std::unexpected(defects.error());
   out.defects = std::move(*defects);
+  std::erase_if(out.defects, [&](const auto& defect) { return is_of(rules.apart, markers.names, defect); });
   if (rules.exchange_back) {
     out.exchanged = sure_swaps(out.defects, rules.sure);
     std::erase_if(out.exchanged, [&](const auto& swap) { return by_hand(swap, rules.swapped); });

@@ -37,9 +37,10 @@ struct ScreeningRules {
   bool find_defects = true;                         ///< look for defects
   bool exchange_back = false;  ///< markers that surely carry each other's label get their own
   std::vector<std::pair<std::string, std::string>> swapped =
-      {};                       ///< those that edits swap: a person has decided, and they stay as they are
-  bool reject_defects = false;  ///< those that are sure become `rejected`
-  double sure = 0.8;            ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
+      {};  ///< those that edits swap: a person has decided, and they stay as they are
+  std::vector<std::int64_t> apart = {};  ///< points that are no markers (PointsApart): no defect is theirs
+  bool reject_defects = false;           ///< those that are sure become `rejected`
+  double sure = 0.8;  ///< confidence, 0 to 1; clock jumps have no wrong samples and are never sure
   /// Share of all samples. Where sure defects take more, nothing is rejected: a recording that breaks its
   /// paths everywhere has no paths, its frames are poses of their own.
   double most_rejected = std::numeric_limits<double>::infinity();

@@ -37,10 +37,12 @@ struct Work {
   std::vector<Combination> pieces;         // as many when the gap is filled, else none
 };
 
-std::vector<GapSpan> find_gaps(const data::Trajectories& in, const GapChoice& only) {
+std::vector<GapSpan> find_gaps(const data::Trajectories& in, const GapOptions& options) {
+  const auto& only = options.only;
   std::vector<GapSpan> gaps;
   for (Index m = 0; m < in.markers(); ++m) {
     if (only.marker >= 0 && m != only.marker) continue;
+    if (std::ranges::find(options.leave, m) != options.leave.end()) continue;
     for (Index f = 0; f < in.frames();) {
       if (in.present(f, m)) {
         ++f;
@@ -216,10 +218,11 @@ void set_isotropic(data::Trajectories& out, Index frame, Index marker, double va
   math::pack_isotropic3(variance_m2, out.covariance.data() + 6 * out.index(frame, marker));
 }
 
-/// Covariance of the present samples, so that every sample has one.
-void set_noise(const Filler& filler, data::Trajectories& out) {
+/// Covariance of the present samples, so that every sample of a marker that is not left alone has one.
+void set_noise(const Filler& filler, std::span<const Index> left, data::Trajectories& out) {
   out.covariance.assign(2 * out.x_in_world.size(), std::numeric_limits<double>::quiet_NaN());
   for (Index m = 0; m < out.markers(); ++m) {
+    if (std::ranges::find(left, m) != left.end()) continue;  // nobody says how they err
     const double noise = filler.noise_m(m);
     for (Index f = 0; f < out.frames(); ++f)
       if (out.present(f, m)) set_isotropic(out, f, m, noise * noise);
@@ -268,7 +271,7 @@ Result<GapResult> fill_gaps(const data::Trajectories& in, const GapOptions& opti
   if (const Status s = in.validate(); !s) return std::unexpected(s.error());
   const Filler filler(in, options);
   std::vector<Work> work;
-  for (const GapSpan& gap : find_gaps(in, options.only)) {
+  for (const GapSpan& gap : find_gaps(in, options)) {
     work.push_back({.span = filler.span(gap.marker, gap.first, gap.end)});
   }
   // Neighbours once per marker, found when its first gap is reached by a batch.
@@ -301,7 +304,7 @@ Result<GapResult> fill_gaps(const data::Trajectories& in, const GapOptions& opti
     });
   }
   GapResult result{.trajectories = in};
-  if (in.covariance.empty()) set_noise(filler, result.trajectories);
+  if (in.covariance.empty()) set_noise(filler, options.leave, result.trajectories);
   for (Work& w : work) {
     for (std::size_t k = 0; k < w.pieces.size(); ++k)
       write(filler, w.accounts[k], w.pieces[k], result.trajectories);

@@ -105,6 +105,21 @@ TEST(FillGaps, NeverTouchesWhatIsThere) {
     }
 }
 
+TEST(FillGaps, WhatIsLeftAloneIsNeitherFilledNorLearnedFrom) {
+  Trajectories t = moving_bodies({.noise_m = kNoiseM});
+  hide(t, 1, 300, 305);
+  hide(t, 2, 400, 405);
+  const GapResult r = fill(t, {.leave = {2}});
+  EXPECT_EQ(only_gap(r).marker, 1);
+  EXPECT_FALSE(r.trajectories.present(402, 2));
+  EXPECT_THAT(only_gap(r).predictors, Not(::testing::Contains(t.names[2])));
+  EXPECT_THAT(fill(t).gaps.front().predictors, ::testing::Contains(t.names[2]))
+      << "the nearest neighbour else";
+  EXPECT_TRUE(std::isnan(r.trajectories.covariance[6 * r.trajectories.index(0, 2)]))
+      << "nobody says how it errs";
+  EXPECT_GT(r.trajectories.covariance[6 * r.trajectories.index(0, 1)], 0.0);
+}
+
 TEST(FillGaps, MovesWithTheLab) {
   Trajectories t = moving_bodies({.noise_m = kNoiseM});
   hide(t, 3, 250, 320);

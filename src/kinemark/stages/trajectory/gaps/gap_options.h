@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
@@ -47,9 +48,11 @@ struct GapOptions {
   double noise_sd_m = 0.0;           ///< of a measured sample, per axis; 0: from each marker's own data
   bool check_labels = true;          ///< look for swaps among neighbours and leave those predictors out
   GapChoice only;                    ///< all of them unless it says otherwise
-  std::uint64_t seed = 1;            ///< which artificial gaps are taken when there are more than enough
-  int threads = 1;                   ///< 0: all cores. Any number gives the same bits.
-  Progress progress;                 ///< gaps done of all
+  /// Indices of markers that stay as they are, and that nothing is learned from.
+  std::vector<std::int64_t> leave = {};
+  std::uint64_t seed = 1;  ///< which artificial gaps are taken when there are more than enough
+  int threads = 1;         ///< 0: all cores. Any number gives the same bits.
+  Progress progress;       ///< gaps done of all
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;

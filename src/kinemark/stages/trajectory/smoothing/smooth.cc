@@ -94,6 +94,11 @@ void keep_fill_errors(const data::Trajectories& in, std::int64_t marker, MarkerR
   }
 }
 
+/// Options of a marker that stays as it is.
+SmoothOptions as_it_is(const SmoothOptions& options) {
+  return {.method = FilterMethod::none, .noise_sd_m = options.noise_sd_m};
+}
+
 Result<MarkerResult> smooth_marker(const data::Trajectories& in, const SmoothOptions& options,
                                    std::int64_t marker) {
   const auto samples = smoothing::marker_samples(in, marker);
@@ -135,12 +140,15 @@ Status smooth_each(const data::Trajectories& in, const SmoothOptions& options,
   if (const auto status = in.validate(); !status) return status;
   if (const auto status = options.check(in.time.rate_hz); !status) return status;
   const std::int64_t together = std::max(1, thread_count(options.threads));
+  const SmoothOptions untouched = as_it_is(options);
   for (std::int64_t begin = 0; begin < in.markers(); begin += together) {
     const std::int64_t count = std::min(together, in.markers() - begin);
     std::vector<std::optional<Result<MarkerResult>>> done(static_cast<std::size_t>(count));
     parallel_for(count, 1, options.threads, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i)
-        done[static_cast<std::size_t>(i)] = smooth_marker(in, options, begin + i);
+      for (std::int64_t i = first; i < last; ++i) {
+        const bool is_left = std::ranges::find(options.leave, begin + i) != options.leave.end();
+        done[static_cast<std::size_t>(i)] = smooth_marker(in, is_left ? untouched : options, begin + i);
+      }
     });
     for (auto& result : done) {
       if (!*result) return std::unexpected(result->error());

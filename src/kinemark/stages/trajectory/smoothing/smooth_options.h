@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
@@ -50,8 +51,10 @@ struct SmoothOptions {
   double noise_sd_m = 0.0;  ///< per axis; 0: from the data, covariances (where there are some) giving weights
   double max_bridge_s = 0.0;       ///< kalman and gcv: also fill gaps inside up to this long; 0: none
   double max_bridge_sd_m = 0.010;  ///< ... but leave missing what would have a larger SD per axis
-  int threads = 1;                 ///< 0: all cores. Any number gives the same bits.
-  Progress progress;               ///< markers done of all
+  /// Indices of markers that stay as they are: FilterMethod::none, whatever the others are smoothed by.
+  std::vector<std::int64_t> leave = {};
+  int threads = 1;    ///< 0: all cores. Any number gives the same bits.
+  Progress progress;  ///< markers done of all
 
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check(double rate_hz) const;

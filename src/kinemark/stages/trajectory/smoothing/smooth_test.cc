@@ -104,6 +104,17 @@ TEST(Smooth, EveryMethodFollowsTheMovement) {
   }
 }
 
+TEST(Smooth, WhatIsLeftAloneStaysAsItIs) {
+  const Trajectories in = hand(400, 100.0, 1, 2);
+  auto options = with(FilterMethod::kalman);
+  options.leave = {1};
+  const auto result = smooth(in, options).value();
+  for (int f = 0; f < 400; ++f) ASSERT_EQ(result.trajectories.x(f, 1), in.x(f, 1));
+  EXPECT_NE(result.trajectories.x(50, 0), in.x(50, 0));
+  EXPECT_EQ(result.markers[0].used.method, "kalman");
+  EXPECT_EQ(result.markers[1].used.method, "none");
+}
+
 TEST(Smooth, WhatIsMissingStaysMissingAndSpoilsNoNeighbour) {
   Trajectories in = hand();
   hide(in, 0, 5);

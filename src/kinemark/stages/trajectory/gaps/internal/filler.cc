@@ -7,7 +7,8 @@
 
 namespace kinemark::trajectory::internal {
 
-Filler::Filler(const data::Trajectories& in, const GapOptions& options) : options_(options), recording_(in) {
+Filler::Filler(const data::Trajectories& in, const GapOptions& options)
+    : options_(options), recording_(in, options.leave) {
   for (Index m = 0; m < recording_.markers(); ++m)
     noise_m_.push_back(options.noise_sd_m > 0.0 ? options.noise_sd_m : recording_.estimate_noise(m));
   if (options.check_labels) swaps_ = check_labels(recording_);

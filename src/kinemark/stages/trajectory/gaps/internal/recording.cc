@@ -10,20 +10,24 @@
 
 namespace kinemark::trajectory::internal {
 
-Recording::Recording(const data::Trajectories& in) : rate_hz_(in.time.rate_hz), frames_(in.frames()) {
+Recording::Recording(const data::Trajectories& in, std::span<const std::int64_t> left)
+    : rate_hz_(in.time.rate_hz), frames_(in.frames()) {
   const auto markers = static_cast<std::size_t>(in.markers());
   const auto length = static_cast<std::size_t>(frames_) + 1;
   x_.assign(markers, Eigen::Matrix3Xd::Zero(3, frames_));
   unusable_before_.assign(markers, std::vector<std::int32_t>(length, 0));
   doubtful_before_.assign(markers, std::vector<std::int32_t>(length, 0));
-  for (std::size_t m = 0; m < markers; ++m)
+  for (std::size_t m = 0; m < markers; ++m) {
+    const bool is_left = std::ranges::find(left, static_cast<std::int64_t>(m)) != left.end();
     for (Index f = 0; f < frames_; ++f) {
       const auto state = in.state[in.index(f, static_cast<Index>(m))];
-      const bool usable = state == data::SampleState::measured || state == data::SampleState::upsampled;
+      const bool usable =
+          !is_left && (state == data::SampleState::measured || state == data::SampleState::upsampled);
       const auto k = static_cast<std::size_t>(f);
       unusable_before_[m][k + 1] = unusable_before_[m][k] + (usable ? 0 : 1);
       if (usable) x_[m].col(f) = in.x(f, static_cast<Index>(m));
     }
+  }
 }
 
 void Recording::exchange(Index first_marker, Index second_marker, Index frame) {

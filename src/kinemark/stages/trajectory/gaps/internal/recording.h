@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kinemark/data/trajectories.h"
@@ -17,7 +18,8 @@ using Eigen::Index;
 /// upsampling); "doubtful" ones are usable but far from the position predicted by their neighbours.
 class Recording {
  public:
-  explicit Recording(const data::Trajectories& in);
+  /// @param left  markers without a usable sample, whatever they have
+  explicit Recording(const data::Trajectories& in, std::span<const std::int64_t> left = {});
 
   [[nodiscard]] Index frames() const { return frames_; }
   [[nodiscard]] Index markers() const { return static_cast<Index>(x_.size()); }
