@@ -165,9 +165,8 @@ void add_analog_group(C3dPlan& plan, const data::Trial& trial) {
   C3dGroup& analog = plan.parameters.group("ANALOG");
   const auto channels = trial.analog.names.size();
   add_number(analog, "USED", C3dType::int16, static_cast<double>(channels));
-  add_number(
-      analog, "RATE", C3dType::float32,
-      trial.markers.time.rate_hz * static_cast<double>(std::max<std::int64_t>(1, plan.samples_per_frame)));
+  add_number(analog, "RATE", C3dType::float32,
+             trial.markers.time.rate_hz * static_cast<double>(plan.samples_per_frame));
   add_number(analog, "GEN_SCALE", C3dType::float32, 1.0);
   add_numbers(analog, "SCALE", C3dType::float32, {}, plan.analog_scale);
   add_numbers(analog, "OFFSET", C3dType::int16, {}, std::vector<double>(channels, 0.0));

@@ -43,6 +43,23 @@ TEST(BodySize, OfAnotherUnitIsNobodys) {
               HasSubstr("the unit of length is another one, or this is no human body"));
 }
 
+TEST(BodySize, TwoPeopleAreNoGiant) {
+  auto names = kNames;
+  for (auto& name : names) name = "Ann:" + name;
+  for (const auto& name : kNames) names.push_back("Bob:" + name);
+  const auto one = walk(1.0);
+  auto both = data::Trajectories::all_missing(names, one.time);
+  const auto M = one.markers();
+  for (std::int64_t f = 0; f < both.frames(); ++f)
+    for (std::int64_t m = 0; m < 2 * M; ++m) {
+      both.x(f, m) = one.x(f, m % M) + Eigen::Vector3d(m < M ? 0.0 : 3.0, 0.0, 0.0);
+      both.state[both.index(f, m)] = data::SampleState::measured;
+    }
+  const auto size = size_of_body(body_of_names(names), both);
+  ASSERT_TRUE(size);
+  EXPECT_FALSE(size->is_nobodys()) << size->sentence();
+}
+
 TEST(BodySize, OfFewMarkersIsNotKnown) {
   const std::vector<std::string> few = {"LASI", "RASI", "LPSI"};
   EXPECT_FALSE(size_of_body(body_of_names(few), testing::walking_body(few, 10)));

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/stages/motion/foundations/internal/body_parts.h"
 
 namespace kinemark::motion {
@@ -88,6 +91,28 @@ class Builder {
   std::vector<std::pair<BodyPart, Side>> made_;
 };
 
+/// The names of the person with most landmarks where a landmark is there of two ("Ann:LASI", "Bob:LASI");
+/// else all names.
+std::vector<std::string> names_of_one(const std::vector<std::string>& names) {
+  std::map<std::string_view, std::int64_t> landmarks_of;  // by the prefix
+  std::set<std::string_view> seen;
+  bool several = false;
+  for (const std::string_view name : names) {
+    if (!landmark_of(name)) continue;
+    const auto plain = data::without_prefix(name);
+    ++landmarks_of[name.substr(0, name.size() - plain.size())];
+    several = !seen.insert(plain).second || several;
+  }
+  if (!several) return names;
+  const auto most = std::ranges::max_element(landmarks_of, {}, [](const auto& one) { return one.second; });
+  std::vector<std::string> out;
+  for (const auto& name : names)
+    if (name.size() - data::without_prefix(name).size() == most->first.size() &&
+        name.starts_with(most->first))
+      out.push_back(name);
+  return out;
+}
+
 }  // namespace
 
 namespace internal {
@@ -129,7 +154,7 @@ int add_size(StandingBody& body, const std::string& name, Side side) {
 StandingBody body_of_names(const std::vector<std::string>& names) {
   Builder builder;
   builder.segment(BodyPart::pelvis, Side::middle);
-  for (const auto& name : names) {
+  for (const auto& name : names_of_one(names)) {
     const auto landmark = landmark_of(name);
     if (!landmark) continue;
     StandingBody::Marker marker;

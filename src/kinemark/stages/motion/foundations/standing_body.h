@@ -51,7 +51,8 @@ struct StandingBody {
 };
 
 /// The body that markers of these names are expected on; names that are no landmarks are left out, and so is
-/// the side of a segment that no marker needs.
+/// the side of a segment that no marker needs. Of several people ("Ann:LASI", "Bob:LASI") the one with most
+/// landmarks, the first by name of those with as many.
 [[nodiscard]] StandingBody body_of_names(const std::vector<std::string>& names);
 
 /// A model in its default pose as such a body: every body with a coordinate of rotation is a segment, others

@@ -39,6 +39,14 @@ TEST(StandingBody, NamesBringTheSegmentsThatTheyNeed) {
     EXPECT_LT(body.segments[s].parent, static_cast<int>(s));
 }
 
+TEST(StandingBody, OfSeveralPeopleIsThatOfOne) {
+  const auto body = body_of_names({"Bob:LASI", "Ann:LASI", "Ann:RASI", "Bob:RASI", "Ann:LTOE", "LFEO"});
+  std::vector<std::string> names;
+  for (const auto& marker : body.markers) names.push_back(marker.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Ann:LASI", "Ann:RASI", "Ann:LTOE"}));
+  EXPECT_EQ(body_of_names({"Ann:LASI", "RASI", "Wand:LTOE"}).markers.size(), 3) << "nothing is there twice";
+}
+
 TEST(StandingBody, SidesMirrorEachOther) {
   const auto body = body_of_names({"LASI", "RASI", "LKNE", "RKNE", "LTOE", "RTOE", "C7"});
   for (const auto& marker : body.markers) {
