@@ -67,6 +67,7 @@ TEST(C3dPlan, AReaderSettlesExactlyWhatWasPlannedWithoutAWord) {
           EXPECT_EQ(layout->analog_channels, channels);
           EXPECT_EQ(layout->samples_per_frame, channels > 0 ? 4 : 0);
           EXPECT_EQ(layout->is_float, !integers);
+          EXPECT_EQ(number_in(plan, "ANALOG", "RATE"), channels > 0 ? 960.0 : 0.0) << "as the header says";
           EXPECT_EQ(layout->rate_hz, 240.0);
           EXPECT_DOUBLE_EQ(layout->metres_per_unit * plan.units_per_metre, 1.0);
           EXPECT_FLOAT_EQ(static_cast<float>(layout->scale), static_cast<float>(plan.scale));
