@@ -131,7 +131,7 @@ Result<Page> make_trial_page(const std::filesystem::path& path, std::string_view
   }
   pipeline::InfoJob job;
   job.file = path;
-  job.edits = pipeline::kEditsNone;
+  job.edits = io::kEditsNone;
   const auto info = pipeline::run_info(job);
   if (!info) return std::unexpected(info.error());
   if (std::holds_alternative<pipeline::MarkerFileFacts>(info->facts))
