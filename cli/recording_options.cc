@@ -26,7 +26,7 @@ void add_recording_options(CLI::App& command, pipeline::RecordingOptions& record
   add("--unit", recording.unit, "UNIT", "Unit of a table of coordinates that states none: mm, cm or m");
   add("--edits", recording.edits, "FILE",
       "Journal of edits to apply first: that beside the recording where there is one, none, or a FILE")
-      ->default_str(pipeline::kEditsBeside);
+      ->default_str(io::kEditsBeside);
   list("--select", part.select, "NAME",
        "Markers and model outputs to keep, with commas between; * is any text, ? any letter");
   list("--drop", part.drop, "NAME", "Markers and model outputs to leave out");

@@ -37,7 +37,7 @@ void add_validate(CLI::App& app, const CommonOptions& common, Run& run) {
   auto* command = app.add_subcommand(
       "validate", "Check files: exit status 0 good, 1 readable but odd, 3 or 4 not readable");
   const auto job = std::make_shared<pipeline::ValidateJob>();
-  job->recording.edits = pipeline::kEditsNone;  // it is the file that is checked
+  job->recording.edits = io::kEditsNone;  // it is the file that is checked
   command->footer(
       "Of a folder: the files in it that can be read. The exit status is the worst of all files.");
   command

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/utf8.h"
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/io/input/journal_input.h"
 #include "server/json_answer.h"
 #include "server/secret.h"
 #include "server/trial_model.h"
@@ -130,7 +130,7 @@ Result<std::shared_ptr<const AngleService::Solution>> AngleService::solve_one(co
   pipeline::IkJob job = options_.asked;
   job.model = of->model;
   job.markers = recording;
-  job.edits = with_edits ? pipeline::kEditsBeside : pipeline::kEditsNone;
+  job.edits = with_edits ? io::kEditsBeside : io::kEditsNone;
   job.threads = options_.threads;
   job.seed = options_.seed;
   job.progress = [of](std::int64_t done, std::int64_t total) {

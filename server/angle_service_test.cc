@@ -47,9 +47,9 @@ class AngleServiceThread : public ::testing::Test {
     }
     if (!job.progress(3, 10)) return fail(Code::cancelled, "stopped");
     const std::string edits =
-        job.edits == pipeline::kEditsNone ? "0" : io::read_text(scratch_ / "edits").value_or("0");
+        job.edits == io::kEditsNone ? "0" : io::read_text(scratch_ / "edits").value_or("0");
     if (edits == "throw") throw std::runtime_error("a contract");
-    if (edits == "bad" || (job.edits == pipeline::kEditsNone && unsolvable_))
+    if (edits == "bad" || (job.edits == io::kEditsNone && unsolvable_))
       return fail(Code::bad_input, "no marker <fits>");
     pipeline::IkPage page{.html = "<p>" + edits + page_padding_,
                           .set = "set of " + edits,
@@ -150,7 +150,7 @@ TEST_F(AngleServiceThread, SolvesWithTheEditsAndOnceWithout) {
   EXPECT_EQ(jobs_[0].model, scratch_ / "subject.osim");
   EXPECT_EQ(jobs_[0].markers, scratch_ / "walk.c3d");
   EXPECT_TRUE(jobs_[0].output.empty());
-  EXPECT_EQ(jobs_[1].edits, pipeline::kEditsNone);
+  EXPECT_EQ(jobs_[1].edits, io::kEditsNone);
   EXPECT_EQ(html(AnglesOf::now), "<p>2");
   EXPECT_EQ(html(AnglesOf::recorded), "<p>0");
   (void)solve_with("3");

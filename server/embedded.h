@@ -8,8 +8,10 @@
 
 namespace kinemark::server {
 
-[[nodiscard]] std::string_view style_css();  ///< of viewer/
-[[nodiscard]] std::string_view list_css();   ///< what a list needs besides
-[[nodiscard]] std::string_view list_js();    ///< renews the list while trials are being read
+// All of viewer/: pages of the server's own, without data, and what they ask for.
+[[nodiscard]] std::string_view served_html();  ///< the page; "@root@" stands for where pages begin
+[[nodiscard]] std::string_view style_css();    ///< of all pages
+[[nodiscard]] std::string_view list_css();     ///< what these need besides
+[[nodiscard]] std::string_view list_js();      ///< makes the page of its data
 
 }  // namespace kinemark::server

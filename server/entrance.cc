@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinemark/core/html_text.h"
 #include "server/secret.h"
 
 namespace kinemark::server {
@@ -30,12 +29,9 @@ bool only_reads(const Request& request) {
 }  // namespace
 
 Response sentence_page(int status, std::string_view sentence) {
-  Response response{.status = status};
-  response.body = std::make_shared<const std::string>(
-      fmt::format("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>kinemark</title>"
-                  "<h1>kinemark</h1><p>{}</p></html>\n",
-                  html_text(sentence)));
-  return response;
+  return {.status = status,
+          .type = "text/plain; charset=utf-8",
+          .body = std::make_shared<const std::string>(fmt::format("kinemark: {}\n", sentence))};
 }
 
 void add_safe_headers(Response& response) {

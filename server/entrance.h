@@ -48,7 +48,7 @@ class Entrance {
   std::mutex mutex_;  ///< of `opening`
 };
 
-/// A short page with one sentence.
+/// One sentence as plain text, for whom no page is made.
 [[nodiscard]] Response sentence_page(int status, std::string_view sentence);
 
 /// Headers of every response: no guessing of types, no caching, nothing to other sites, no foreign frames.

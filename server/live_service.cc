@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kinemark/pipeline/files/json_text.h"
-#include "server/list_page.h"
+#include "server/served_page.h"
 #include "server/trial_page.h"
 
 namespace kinemark::server {
@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Response sentence(int status, std::string_view title, std::string_view what, std::string_view root) {
   Response response{.status = status,
-                    .body = std::make_shared<const std::string>(error_page(title, what, root))};
+                    .body = std::make_shared<const std::string>(notice_page(title, what, root))};
   response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
   return response;
 }
@@ -64,6 +64,7 @@ Response LiveService::answer(const Request& request) {
   if (!request.upgrade && request.target == "/api/live")
     return {.type = "application/json",
             .body = std::make_shared<const std::string>(live_state_json(feed_->state()))};
+  if (auto file = served_file(request.target); file && !request.upgrade) return std::move(*file);
   return sentence(404, "Not found", "There is no such page; / shows the live source.", root_);
 }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/pipeline/files/info_job.h"
 #include "server/page_shelf.h"
 
 namespace kinemark::server {
@@ -19,9 +18,6 @@ namespace kinemark::server {
 /// @param geometry  further folders of models' meshes
 [[nodiscard]] Result<Page> make_trial_page(const std::filesystem::path& path, std::string_view root,
                                            const std::vector<std::filesystem::path>& geometry = {});
-
-/// What 'kinemark info' knows of a file, as a page. All names are text.
-[[nodiscard]] std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root);
 
 /// A self-contained report page with a policy under which its own style sheet and script run and nothing
 /// else. The first style sheet and the last script are its own: data stand before the script.

@@ -12,10 +12,10 @@
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/info_job.h"
 #include "kinemark/pipeline/files/input_list.h"
-#include "kinemark/pipeline/files/marker_input.h"
 
 namespace kinemark::server {
 namespace {
@@ -73,7 +73,7 @@ void set_length(std::int64_t frames, std::optional<double> rate_hz, TrialRow& ro
 
 void describe_markers(const fs::path& path, TrialRow& row) {
   row.kind = "markers";
-  const auto input = pipeline::read_marker_input({.path = path, .rate = pipeline::RateRule::or_unknown});
+  const auto input = io::read_marker_input({.path = path, .rate = io::RateRule::or_unknown});
   if (!input) return fail_row(input.error(), row);
   const auto& markers = input->trial.markers;
   row.markers = markers.markers();
@@ -131,7 +131,7 @@ void describe_facts(const pipeline::MarkerFileFacts&, TrialRow& row) { row.kind 
 void describe_other(const fs::path& path, TrialRow& row) {
   pipeline::InfoJob job;
   job.file = path;
-  job.edits = pipeline::kEditsNone;
+  job.edits = io::kEditsNone;
   const auto info = pipeline::run_info(job);
   if (!info) return fail_row(info.error(), row);
   std::visit([&](const auto& facts) { describe_facts(facts, row); }, info->facts);

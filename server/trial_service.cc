@@ -14,9 +14,8 @@
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "server/embedded.h"
-#include "server/list_page.h"
 #include "server/routes.h"
+#include "server/served_page.h"
 
 namespace kinemark::server {
 namespace {
@@ -121,11 +120,9 @@ void TrialService::handle(Request request, const Reply& reply) {
         send_busy(reply);
       return;
     case Target::style:
-      return send_text(style_css(), "text/css; charset=utf-8", reply);
     case Target::list_style:
-      return send_text(list_css(), "text/css; charset=utf-8", reply);
     case Target::list_script:
-      return send_text(list_js(), "text/javascript; charset=utf-8", reply);
+      return send(*served_file(request.target), reply);
     case Target::none:
       break;
   }
@@ -135,7 +132,7 @@ void TrialService::handle(Request request, const Reply& reply) {
 void TrialService::send_sentence(int status, std::string_view title, std::string_view sentence,
                                  const Reply& reply) const {
   Response response{.status = status};
-  response.body = std::make_shared<const std::string>(error_page(title, sentence, options_.keys.root()));
+  response.body = std::make_shared<const std::string>(notice_page(title, sentence, options_.keys.root()));
   response.headers = {{"Content-Security-Policy", std::string(kOwnPolicy)}};
   if (status == 503) response.headers.emplace_back("Retry-After", "1");
   send(std::move(response), reply);
@@ -151,12 +148,10 @@ void TrialService::send_list(bool as_json, const Reply& reply) {
   for (const auto& trial : listing.trials) rows.push_back(row_of(trial));
   if (!as_json)
     return send_page(
-        {std::make_shared<const std::string>(list_page(rows, listing.notes, options_.keys.root())),
+        {std::make_shared<const std::string>(trials_page(rows, listing.notes, options_.keys.root())),
          std::string(kOwnPolicy)},
         reply);
-  nlohmann::ordered_json json{{"trials", nlohmann::ordered_json::array()}, {"notes", listing.notes}};
-  for (const auto& row : rows) json["trials"].push_back(row_json(row));
-  send_text(pipeline::json_text(json) + "\n", "application/json", reply);
+  send_text(pipeline::json_text(trials_json(rows, listing.notes)) + "\n", "application/json", reply);
 }
 
 TrialRow TrialService::row_of(const TrialFile& trial) {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "kinemark/io/file.h"
-#include "server/list_page.h"
+#include "server/served_page.h"
 #include "support/scratch.h"
 
 namespace kinemark::server {
@@ -138,7 +138,7 @@ TEST_F(TrialServiceThread, TheListFillsInAndSeesWhatChanges) {
   EXPECT_EQ(list[2]["number"], 3);
   const auto page = get("/");
   EXPECT_EQ(page.status, 200);
-  EXPECT_THAT(*page.body, HasSubstr("href=\"/s/trial/3\""));
+  EXPECT_THAT(*page.body, HasSubstr("\"page\": \"/trial/3\""));
   EXPECT_EQ(header(page, "Content-Security-Policy"), kOwnPolicy);
   EXPECT_EQ(header(page, "Cache-Control"), "no-store");
 }
@@ -154,7 +154,7 @@ TEST_F(TrialServiceThread, TheListIsThereWhileTrialsAreBeingRead) {
   };
   for (int i = 0; i < 3; ++i)
     for (const auto& row : trials()) EXPECT_EQ(row["state"], "reading");
-  EXPECT_THAT(*get("/").body, HasSubstr("2 being read"));
+  EXPECT_THAT(*get("/").body, HasSubstr("\"state\": \"reading\""));
   go.set_value();
   EXPECT_EQ(read_trials().size(), 2U);
 }
@@ -232,7 +232,7 @@ TEST_F(TrialServiceThread, AFileThatCannotBeReadIsASentence) {
   write("a.trc", "bad");
   auto response = get("/trial/1");
   EXPECT_EQ(response.status, 422);
-  EXPECT_THAT(*response.body, HasSubstr("a.trc: line 1: is &lt;bad&gt;"));
+  EXPECT_THAT(*response.body, HasSubstr("a.trc: line 1: is \\u003cbad>"));
   write("a.trc", "throw");
   response = get("/trial/1");
   EXPECT_EQ(response.status, 422);

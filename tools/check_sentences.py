@@ -5,7 +5,7 @@
 
     tools/check_sentences.py [--propose] [ROOT]
 
-A fixed sentence is a string of four words or more in the sources of data/, stages/, workflow/, pipeline/, studies/ and server/ that
+A fixed sentence is a string of four words or more in the sources of data/, io/input/, stages/, workflow/, pipeline/, studies/ and server/ that
 is no error (an argument of fail() or check()) and stands in no file that tests/sentences.toml lists under [[texts]] with
 the reason why nothing there is a claim (names of measures, drawings, ...). For each of them tests/sentences.toml has a row:
 
@@ -32,7 +32,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-FOLDERS = ("src/kinemark/data", "src/kinemark/stages", "src/kinemark/workflow", "src/kinemark/pipeline", "studies", "server")
+FOLDERS = ("src/kinemark/data", "src/kinemark/io/input", "src/kinemark/stages", "src/kinemark/workflow", "src/kinemark/pipeline", "studies", "server")
 NOT_SOURCE = ("_test.cc", "_fuzz.cc", "_benchmark.cc")
 TABLE = "tests/sentences.toml"
 LEAST_WORDS = 4

@@ -7,11 +7,11 @@
 #include <Eigen/Core>
 
 #include "kinemark/core/index.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/scale_setup.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "support/test_data.h"
 
 namespace kinemark::testing_support {
@@ -21,7 +21,7 @@ using data::Trajectories;
 using Eigen::Vector3d;
 
 Trajectories read(const std::filesystem::path& path) {
-  return pipeline::read_marker_input({.path = path}).value().trial.markers;
+  return io::read_marker_input({.path = path}).value().trial.markers;
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ class Shown(ServeTest):
         self.assertEqual(solved["verdict"], report["verdict"])
         status, headers, page = server.request("/")
         self.assertEqual(status, 200)
-        self.assertIn(f'<a href="{server.exchanged()}/trial/1">a walk.c3d</a>', page)
-        self.assertIn(f'<a href="{server.exchanged()}/trial/2">q.mot</a>', page)
+        shown = json.loads(report_data(page))
+        self.assertEqual(shown["summary"]["root"], server.exchanged() + "/")
+        self.assertEqual([(row["page"], row["name"]) for row in shown["list"]["trials"]], [("/trial/1", "a walk.c3d"), ("/trial/2", "q.mot")])
 
     def test_pages_of_trials(self):
         server = self.serve(self.study / "q.mot", self.study / "a walk.c3d")
@@ -222,7 +223,7 @@ class Refused(ServeTest):
         opened = http.cookiejar.CookieJar()
         browser = urllib.request.build_opener(urllib.request.ProxyHandler({}), urllib.request.HTTPCookieProcessor(opened))
         ours = browser.open(f"{self.server.origin}/?token={self.server.token}")
-        self.assertIn("Trials", ours.read().decode())
+        self.assertIn("kinemark.trials", ours.read().decode())
         with http.server.HTTPServer(("127.0.0.1", 0), Other) as other:
             thread = threading.Thread(target=other.handle_request)
             thread.start()

@@ -13,6 +13,9 @@ const pages: Record<string, string> = {
   "kinemark.clean_report": "CleanPage",
   "kinemark.markers_report": "MarkersPage",
   "kinemark.live": "LivePage",
+  "kinemark.trials": "TrialsPage",
+  "kinemark.facts": "FactsPage",
+  "kinemark.notice": "NoticePage",
 };
 const summaries: Record<string, string> = { "kinemark.ik_report": "IkSummary", "kinemark.clean_report": "CleanSummary", "kinemark.skeleton": "JointsResult" };
 

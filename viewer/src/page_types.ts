@@ -3,7 +3,7 @@
 // Made by `npm run schema` from viewer/schema; change that.
 
 /** One of these, by `summary.schema` and `summary.kind`. */
-export type Page = IkPage | CleanPage | MarkersPage | LivePage | ResultPage;
+export type Page = IkPage | CleanPage | MarkersPage | LivePage | TrialsPage | FactsPage | NoticePage | ResultPage;
 
 /** The page: summary, curves, cycles, space. */
 export interface IkPage {
@@ -444,6 +444,88 @@ export interface LiveSummary {
 export interface LiveCoordinate {
   /** Its name. */ name: string;
   /** Unit in the messages. */ unit: "deg" | "mm";
+}
+
+/** The list of trials. */
+export interface TrialsPage {
+  /** Which page this is. */ summary: TrialsSummary;
+  /** As `api/trials` answers it. */ list: Trials;
+}
+
+/** A list. */
+export interface TrialsSummary {
+  /** Which page this is. */ schema: "kinemark.trials";
+  /** Its version. */ schema_version: 1;
+  /** Version of the program. */ version: string;
+  /** Where the server's pages begin: `/SESSION/`. */ root: string;
+}
+
+/** What there is. */
+export interface Trials {
+  /** In the order of the list. */ trials: TrialRow[];
+  /** Sentences above the list. */ notes: string[];
+}
+
+/** A trial, as far as the server is with it: all that is not known is null. */
+export interface TrialRow {
+  /** Its number, for as long as the server runs. */ number: number;
+  /** Of its file. */ name: string;
+  /** That its file is in. */ folder: string;
+  /** Its page, below the root. */ page: string;
+  /** How far the server is. */ state: "reading" | "read" | "unreadable";
+  /** What it is: `markers`, `cleaned markers`, `solved trial`, `table`. */ kind: string | null;
+  /** Markers; of a solved trial those used. */ markers: number | null;
+  /** Frames. */ frames: number | null;
+  /** Frame rate, Hz; null also where the file states none. */ rate_hz: number | null;
+  /** Frames by rate, s. */ duration_s: number | null;
+  /** Share of marker frames that cameras measured, 0 to 1. */ measured: number | null;
+  /** Of its report; null: nobody judged it. */ verdict: Verdict | null;
+  /** Why it cannot be read, or what is odd, in a sentence. */ said: string | null;
+}
+
+/** What a file holds that has no report, as `kinemark info` knows it. */
+export interface FactsPage {
+  /** Which page this is. */ summary: FactsSummary;
+  /** What is odd, a sentence each. */ warnings: string[];
+  /** In the order of `info`. */ facts: Fact[];
+  /** What there are several of; none is empty. */ lists: FactList[];
+}
+
+/** A file. */
+export interface FactsSummary {
+  /** Which page this is. */ schema: "kinemark.facts";
+  /** Its version. */ schema_version: 1;
+  /** Version of the program. */ version: string;
+  /** Where the server's pages begin: `/SESSION/`. */ root: string;
+  /** Name of the file. */ trial: string;
+  /** What it is. */ kind: string;
+}
+
+/** Something that the file says of itself. */
+export interface Fact {
+  /** With its unit: `rate, Hz`. */ name: string;
+  /** In words. */ value: string;
+}
+
+/** Something that the file has several of. */
+export interface FactList {
+  /** What they are. */ name: string;
+  /** Each in words. */ values: string[];
+}
+
+/** What is wrong, in place of a page. */
+export interface NoticePage {
+  /** Which page this is. */ summary: NoticeSummary;
+  /** What is wrong and what can be done. */ sentence: string;
+}
+
+/** Something that is wrong. */
+export interface NoticeSummary {
+  /** Which page this is. */ schema: "kinemark.notice";
+  /** Its version. */ schema_version: 1;
+  /** Version of the program. */ version: string;
+  /** Where the server's pages begin: `/SESSION/`. */ root: string;
+  /** Its heading: the name of a file, or what is wrong in two words. */ trial: string;
 }
 
 /** Envelope of the page. */

@@ -27,4 +27,18 @@ std::string html_text(std::string_view text) {
   return out;
 }
 
+std::string json_in_html(std::string_view json) {
+  std::string out;
+  out.reserve(json.size() + json.size() / 64);
+  for (const char c : json) {
+    // '<' occurs in JSON only inside strings, where an escape means the same.
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
 }  // namespace kinemark

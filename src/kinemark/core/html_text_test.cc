@@ -15,5 +15,10 @@ TEST(HtmlText, EscapesWhatWouldBeMarkupAndNothingElse) {
   EXPECT_EQ(html_text(""), "");
 }
 
+TEST(JsonInHtml, CannotEndItsElementAndMeansTheSame) {
+  EXPECT_EQ(json_in_html(R"({"a":"</script><!-- & >"})"), R"({"a":"\u003c/script>\u003c!-- & >"})");
+  EXPECT_EQ(json_in_html(""), "");
+}
+
 }  // namespace
 }  // namespace kinemark

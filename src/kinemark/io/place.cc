@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -53,6 +54,18 @@ Result<fs::path> find_target(const fs::path& path, bool force) {
       return fail(Code::io, fmt::format("{}: is a link that leads to itself", path.string()));
     target = target.parent_path() / fs::read_symlink(target, ignored);
   }
+}
+
+Status check_below(const fs::path& setup, const fs::path& output, std::string_view element) {
+  std::error_code ignored;
+  const auto folder = fs::weakly_canonical(fs::absolute(setup, ignored).parent_path(), ignored);
+  // With force a link as output is followed; it may not lead elsewhere either.
+  const auto target = find_target(output, true).value_or(output);
+  const auto file = fs::weakly_canonical(fs::absolute(target, ignored), ignored);
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end()) return {};
+  return fail(Code::usage,
+              fmt::format("{}: <{}> is {}, which lies outside the setup's own folder; give --output",
+                          setup.string(), element, output.string()));
 }
 
 Result<Replaced> place_file(const fs::path& from, const fs::path& target, bool force, bool exchange) {

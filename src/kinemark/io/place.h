@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "kinemark/core/result.h"
 
@@ -14,6 +15,12 @@ namespace kinemark::io {
 /// naming `path`: something has the name and `force` is false (a link counts, wherever it leads); it is a
 /// folder, a device or another thing that is no regular file; links that go in a circle.
 [[nodiscard]] Result<std::filesystem::path> find_target(const std::filesystem::path& path, bool force);
+
+/// A setup may come from anywhere, so what it names as output must lie in its own folder or below:
+/// Code::usage otherwise. Links are followed. @param element  of the setup that names `output`:
+/// "output_motion_file"
+[[nodiscard]] Status check_below(const std::filesystem::path& setup, const std::filesystem::path& output,
+                                 std::string_view element);
 
 /// What was under the target's name before place_file().
 enum class Replaced : std::uint8_t {

@@ -109,5 +109,23 @@ TEST(SyncFolder, AFolderIsSyncedAndOneThatIsNotThereIsNoFailure) {
   EXPECT_TRUE(sync_folder(scratch / "absent"));
 }
 
+TEST(CheckBelow, ASetupWritesInItsOwnFolderAndBelow) {
+  const testing_support::ScratchFolder scratch;
+  fs::create_directories(scratch / "setups/sub");
+  fs::create_directories(scratch / "elsewhere");
+  fs::create_directory_symlink("../elsewhere", scratch / "setups/leads_out");
+  fs::create_symlink("../elsewhere/q.mot", scratch / "setups/dangling.mot");
+  const fs::path setup = scratch / "setups/setup.xml";
+  for (const char* good : {"q.mot", "sub/q.mot", "new/deeper/q.mot", "sub/../q.mot"})
+    EXPECT_TRUE(check_below(setup, scratch / "setups" / good, "output_motion_file")) << good;
+  for (const char* bad :
+       {"../q.mot", "/tmp/q.mot", "leads_out/q.mot", "dangling.mot", "sub/../../q.mot", "../setups2/q"}) {
+    const auto refused = check_below(setup, scratch / "setups" / bad, "output_motion_file");
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_EQ(refused.error().code, Code::usage);
+    EXPECT_THAT(refused.error().message, HasSubstr("outside the setup's own folder; give --output"));
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -10,7 +10,7 @@ import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, renameS
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import type { Page } from "playwright-core";
 import { problemsOf } from "../../schema/problems.ts";
 import { hostile } from "../simulated.ts";
@@ -243,6 +243,27 @@ const checks: Record<string, (t: Tried) => Promise<void>> = {
     await page.bringToFront();
     await said(page, /Somebody else has edited/);
     await other.close();
+  },
+  "the list leads to the recording, and what is not there is a sentence": async ({ page, served, recording }) => {
+    const list = await page.context().newPage();
+    const complaints: string[] = [];
+    list.on("console", (m) => m.type() === "error" && !/status of 404/.test(m.text()) && complaints.push(m.text()));
+    list.on("pageerror", (e) => complaints.push(String(e)));
+    await list.goto(served.address);
+    await list.waitForFunction(() => document.querySelectorAll("#trials tbody tr").length === 1 && !/being read/.test(document.querySelector("#trials .lead")!.textContent!));
+    assert.equal(await list.title(), "Trials - kinemark");
+    const data = await list.evaluate(() => JSON.parse(document.getElementById("kinemark-data")!.textContent) as unknown);
+    assert.deepEqual(problemsOf(data, "TrialsPage"), []);
+    assert.deepEqual(await violations(list), []);
+    await list.locator("#trials a").click();
+    await list.waitForFunction(() => document.documentElement.dataset["ready"] === "yes" && document.getElementById("edit") !== null);
+    assert.equal(new URL(list.url()).pathname, new URL(page.url()).pathname);
+    await list.goto(new URL("99", list.url()).href);
+    assert.match((await list.locator("main").textContent()) ?? "", /There is no trial of that number/);
+    await list.getByRole("link", { name: "All trials" }).click();
+    assert.match((await list.locator("#trials th a").textContent()) ?? "", new RegExp(basename(recording).replace(".", "\\.")));
+    assert.deepEqual(complaints, []);
+    await list.close();
   },
   "a page on another port reads nothing and writes nothing": async ({ page, served, journal }) => {
     const got: string[] = [];

@@ -13,6 +13,7 @@ import { simulatedClean } from "../simulated_clean.ts";
 import { simulatedMarkers, simulatedScene, simulatedWalk } from "../simulated_markers.ts";
 import { simulatedBodies } from "../simulated_meshes.ts";
 import { simulatedResults } from "../simulated_results.ts";
+import { simulatedFacts, simulatedNotice, simulatedTrials } from "../simulated_served.ts";
 
 const live = {
   summary: {
@@ -35,6 +36,9 @@ const pages: Record<string, unknown> = {
   "MarkersPage with edits": { ...simulatedMarkers(), editing },
   "MarkersPage without edits": { ...simulatedMarkers(), editing: { refused: "The journal is damaged." } },
   LivePage: live,
+  TrialsPage: simulatedTrials(),
+  FactsPage: simulatedFacts(),
+  NoticePage: simulatedNotice(),
   ...Object.fromEntries(Object.entries(simulatedResults()).map(([kind, page]) => [`${kind[0]!.toUpperCase()}${kind.slice(1)}Page`, page])),
 };
 

@@ -14,9 +14,9 @@
 
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/pipeline/body/motion_cycles.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
@@ -28,6 +28,7 @@
 #include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/pipeline/motion/given_motion.h"
 #include "kinemark/stages/analysis/body/body_definitions.h"
+#include "kinemark/stages/report/inputs_json.h"
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/motion/dynamics.h"
@@ -181,7 +182,7 @@ Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob&
 std::vector<std::filesystem::path> files_of(const MotionMeasuresJob& job) {
   auto files = pipeline::files_of(job.gait);
   files.insert(files.end(), {job.motion, beside(job.motion, "_sd.sto"), job.model, job.forces});
-  if (!job.forces.empty()) files.push_back(edits_of(job.forces));
+  if (!job.forces.empty()) files.push_back(io::edits_of(job.forces));
   return files;
 }
 
@@ -266,7 +267,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   MotionMeasuresOutcome out;
   auto description = io::read_osim(job.model);
   if (!description) return std::unexpected(description.error());
-  auto input = record_input("model", job.model);
+  auto input = io::record_input("model", job.model);
   if (!input) return std::unexpected(input.error());
   out.inputs.push_back(std::move(*input));
   const auto model = model::Model::compile(std::move(*description));
@@ -296,10 +297,7 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
 
 nlohmann::ordered_json motion_measures_json(const MotionMeasuresOutcome& outcome) {
   nlohmann::ordered_json out;
-  out["inputs"] = nlohmann::ordered_json::array();
-  for (const auto& input : outcome.inputs)
-    out["inputs"].push_back(
-        {{"role", input.role}, {"path", input.path}, {"bytes", input.bytes}, {input.hash_kind, input.hash}});
+  out["inputs"] = report::inputs_json(outcome.inputs);
   out["measures"] = measures_json(outcome.measures);
   out["written"] = nlohmann::ordered_json::array();
   for (const auto& path : outcome.written) out["written"].push_back(path.string());

@@ -97,6 +97,7 @@ TEST_F(RunMotionMeasures, IntervalsOfAnIkMotionAndItsFiles) {
   const auto json = motion_measures_json(*outcome);
   EXPECT_EQ(json["measures"].size(), 3u);
   EXPECT_EQ(json["inputs"][0]["role"], "model");
+  EXPECT_EQ(json["inputs"][0]["hash_kind"], "XXH3-64") << "as run files read it";
 }
 
 TEST_F(RunMotionMeasures, TorquesGiveWorkAndRegionsAreRows) {

@@ -12,10 +12,10 @@
 #include "kinemark/core/random.h"
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "support/scratch.h"
 
@@ -184,7 +184,7 @@ TEST_F(RunClean, FailuresLeaveNothingBehind) {
 }
 
 TEST_F(RunClean, EditsComeFirstAndAreInTheRecord) {
-  auto journal = io::EditJournal::open(at("in_edits.jsonl"), identify_recording(at("in.c3d")).value());
+  auto journal = io::EditJournal::open(at("in_edits.jsonl"), io::identify_recording(at("in.c3d")).value());
   ASSERT_TRUE(journal) << journal.error().message;
   ASSERT_TRUE(journal->append({.kind = data::EditKind::relabel, .marker = "HEAD", .other = "TOP"}));
   ASSERT_TRUE(

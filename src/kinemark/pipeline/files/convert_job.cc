@@ -161,7 +161,7 @@ Result<Recording> read_prepared(const ConvertJob& job, const std::vector<std::fi
   auto recording = read_merged(job, files);
   if (!recording) return recording;
   RecordingOptions rest = job;
-  rest.edits = kEditsNone;
+  rest.edits = io::kEditsNone;
   auto notes = std::exchange(recording->notes, {});
   if (auto s = prepare_recording({.path = job.in}, rest, *recording); !s) return std::unexpected(s.error());
   auto& trial = recording->trial;

@@ -15,8 +15,8 @@
 
 #include "kinemark/core/number.h"
 #include "kinemark/io/edits/edit_line.h"
-#include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/io/input/journal_input.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 
@@ -110,12 +110,12 @@ Result<std::vector<data::Edit>> find_exchange_edits(const EditJob& job, const da
 
 Result<EditOutcome> run_edit(const EditJob& job) {
   EditOutcome outcome;
-  outcome.journal = job.edits.empty() ? edits_of(job.input) : job.edits;
-  const auto recording = identify_recording(job.input);
+  outcome.journal = job.edits.empty() ? io::edits_of(job.input) : job.edits;
+  const auto recording = io::identify_recording(job.input);
   if (!recording) return std::unexpected(recording.error());
-  auto read = read_edits_of(outcome.journal, *recording, job.force);
+  auto read = io::read_edits_of(outcome.journal, *recording, job.force);
   if (!read) return std::unexpected(read.error());
-  auto input = read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .unit = job.unit});
+  auto input = io::read_marker_input({.path = job.input, .rate_hz = job.rate_hz, .unit = job.unit});
   if (!input) return std::unexpected(input.error());
   outcome.list = std::move(read->list);
   outcome.warnings = std::move(read->notes);
@@ -151,7 +151,7 @@ Result<EditOutcome> run_edit(const EditJob& job) {
   if (more.empty()) return outcome;
   // Tried: now it is made.
   for (std::size_t i = 0; i < more.size(); ++i) {
-    auto list = append_edit(outcome.journal, *recording, before + i, std::move(more[i]), job.force);
+    auto list = io::append_edit(outcome.journal, *recording, before + i, std::move(more[i]), job.force);
     if (!list) return std::unexpected(list.error());
     outcome.list = std::move(*list);
     ++outcome.appended;

@@ -18,7 +18,7 @@ namespace kinemark::pipeline {
 /// What `kinemark edit` is asked to do. `force` takes a journal of another recording too.
 struct EditJob : JobSettings {
   std::filesystem::path input;     ///< recording, which is only read
-  std::filesystem::path edits;     ///< its journal; empty: edits_of(input)
+  std::filesystem::path edits;     ///< its journal; empty: io::edits_of(input)
   double rate_hz = 0.0;            ///< of a recording that tells none; 0: not given
   std::string unit;                ///< of coordinates, of a table that states none; empty: not given
   std::optional<data::Edit> edit;  ///< to append; none: only look
@@ -42,7 +42,8 @@ struct EditOutcome : JobOutcome {
 
 /// Append an edit, after it was tried with those before it: what cannot be applied is refused and the journal
 /// stays as it was. When this returns the edit is on the disk. Without `edit` nothing is written. Fails as
-/// read_marker_input(), take_edits() and io::EditJournal; Code::usage for ends that are no frame and no time.
+/// io::read_marker_input(), take_edits() and io::EditJournal; Code::usage for ends that are no frame and no
+/// time.
 [[nodiscard]] Result<EditOutcome> run_edit(const EditJob& job);
 
 /// The time, for Edit::made: "2026-11-24T09:30:00Z".

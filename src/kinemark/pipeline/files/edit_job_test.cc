@@ -10,8 +10,8 @@
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/stages/trajectory/edits/testing/edited.h"
 #include "support/scratch.h"
 

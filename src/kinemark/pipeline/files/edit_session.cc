@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kinemark/io/edits/edit_line.h"
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/io/input/journal_input.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -38,11 +38,11 @@ Result<EditSession> EditSession::open(const std::filesystem::path& recording,
                                       const EditSessionOptions& options) {
   EditSession session;
   session.options_ = options;
-  session.journal_ = edits_of(recording);
-  auto identity = identify_recording(recording);
+  session.journal_ = io::edits_of(recording);
+  auto identity = io::identify_recording(recording);
   if (!identity) return std::unexpected(identity.error());
   session.identity_ = std::move(*identity);
-  auto input = read_marker_input({.path = recording, .rate = RateRule::or_unknown, .record = true});
+  auto input = io::read_marker_input({.path = recording, .rate = io::RateRule::or_unknown, .record = true});
   if (!input) return std::unexpected(input.error());
   if (!input->rate_known)
     return fail(Code::bad_input,
@@ -83,7 +83,7 @@ void EditSession::take(data::EditList list, StateIs state) {
 }
 
 Status EditSession::refresh() {
-  auto read = read_edits_of(journal_, identity_);
+  auto read = io::read_edits_of(journal_, identity_);
   if (!read) return std::unexpected(read.error());
   auto in_force = read->list.edits_in_force();
   if (!in_force) return fail_at(journal_.string(), in_force.error());
@@ -104,7 +104,7 @@ Result<bool> EditSession::append(data::Edit edit, std::size_t expected) {
   if (!in_force) return std::unexpected(in_force.error());
   auto state = state_of(std::move(*in_force));
   if (!state) return std::unexpected(state.error());
-  auto list = append_edit(journal_, identity_, expected, std::move(edit));
+  auto list = io::append_edit(journal_, identity_, expected, std::move(edit));
   if (!list) return std::unexpected(list.error());
   take(std::move(*list), std::move(*state));
   return true;

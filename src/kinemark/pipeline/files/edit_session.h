@@ -15,8 +15,8 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/edit.h"
 #include "kinemark/data/trial.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/pipeline/files/edit_job.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 #include "kinemark/stages/trajectory/edits/edit_changes.h"
 
@@ -35,8 +35,9 @@ struct EditSessionOptions {
 /// several threads at once.
 class EditSession {
  public:
-  /// Read a recording and its journal, if it has one, and apply it. Fails as read_marker_input(),
-  /// read_edits_of() and trajectory::apply_edits(); Code::bad_input for a recording that tells no frame rate.
+  /// Read a recording and its journal, if it has one, and apply it. Fails as io::read_marker_input(),
+  /// io::read_edits_of() and trajectory::apply_edits(); Code::bad_input for a recording that tells no frame
+  /// rate.
   [[nodiscard]] static Result<EditSession> open(const std::filesystem::path& recording,
                                                 const EditSessionOptions& options = {});
 
@@ -44,10 +45,11 @@ class EditSession {
   [[nodiscard]] Status refresh();
   /// Try an operation on what is there, and append it to the journal: it is on the disk when this returns
   /// true. False: the journal holds another number of operations than `expected`, and nothing was written.
-  /// Fails as Edit::check(), trajectory::apply_edits() and append_edit(); nothing was written then either.
+  /// Fails as Edit::check(), trajectory::apply_edits() and io::append_edit(); nothing was written then
+  /// either.
   [[nodiscard]] Result<bool> append(data::Edit edit, std::size_t expected);
 
-  [[nodiscard]] const MarkerInput& recorded() const { return recorded_; }      ///< as it was read
+  [[nodiscard]] const io::MarkerInput& recorded() const { return recorded_; }  ///< as it was read
   [[nodiscard]] const data::Trial& now() const { return now_->edited.trial; }  ///< with the edits in force
   [[nodiscard]] EditOutcome outcome() const;                                   ///< what is in the journal
   /// How the recording differs from what it was before the last operation that came here; empty before one.
@@ -71,7 +73,7 @@ class EditSession {
 
   std::filesystem::path journal_;
   EditSessionOptions options_;
-  MarkerInput recorded_;
+  io::MarkerInput recorded_;
   data::EditedRecording identity_;
   data::EditList list_;
   std::vector<std::string> notes_;

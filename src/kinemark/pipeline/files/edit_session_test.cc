@@ -10,7 +10,7 @@
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/stages/trajectory/edits/testing/edited.h"
 #include "support/scratch.h"
 
@@ -40,8 +40,8 @@ class EditSessionTest : public ::testing::Test {
   }
   /// What the edits make of the recording when all is read anew.
   [[nodiscard]] std::size_t anew() const {
-    data::Recording read{.trial = read_marker_input({.path = recording_}).value().trial};
-    EXPECT_TRUE(take_edits({.edits = kEditsBeside, .recording = recording_}, read));
+    data::Recording read{.trial = io::read_marker_input({.path = recording_}).value().trial};
+    EXPECT_TRUE(take_edits({.edits = io::kEditsBeside, .recording = recording_}, read));
     return digest(read.trial);
   }
   /// Of all bytes, as a failure would print them.

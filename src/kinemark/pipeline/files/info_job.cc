@@ -54,7 +54,8 @@ std::string describe_up(const InfoJob& job, const data::Trial& trial) {
 }
 
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
-  auto recording = open_recording({.path = job.file, .rate = RateRule::or_unknown, .force = job.force}, job);
+  auto recording =
+      open_recording({.path = job.file, .rate = io::RateRule::or_unknown, .force = job.force}, job);
   if (!recording) return std::unexpected(recording.error());
   auto& trial = recording->trial;
   out.warnings = trial.warnings;

@@ -126,7 +126,7 @@ void run_trial(const ManyJob& job, TrialOutcome& trial) {
   JobSettings settings = job;
   settings.progress = {};
   for (const auto& input : job.inputs)
-    std::ranges::move(files_of(input, {}), std::back_inserter(settings.kept));
+    std::ranges::move(pipeline::files_of(input, {}), std::back_inserter(settings.kept));
   settings.threads = std::max(1, thread_count(job.threads) / thread_count(job.jobs));
   settings.force = job.force || (presence == Presence::part && is_ours(made));
   const auto begin = std::chrono::steady_clock::now();

@@ -6,8 +6,8 @@
 
 #include <utility>
 
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/pipeline/files/file_hash.h"
 
 namespace kinemark::pipeline {
 
@@ -19,7 +19,7 @@ Result<ModelInput> read_model_input(const std::filesystem::path& path) {
                                              path.string(), description->name));
   auto model = model::Model::compile(std::move(*description));
   if (!model) return fail_at(path.string(), model.error());
-  auto file = record_input("model", path);
+  auto file = io::record_input("model", path);
   if (!file) return std::unexpected(file.error());
   return ModelInput{.model = std::move(*model), .file = std::move(*file)};
 }

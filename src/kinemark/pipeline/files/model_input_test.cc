@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/osim/osim_writer.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "support/scratch.h"
 
@@ -23,7 +23,7 @@ TEST(ReadModelInput, IsReadyToMoveAndOnRecord) {
   EXPECT_EQ(input->model.description().markers.size(), 40U);
   EXPECT_EQ(input->file.role, "model");
   EXPECT_EQ(input->file.path, (scratch / "human.osim").string());
-  EXPECT_EQ(input->file.hash, hash_file(scratch / "human.osim").value().hex);
+  EXPECT_EQ(input->file.hash, io::hash_file(scratch / "human.osim").value().hex);
 }
 
 TEST(ReadModelInput, WithoutMarkersItIsOfNoUse) {

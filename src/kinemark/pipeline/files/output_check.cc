@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "kinemark/core/text.h"
-#include "kinemark/io/place.h"
 #include "kinemark/pipeline/files/input_list.h"
 
 namespace kinemark::pipeline {
@@ -46,18 +45,6 @@ Status check_folder(const fs::path& output, std::string_view what) {
   if (std::ranges::find(files, ending) == files.end() || fs::is_directory(output, absent)) return {};
   return fail(Code::usage, fmt::format("{}: {} written into a folder; '{}' is the ending of a file",
                                        output.string(), what, ending));
-}
-
-Status check_below(const fs::path& setup, const fs::path& output, std::string_view element) {
-  std::error_code ignored;
-  const auto folder = fs::weakly_canonical(fs::absolute(setup, ignored).parent_path(), ignored);
-  // With force a link as output is followed; it may not lead elsewhere either.
-  const auto target = io::find_target(output, true).value_or(output);
-  const auto file = fs::weakly_canonical(fs::absolute(target, ignored), ignored);
-  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end()) return {};
-  return fail(Code::usage,
-              fmt::format("{}: <{}> is {}, which lies outside the setup's own folder; give --output",
-                          setup.string(), element, output.string()));
 }
 
 }  // namespace kinemark::pipeline

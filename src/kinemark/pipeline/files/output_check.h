@@ -31,10 +31,4 @@ namespace kinemark::pipeline {
 /// that name is there. Empty: nothing is written.
 [[nodiscard]] Status check_folder(const std::filesystem::path& output, std::string_view what);
 
-/// A setup may come from anywhere, so what it names as output must lie in its own folder or below:
-/// Code::usage otherwise. Links are followed. @param element  of the setup that names `output`:
-/// "output_motion_file"
-[[nodiscard]] Status check_below(const std::filesystem::path& setup, const std::filesystem::path& output,
-                                 std::string_view element);
-
 }  // namespace kinemark::pipeline

@@ -4,18 +4,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "kinemark/core/counted.h"
 #include "kinemark/core/length_unit.h"
-#include "kinemark/io/animation/amc.h"
-#include "kinemark/io/bids/motion_name.h"
-#include "kinemark/io/plates/plate_forces.h"
-#include "kinemark/pipeline/files/external_forces.h"
-#include "kinemark/pipeline/files/file_hash.h"
-#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark::pipeline {
@@ -23,52 +17,23 @@ namespace {
 
 /// No journal is named: that beside the recording, or none.
 bool names_no_journal(const std::filesystem::path& edits) {
-  return edits.empty() || edits == kEditsBeside || edits == kEditsNone;
+  return edits.empty() || edits == io::kEditsBeside || edits == io::kEditsNone;
 }
 
-Status apply_journal(const RecordingSource& source, const RecordingOptions& options, Recording& recording) {
-  auto journal = take_edits({.edits = options.edits,
-                             .recording = source.path,
-                             .force = source.force,
-                             .seed = source.seed,
-                             .threads = source.threads},
-                            recording);
-  if (!journal && options.edits == kEditsBeside)
-    return fail(journal.error().code,
-                fmt::format("{}; --edits none passes the journal over", journal.error().message));
-  if (!journal) return std::unexpected(journal.error());
-  recording.journal = std::move(*journal);
-  return {};
-}
-
-/// Forces of a file of their own, on the recording's frames.
-Status take_forces(const RecordingSource& source, Recording& recording) {
-  auto forces = read_external_forces(source.forces, recording.trial.markers.time, source.contact_force_n);
-  if (!forces) return std::unexpected(forces.error());
-  for (const auto& file : forces->files) {
-    auto input = record_input("forces", file);
-    if (!input) return std::unexpected(input.error());
-    recording.forces.push_back(std::move(*input));
+Status apply_journal(const io::Journal& journal, std::uint64_t seed, int threads,
+                     data::Recording& recording) {
+  auto& notes = recording.notes;
+  const auto own = std::ssize(notes);
+  if (journal.file) {
+    const auto& name = journal.file->path;
+    if (auto s = workflow::apply_edits(recording, journal.in_force, seed, threads); !s)
+      return std::unexpected(journal.failure(s.error()));
+    for (auto note = notes.begin() + own; note != notes.end(); ++note)
+      *note = fmt::format("{}: {}", name, *note);
+    notes.push_back(fmt::format("{} of {} {} applied", counted(std::ssize(journal.in_force), "edit"), name,
+                                journal.in_force.size() == 1 ? "was" : "were"));
   }
-  for (const auto& warning : forces->warnings)
-    recording.notes.push_back(fmt::format("{}: {}", source.forces.string(), warning));
-  recording.notes.push_back(fmt::format("forces are those of {}", source.forces.string()));
-  recording.plates = std::move(forces->wrenches);
-  return {};
-}
-
-/// Forces of all that was recorded, whatever of it is selected.
-Status find_plates(const RecordingSource& source, Recording& recording) {
-  if (!source.plates) return {};
-  if (!source.forces.empty()) return take_forces(source, recording);
-  if (recording.trial.force_plates.empty()) return {};
-  auto forces = io::plate_forces(recording.trial, {.contact_force_n = source.contact_force_n});
-  if (!forces) {
-    recording.plates_fault = forces.error().message;
-    return {};
-  }
-  recording.plates = std::move(forces->wrenches);
-  std::ranges::move(forces->warnings, std::back_inserter(recording.notes));
+  notes.insert(notes.begin() + own, journal.notes.begin(), journal.notes.end());
   return {};
 }
 
@@ -98,25 +63,21 @@ Status RecordingOptions::check() const {
 
 Result<Recording> read_recording(const RecordingSource& source, const RecordingOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
-  auto input = read_marker_input({.path = source.path,
-                                  .rate_hz = options.rate_hz,
-                                  .rate = source.rate,
-                                  .unit = options.unit,
-                                  .skeleton = source.skeleton,
-                                  .needs_samples = source.needs_samples,
-                                  .record = source.record});
-  if (!input) return std::unexpected(input.error());
-  Recording recording;
-  recording.trial = std::move(input->trial);
-  recording.file = std::move(input->file);
-  recording.rate_known = input->rate_known;
-  if (auto s = find_plates(source, recording); !s) return std::unexpected(s.error());
-  return recording;
+  return io::read_recording(
+      {.path = source.path,
+       .rate_hz = options.rate_hz,
+       .rate = source.rate,
+       .unit = options.unit,
+       .skeleton = source.skeleton,
+       .needs_samples = source.needs_samples,
+       .record = source.record},
+      {.wanted = source.plates, .file = source.forces, .contact_force_n = source.contact_force_n},
+      options.edits, source.force);
 }
 
 Status prepare_recording(const RecordingSource& source, const RecordingOptions& options,
                          Recording& recording) {
-  if (auto s = apply_journal(source, options, recording); !s) return s;
+  if (auto s = apply_journal(recording.journal, source.seed, source.threads, recording); !s) return s;
   const workflow::PrepareOptions asked{
       .selection = options.selection,
       .axes = source.turns ? options.axes : workflow::AxesChoice{},
@@ -134,18 +95,28 @@ Result<Recording> open_recording(const RecordingSource& source, const RecordingO
   return recording;
 }
 
+Result<io::Journal> take_edits(const io::EditsSource& source, data::Recording& recording, std::uint64_t seed,
+                               int threads) {
+  auto journal = io::read_journal(source);
+  if (!journal) return journal;
+  if (auto s = apply_journal(*journal, seed, threads, recording); !s) return std::unexpected(s.error());
+  return journal;
+}
+
+std::vector<std::pair<std::string, std::string>> edit_options(const data::EditsInForce& edits,
+                                                              const io::Journal& journal) {
+  std::vector<std::pair<std::string, std::string>> options;
+  if (!journal.file) return options;
+  options.emplace_back("edits in force", fmt::format("{}, XXH3-64 {}", edits.in_force, journal.digest));
+  for (const auto& region : edits.regions)
+    options.emplace_back(fmt::format("region '{}'", region.name),
+                         fmt::format("frames {} to {}", region.first_frame, region.last_frame));
+  return options;
+}
+
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
                                             const RecordingOptions& options) {
-  std::vector<std::filesystem::path> files{recording};
-  if (ending_of(recording) == ".amc") files.push_back(io::skeleton_beside(recording));
-  if (io::is_motion_tsv(recording))
-    for (const char* ending : {"channels.tsv", "motion.json"})
-      if (auto found = io::find_sidecar(recording, ending)) files.push_back(std::move(*found));
-  if (options.edits == kEditsBeside)
-    files.push_back(edits_of(recording));
-  else if (!names_no_journal(options.edits))
-    files.push_back(options.edits);
-  return files;
+  return io::files_of(recording, options.edits);
 }
 
 Status check_for_several(const RecordingOptions& options) {

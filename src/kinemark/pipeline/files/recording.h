@@ -15,9 +15,8 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/recording.h"
-#include "kinemark/data/run_record.h"
-#include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/io/input/journal_input.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/workflow/prepare/prepare.h"
 
 namespace kinemark::pipeline {
@@ -36,11 +35,11 @@ enum class Doubtful : std::uint8_t {
 struct RecordingOptions {
   double rate_hz = 0.0;  ///< of a file that tells none; any other refuses it; 0: not given
   std::string unit;  ///< of coordinates, of a table that states none; any other refuses it; empty: not given
-  std::filesystem::path edits = kEditsBeside;  ///< journal applied first; "beside": the recording's own,
-                                               ///< where there is one; "none" or empty: none
-  workflow::Selection selection;               ///< markers, names, frames
-  workflow::AxesChoice axes;                   ///< which way is up, or a rotation
-  std::optional<Doubtful> doubtful;            ///< none: as the job does by itself
+  std::filesystem::path edits = io::kEditsBeside;  ///< journal applied first; "beside": the recording's own,
+                                                   ///< where there is one; "none" or empty: none
+  workflow::Selection selection;                   ///< markers, names, frames
+  workflow::AxesChoice axes;                       ///< which way is up, or a rotation
+  std::optional<Doubtful> doubtful;                ///< none: as the job does by itself
 
   /// Whether doubtful samples are left out, by a job that does so by itself or does not.
   [[nodiscard]] bool drops_doubtful(bool by_itself) const {
@@ -54,29 +53,25 @@ struct RecordingOptions {
 
 /// A recording to open, and what a job needs of it.
 struct RecordingSource {
-  std::filesystem::path path;           ///< any marker file
-  std::filesystem::path skeleton = {};  ///< .asf of an .amc; empty: the one beside it
-  RateRule rate = RateRule::given;      ///< what becomes of the rate that is given
-  bool needs_samples = false;           ///< refuse a file without markers or without frames
-  bool record = false;                  ///< size and checksum, which reads the file once more
-  bool plates = false;                  ///< forces of its plates are wanted
-  double contact_force_n = 0.0;         ///< below which a plate is empty (io::PlateOptions); 0: never
-  std::filesystem::path forces = {};    ///< file that holds them instead; empty: its own plates
-  bool turns = true;                    ///< false: the job itself turns it, into the axes of a model
-  bool force = false;                   ///< apply edits of another recording too
-  std::uint64_t seed = 1;               ///< of fills among the edits
-  int threads = 1;                      ///< 0: all cores. Any number gives the same bits.
+  std::filesystem::path path;               ///< any marker file
+  std::filesystem::path skeleton = {};      ///< .asf of an .amc; empty: the one beside it
+  io::RateRule rate = io::RateRule::given;  ///< what becomes of the rate that is given
+  bool needs_samples = false;               ///< refuse a file without markers or without frames
+  bool record = false;                      ///< size and checksum, which reads the file once more
+  bool plates = false;                      ///< forces of its plates are wanted
+  double contact_force_n = 0.0;             ///< below which a plate is empty (io::PlateOptions); 0: never
+  std::filesystem::path forces = {};        ///< file that holds them instead; empty: its own plates
+  bool turns = true;                        ///< false: the job itself turns it, into the axes of a model
+  bool force = false;                       ///< apply edits of another recording too
+  std::uint64_t seed = 1;                   ///< of fills among the edits
+  int threads = 1;                          ///< 0: all cores. Any number gives the same bits.
 };
 
 /// A recording as it is to be used, and the files that it is of.
-struct Recording : data::Recording {
-  data::InputFile file;                 ///< role "markers"; bytes and hash only when asked for
-  std::vector<data::InputFile> forces;  ///< files of RecordingSource::forces, role "forces"
-  UsedJournal journal;                  ///< whose edits were applied
-};
+using Recording = io::RecordingInput;
 
-/// The recording as its file has it: the first half of open_recording(), for jobs that do something in
-/// between. Code::usage as RecordingOptions::check(); else as read_marker_input().
+/// The recording as its files have it: the first half of open_recording(), for jobs that do something in
+/// between. Code::usage as RecordingOptions::check(); else as io::read_recording().
 [[nodiscard]] Result<Recording> read_recording(const RecordingSource& source,
                                                const RecordingOptions& options);
 
@@ -89,8 +84,19 @@ struct Recording : data::Recording {
 [[nodiscard]] Result<Recording> open_recording(const RecordingSource& source,
                                                const RecordingOptions& options);
 
-/// The files that opening a recording reads: its own, the skeleton of an .amc, the sidecars of a _motion.tsv,
-/// and the journal, whether it is there or not.
+/// Apply a journal to a recording, whose edits and notes say what was done. Fails as io::read_journal() and
+/// workflow::apply_edits(), naming journal and line; the recording is then as it was.
+/// @param seed     of fills
+/// @param threads  0: all cores. Any number gives the same bits.
+[[nodiscard]] Result<io::Journal> take_edits(const io::EditsSource& source, data::Recording& recording,
+                                             std::uint64_t seed = 1, int threads = 1);
+
+/// The same as options of a run's record: how many are in force and what they come to, and the regions; none
+/// where there was no journal.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> edit_options(const data::EditsInForce& edits,
+                                                                            const io::Journal& journal);
+
+/// The files that opening a recording reads, as io::files_of().
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const std::filesystem::path& recording,
                                                           const RecordingOptions& options);
 

@@ -33,7 +33,7 @@ class RecordingTest : public ::testing::Test {
     trial_ = io::read_markers(path_).value();
   }
   void append(const Edit& edit) {
-    auto journal = io::EditJournal::open(edits_of(path_), identify_recording(path_).value());
+    auto journal = io::EditJournal::open(io::edits_of(path_), io::identify_recording(path_).value());
     ASSERT_TRUE(journal) << journal.error().message;
     ASSERT_TRUE(journal->append(edit));
   }
@@ -103,10 +103,10 @@ TEST_F(RecordingTest, AJournalOfAnotherRecordingIsRefusedWithTheWayOut) {
   const auto refused = open();
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("--edits none passes the journal over"));
-  const auto named = open({.edits = edits_of(path_)});
+  const auto named = open({.edits = io::edits_of(path_)});
   ASSERT_FALSE(named);
   EXPECT_THAT(named.error().message, Not(HasSubstr("--edits none")));
-  EXPECT_TRUE(open({.edits = kEditsNone}));
+  EXPECT_TRUE(open({.edits = io::kEditsNone}));
 }
 
 TEST_F(RecordingTest, AJournalThatNamesAnotherFileIsLeftToIt) {
@@ -118,7 +118,7 @@ TEST_F(RecordingTest, AJournalThatNamesAnotherFileIsLeftToIt) {
   EXPECT_THAT(other->notes, ElementsAre(HasSubstr("walk_edits.jsonl is of 'walk.c3d' and is not applied")));
   EXPECT_THAT(open()->notes, Not(Contains(HasSubstr("' and is not applied"))));
   // By name it is asked for, and refused.
-  EXPECT_FALSE(open_recording({.path = scratch_ / "walk.trc"}, {.edits = edits_of(path_)}));
+  EXPECT_FALSE(open_recording({.path = scratch_ / "walk.trc"}, {.edits = io::edits_of(path_)}));
 }
 
 TEST_F(RecordingTest, EditsComeBeforeNamesAndFramesAndTheseBeforeTheRotation) {
@@ -205,29 +205,29 @@ TEST(RecordingOptions, SayWhatBecomesOfDoubtfulSamples) {
   EXPECT_FALSE(RecordingOptions{}.drops_doubtful(false));
   EXPECT_FALSE(RecordingOptions{.doubtful = Doubtful::keep}.drops_doubtful(true));
   EXPECT_TRUE(RecordingOptions{}.empty());
-  EXPECT_TRUE(RecordingOptions{.edits = kEditsNone}.empty());
+  EXPECT_TRUE(RecordingOptions{.edits = io::kEditsNone}.empty());
   EXPECT_FALSE(RecordingOptions{.edits = "b.jsonl"}.empty());
 }
 
 TEST(RecordingOptions, NameTheFilesThatAreRead) {
   EXPECT_THAT(files_of("a/walk.c3d", {}), ElementsAre("a/walk.c3d", "a/walk_edits.jsonl"));
-  EXPECT_THAT(files_of("a/walk.c3d", {.edits = kEditsNone}), ElementsAre("a/walk.c3d"));
+  EXPECT_THAT(files_of("a/walk.c3d", {.edits = io::kEditsNone}), ElementsAre("a/walk.c3d"));
   EXPECT_THAT(files_of("a/walk.c3d", {.edits = "b.jsonl"}), ElementsAre("a/walk.c3d", "b.jsonl"));
   const testing_support::ScratchFolder scratch;
   for (const char* name : {"01.asf", "01_02.amc", "sub-1_task-w_tracksys-o_channels.tsv",
                            "sub-1_task-w_tracksys-o_motion.json", "sub-1_task-w_tracksys-o_motion.tsv"})
     ASSERT_TRUE(io::write_text(scratch / name, "x", false));
-  EXPECT_THAT(files_of(scratch / "01_02.amc", {.edits = kEditsNone}),
+  EXPECT_THAT(files_of(scratch / "01_02.amc", {.edits = io::kEditsNone}),
               ElementsAre(scratch / "01_02.amc", scratch / "01.asf"));
   const auto motion = scratch / "sub-1_task-w_tracksys-o_motion.tsv";
-  EXPECT_THAT(files_of(motion, {.edits = kEditsNone}),
+  EXPECT_THAT(files_of(motion, {.edits = io::kEditsNone}),
               ElementsAre(motion, scratch / "sub-1_task-w_tracksys-o_channels.tsv",
                           scratch / "sub-1_task-w_tracksys-o_motion.json"));
 }
 
 TEST(RecordingOptions, AJournalIsOfOneRecording) {
   EXPECT_TRUE(check_for_several({}));
-  EXPECT_TRUE(check_for_several({.edits = kEditsNone}));
+  EXPECT_TRUE(check_for_several({.edits = io::kEditsNone}));
   EXPECT_THAT(check_for_several({.edits = "b.jsonl"}).error().message,
               HasSubstr("--edits: b.jsonl is of one recording; need 'beside' or 'none' with several"));
 }

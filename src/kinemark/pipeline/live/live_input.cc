@@ -14,8 +14,8 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/core/version.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/rate.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/pipeline/simulate/human_model.h"
@@ -123,8 +123,8 @@ Result<LiveInput> open_replay(std::string_view argument, const fs::path& model_f
   if (file.empty()) return fail(Code::usage, "replay: names no file; need replay:FILE");
   const fs::path path(file);
   const double rate_hz = settings[0].value;
-  auto input = read_marker_input(
-      {.path = path, .rate_hz = rate_hz, .rate = RateRule::where_needed, .needs_samples = true});
+  auto input = io::read_marker_input(
+      {.path = path, .rate_hz = rate_hz, .rate = io::RateRule::where_needed, .needs_samples = true});
   if (!input) return std::unexpected(input.error());
   LiveInput out{.title = printable(path.filename().string(), 200), .file = path};
   if (!model_file.empty()) {

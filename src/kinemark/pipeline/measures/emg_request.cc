@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/pipeline/files/job_settings.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/table_cell.h"
 #include "kinemark/stages/analysis/gait/cycle_curves.h"
 
@@ -37,7 +37,6 @@ std::string side_of_channel(const std::string& name) {
 }  // namespace
 
 Status EmgRequest::check() const {
-  if (auto s = envelope.check(); !s) return s;
   const auto ending = ending_of(write);
   if (!write.empty() && ending != ".sto" && ending != ".csv")
     return fail(Code::usage, fmt::format("{}: envelopes are written as .sto or .csv", write.string()));
@@ -50,7 +49,7 @@ Result<workflow::EmgChoice> emg_choice(const EmgRequest& request) {
   workflow::EmgChoice out{
       .channels = request.channels, .envelope = request.envelope, .to_maximum = request.maximum == "trial"};
   if (request.maximum.empty() || out.to_maximum) return out;
-  auto input = read_marker_input({.path = request.maximum});
+  auto input = io::read_marker_input({.path = request.maximum});
   if (!input) return std::unexpected(input.error());
   out.maximum = std::make_shared<const data::Trial>(std::move(input->trial));
   out.maximum_name = request.maximum;

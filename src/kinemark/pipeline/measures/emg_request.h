@@ -29,7 +29,7 @@ struct EmgRequest {
   [[nodiscard]] bool wanted() const {
     return !channels.empty() || !maximum.empty() || !write.empty() || !write_cycles.empty();
   }
-  /// Endings and bands: Code::usage.
+  /// Endings: Code::usage.
   [[nodiscard]] Status check() const;
 };
 

@@ -45,7 +45,6 @@ TEST(EmgRequest, RefusesInOneSentence) {
   EXPECT_FALSE(EmgRequest{}.wanted());
   EXPECT_THAT((EmgRequest{.write = "a.txt"}.check().error().message), HasSubstr("written as .sto or .csv"));
   EXPECT_THAT((EmgRequest{.write_cycles = "a.sto"}.check().error().message), HasSubstr("written as .csv"));
-  EXPECT_EQ((EmgRequest{.envelope = {.low_pass_hz = 5.0}}.check().error().code), Code::usage);
   EXPECT_EQ(emg_choice({.maximum = "/nowhere.c3d"}).error().code, Code::io);
   EXPECT_FALSE(emg_choice({}).value().to_maximum);
 }

@@ -4,55 +4,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include "kinemark/core/nearest_name.h"
-#include "kinemark/core/text.h"
-#include "kinemark/stages/analysis/body/body_definitions.h"
-#include "kinemark/stages/analysis/gait/spatiotemporal.h"
-#include "kinemark/stages/analysis/path/definitions.h"
-#include "kinemark/stages/analysis/path/path_rhythm.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-Status unknown_measure(const std::string& id) {
-  if (analysis::find_body_definition(id) != nullptr)
-    return fail(Code::usage,
-                fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
-                            "a .mot or .sto with --model",
-                            id));
-  std::vector<std::string> known{"gait", "plates", "emg"};
-  for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::rhythm_definitions()) known.emplace_back(definition.id);
-  for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::force_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::emg_definitions()) known.emplace_back(definition.id);
-  const auto nearest = nearest_names(id, known);
-  return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
-                                       nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
-}
-
-/// The command for measures of this kind.
-const char* command_of(workflow::MeasuresOf of) {
-  return of == workflow::MeasuresOf::walking   ? "gait"
-         : of == workflow::MeasuresOf::muscles ? "emg"
-                                               : "measure";
-}
-
-Status check_kinds(const MeasuresJob& job) {
-  for (const auto& id : job.measures) {
-    const auto kind = workflow::measures_of(id);
-    if (!kind) return unknown_measure(id);
-    if (job.of != workflow::MeasuresOf::everything && job.of != *kind)
-      return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
-                                           command_of(job.of), command_of(*kind)));
-  }
-  return {};
-}
 
 /// What is asked of walking and of cycles fits what the command is about.
 Status check_walking(const MeasuresJob& job) {
@@ -61,7 +16,7 @@ Status check_walking(const MeasuresJob& job) {
     return fail(
         Code::usage,
         fmt::format("--events movement is none of 'kinemark {}'; 'kinemark measure' takes the markers' own",
-                    command_of(job.of)));
+                    workflow::command_of(job.of)));
   if (job.of == workflow::MeasuresOf::muscles && job.gait.wanted() && job.emg.write_cycles.empty())
     return fail(Code::usage, fmt::format("--{} is of walking, over whose cycles nothing is written; need "
                                          "--write-cycles FILE.csv too",
@@ -76,7 +31,6 @@ Result<workflow::MeasureOptions> measure_options(const MeasuresJob& job) {
   auto gait = gait_options(job.gait, drawn);
   if (!gait) return std::unexpected(gait.error());
   if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
-  if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
   if (auto s = check_walking(job); !s) return std::unexpected(s.error());
   workflow::MeasureOptions out;
   static_cast<workflow::MeasureChoice&>(out) = job;

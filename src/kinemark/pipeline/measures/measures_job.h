@@ -29,7 +29,8 @@ namespace kinemark::pipeline {
 struct MeasuresJob : JobSettings, RecordingOptions, workflow::MeasureChoice, GaitOutputs {
   std::filesystem::path input;   ///< marker file
   std::filesystem::path output;  ///< .csv, .json or .nwb
-  std::filesystem::path forces;  ///< read_external_forces() instead of the recording's plates; empty: these
+  std::filesystem::path
+      forces;  ///< io::read_external_forces() instead of the recording's plates; empty: these
   workflow::MeasuresOf of = workflow::MeasuresOf::everything;  ///< measures of others are refused
   double noise_sd_m = 0.0;                                     ///< per axis; 0: found from the samples
   EmgRequest emg;                                              ///< electromyograms

@@ -9,8 +9,8 @@
 
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
 #include "kinemark/stages/analysis/path/testing/known_path.h"
 #include "support/scratch.h"
@@ -79,11 +79,11 @@ TEST_F(MeasuresJobTest, RegionsComeFromOptionsEventsAndTheJournal) {
   job_.measures = {"path_length"};
   job_.regions = {"half=60-109"};
   job_.between = {"Turn"};
-  auto journal = io::EditJournal::open(edits_of(recording_), identify_recording(recording_).value());
+  auto journal = io::EditJournal::open(io::edits_of(recording_), io::identify_recording(recording_).value());
   ASSERT_TRUE(journal);
   ASSERT_TRUE(journal->append(
       {.kind = data::EditKind::region, .first_frame = 100, .last_frame = 199, .name = "signed"}));
-  job_.edits = kEditsBeside;
+  job_.edits = io::kEditsBeside;
   const auto outcome = run_measures(job_);
   ASSERT_TRUE(outcome) << outcome.error().message;
   std::vector<std::string> regions;

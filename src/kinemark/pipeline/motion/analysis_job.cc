@@ -13,8 +13,8 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/version.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
@@ -22,6 +22,7 @@
 #include "kinemark/pipeline/motion/analysis_tables.h"
 #include "kinemark/pipeline/motion/given_motion.h"
 #include "kinemark/pipeline/motion/internal/analysis_plan.h"
+#include "kinemark/stages/report/inputs_json.h"
 #include "kinemark/workflow/motion/dynamics.h"
 
 namespace kinemark::pipeline {
@@ -141,13 +142,7 @@ nlohmann::ordered_json record_of(const AnalysisJob& job, const AnalysisOutcome& 
   json["schema"] = "kinemark.analysis";
   json["version"] = std::string(kVersion);
   json["command"] = job.command_line;
-  json["inputs"] = nlohmann::ordered_json::array();
-  for (const auto& input : out.inputs)
-    json["inputs"].push_back({{"role", input.role},
-                              {"path", input.path},
-                              {"bytes", input.bytes},
-                              {"hash", input.hash},
-                              {"hash_kind", input.hash_kind}});
+  json["inputs"] = report::inputs_json(out.inputs);
   json["rows"] = out.time.frames;
   json["rate_hz"] = out.time.rate_hz;
   json["start_s"] = out.time.t0_s;
@@ -159,7 +154,7 @@ nlohmann::ordered_json record_of(const AnalysisJob& job, const AnalysisOutcome& 
 
 Status add_input(const char* role, const fs::path& path, AnalysisOutcome& out) {
   if (path.empty()) return {};
-  auto record = record_input(role, path);
+  auto record = io::record_input(role, path);
   if (!record) return std::unexpected(record.error());
   out.inputs.push_back(std::move(*record));
   return {};

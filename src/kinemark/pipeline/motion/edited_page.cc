@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "kinemark/core/version.h"
+#include "kinemark/data/resample_forces.h"
+#include "kinemark/io/input/external_forces.h"
 #include "kinemark/io/plates/plate_forces.h"
-#include "kinemark/pipeline/files/external_forces.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/stages/report/markers_report.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/page_forces.h"
@@ -42,7 +42,7 @@ data::Wrenches forces_of(const EditSession& session, std::vector<std::string>& r
   const auto& recorded = session.recorded().trial;
   if (recorded.force_plates.empty()) return {};
   const auto forces = io::plate_forces(recorded, {.contact_force_n = internal::kContact_n});
-  if (forces) return workflow::resample(forces->wrenches, session.now().markers.time);
+  if (forces) return data::resample(forces->wrenches, session.now().markers.time);
   remarks.push_back(internal::no_forces(forces.error().message));
   return {};
 }
@@ -94,7 +94,7 @@ Result<std::string> edited_page(const std::filesystem::path& recording) {
   const auto session = EditSession::open(recording);
   if (session) return report::markers_report_html(EditedReport(*session).report);
   return markers_page(
-      recording, {.recording = {.edits = kEditsNone}, .editing = {{"refused", session.error().message}}});
+      recording, {.recording = {.edits = io::kEditsNone}, .editing = {{"refused", session.error().message}}});
 }
 
 }  // namespace kinemark::pipeline

@@ -13,10 +13,10 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/data/motion_coordinates.h"
 #include "kinemark/data/table.h"
+#include "kinemark/io/input/external_forces.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/coordinate_rows.h"
-#include "kinemark/pipeline/files/external_forces.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/motion_tables.h"
@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Status record(const char* role, const fs::path& path, MotionOfFiles& out) {
-  auto input = record_input(role, path);
+  auto input = io::record_input(role, path);
   if (!input) return std::unexpected(input.error());
   out.inputs.push_back(std::move(*input));
   return {};
@@ -76,7 +76,7 @@ void take_rows(CoordinateRows rows, const model::Model& model, workflow::GivenMo
 
 Status read_forces(const fs::path& path, MotionOfFiles& out) {
   const double contact_force_n = motion::DynamicsOptions{}.contact_force_n;
-  auto read = read_external_forces(path, out.given.motion.time, contact_force_n);
+  auto read = io::read_external_forces(path, out.given.motion.time, contact_force_n);
   if (!read) return std::unexpected(read.error());
   for (const auto& file : read->files)
     if (auto s = record("forces", file, out); !s) return s;

@@ -25,7 +25,7 @@ struct MotionOfFiles {
 /// Read Q.mot, Q_sd.sto beside it unless it is low-passed, and forces where a path is given.
 /// @param cutoff_hz  above 0: it is low-passed, and deviations have no use
 /// @return  Code::bad_input as the readers and coordinate_rows(), and for deviations of another motion;
-///          as read_external_forces()
+///          as io::read_external_forces()
 [[nodiscard]] Result<MotionOfFiles> read_motion(const std::filesystem::path& path,
                                                 const std::filesystem::path& forces,
                                                 const model::Model& model, double cutoff_hz);

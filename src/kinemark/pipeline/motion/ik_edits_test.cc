@@ -8,9 +8,9 @@
 
 #include "kinemark/io/edits/edit_line.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/convert_job.h"
-#include "kinemark/pipeline/files/edit_input.h"
 #include "kinemark/pipeline/files/edit_session.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/motion/report_job.h"
@@ -36,7 +36,7 @@ class IkOfEdits : public testing::RecordedTest<IkJob> {
     fs::create_directories(at(name));
     recording_ = at(std::string(name) + "/walk.c3d");
     fs::copy_file(at("in/markers.c3d"), recording_, fs::copy_options::overwrite_existing);
-    fs::remove(edits_of(recording_));
+    fs::remove(io::edits_of(recording_));
   }
   void edit(const data::Edit& one) {
     auto session = EditSession::open(recording_).value();
@@ -49,7 +49,7 @@ class IkOfEdits : public testing::RecordedTest<IkJob> {
   [[nodiscard]] IkJob edited(const std::string& output) const {
     auto j = job(output);
     j.markers = recording_;
-    j.edits = kEditsBeside;
+    j.edits = io::kEditsBeside;
     return j;
   }
 
@@ -74,7 +74,7 @@ TEST_F(IkOfEdits, IsTheSolutionOfTheRecordingWithItsEdits) {
   ConvertJob convert;
   convert.in = recording_;
   convert.out = recording_.parent_path() / "edited.c3d";
-  convert.edits = kEditsBeside;
+  convert.edits = io::kEditsBeside;
   ASSERT_TRUE(run_convert(convert));
   auto plain = job("plain.mot");
   plain.markers = convert.out;
@@ -143,7 +143,7 @@ TEST_F(IkOfEdits, AReportMadeLaterShowsStatesWithTheEditsUnlessTheyChanged) {
 }
 
 TEST_F(IkOfEdits, EditsOfAnotherRecordingAreRefused) {
-  ASSERT_TRUE(io::write_text(edits_of(recording_), "nonsense\n", false));
+  ASSERT_TRUE(io::write_text(io::edits_of(recording_), "nonsense\n", false));
   EXPECT_THAT(run_ik(edited("bad.mot")).error().message, HasSubstr("walk_edits.jsonl: line 1"));
   auto absent = edited("bad.mot");
   absent.edits = at("absent.jsonl");
@@ -156,7 +156,7 @@ TEST_F(IkOfEdits, TrackTakesThemToo) {
   TrackJob track;
   track.model = at("in/model.osim");
   track.markers = recording_;
-  track.edits = kEditsBeside;
+  track.edits = io::kEditsBeside;
   track.output = at("tracked.mot");
   const auto outcome = run_track(track);
   ASSERT_TRUE(outcome) << outcome.error().message;

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "kinemark/io/osim/ik_setup.h"
+#include "kinemark/io/place.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/motion_tables.h"
-#include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -122,7 +122,7 @@ Status apply_setup(IkJob& job) {
   job.setup_parts = setup->parts;
   job.marker_locations = job.marker_locations || setup->report_marker_locations;
   if (job.output.empty() && !setup->output_motion_file.empty()) {
-    if (auto s = check_below(job.setup, setup->output_motion_file, "output_motion_file"); !s) return s;
+    if (auto s = io::check_below(job.setup, setup->output_motion_file, "output_motion_file"); !s) return s;
     job.output = setup->output_motion_file;
   }
   if (job.options.first_time_s < -1e299) job.options.first_time_s = std::max(-1e300, setup->time_begin_s);

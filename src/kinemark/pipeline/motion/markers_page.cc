@@ -77,7 +77,7 @@ workflow::Vertical vertical_without_model(const data::Trial& trial) {
 Result<std::string> markers_page(const std::filesystem::path& path, const MarkersPageOptions& options) {
   auto recording = open_recording({.path = path,
                                    .skeleton = options.skeleton,
-                                   .rate = RateRule::or_unknown,
+                                   .rate = io::RateRule::or_unknown,
                                    .record = true,
                                    .plates = true,
                                    .contact_force_n = kContact_n},

@@ -28,7 +28,7 @@ struct MarkersPageOptions {
 /// far as along the others; else z, and `from` is empty.
 [[nodiscard]] workflow::Vertical vertical_without_model(const data::Trial& trial);
 
-/// HTML of a marker file as it is: any that read_marker_input() reads, decided by its content. Forces of
+/// HTML of a marker file as it is: any that io::read_marker_input() reads, decided by its content. Forces of
 /// plates that cannot be read are a remark on the page. Fails as the reader.
 [[nodiscard]] Result<std::string> markers_page(const std::filesystem::path& path,
                                                const MarkersPageOptions& options = {});

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/text/trc.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/motion/report_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
@@ -46,7 +46,7 @@ TEST_F(MarkersPage, IsAPageOfAnyMarkerFile) {
   const auto page = markers_page(at("in/markers.c3d"), {.command_line = "kinemark report"});
   ASSERT_TRUE(page) << page.error().message;
   const auto data = data_of(*page);
-  const auto trial = read_marker_input({.path = at("in/markers.c3d")}).value().trial;
+  const auto trial = io::read_marker_input({.path = at("in/markers.c3d")}).value().trial;
   EXPECT_EQ(data["summary"]["schema"], "kinemark.markers_report");
   EXPECT_EQ(data["summary"]["trial"], "markers.c3d");
   EXPECT_EQ(data["summary"]["command_line"], "kinemark report");

@@ -13,8 +13,8 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/data/filtering.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
@@ -37,13 +37,13 @@ Status add_images(const MotionJob& job, MotionInputs& inputs) {
   auto images = read_images(job.images, inputs.recording.trial.markers.time);
   if (!images) return std::unexpected(images.error());
   inputs.images = std::move(*images);
-  auto file = record_input("rig", job.images.rig);
+  auto file = io::record_input("rig", job.images.rig);
   if (!file) return std::unexpected(file.error());
   inputs.files.push_back(std::move(*file));
   for (const auto& [camera, points] : job.images.cameras) {
     const auto files = io::keypoints_files(points);
     if (!files) return std::unexpected(files.error());
-    file = record_inputs("images", points, *files);
+    file = io::record_inputs("images", points, *files);
     if (!file) return std::unexpected(file.error());
     inputs.files.push_back(std::move(*file));
   }
@@ -137,7 +137,7 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
 
 Status add_input(report::IkRun& run, const char* role, const fs::path& path) {
   if (path.empty()) return {};
-  auto file = record_input(role, path);
+  auto file = io::record_input(role, path);
   if (!file) return std::unexpected(file.error());
   run.inputs.push_back(std::move(*file));
   return {};

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"
 #include "kinemark/workflow/prepare/vertical.h"

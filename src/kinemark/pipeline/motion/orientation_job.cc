@@ -16,15 +16,16 @@
 #include "kinemark/core/units.h"
 #include "kinemark/core/version.h"
 #include "kinemark/io/c3d/rotations.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/osim/offset_frames.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/orientation_table.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/stages/report/inputs_json.h"
 #include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::pipeline {
@@ -45,7 +46,7 @@ Status check(const OrientationJob& job) {
 }
 
 Status record(const char* role, const std::filesystem::path& path, OrientationOutcome& outcome) {
-  auto file = record_input(role, path);
+  auto file = io::record_input(role, path);
   if (!file) return std::unexpected(file.error());
   outcome.inputs.push_back(std::move(*file));
   return {};
@@ -246,10 +247,7 @@ Result<OrientationOutcome> run_orientations(OrientationJob job) {
 Json orientation_json(const OrientationOutcome& outcome) {
   const auto& motion = outcome.result.motion;
   const auto& fit = outcome.result.fit;
-  auto inputs = Json::array(), gates = Json::array();
-  for (const auto& file : outcome.inputs)
-    inputs.push_back(
-        {{"role", file.role}, {"path", file.path}, {"bytes", file.bytes}, {file.hash_kind, file.hash}});
+  auto gates = Json::array();
   for (const auto& gate : outcome.gates)
     gates.push_back({{"name", gate.name},
                      {"passed", gate.passed},
@@ -259,7 +257,7 @@ Json orientation_json(const OrientationOutcome& outcome) {
                      {"sentence", gate.sentence}});
   return {{"kinemark", kVersion},
           {"command_line", outcome.command_line},
-          {"inputs", inputs},
+          {"inputs", report::inputs_json(outcome.inputs)},
           {"model", outcome.model},
           {"frames", motion.frames()},
           {"first_frame", motion.time.first_number},

@@ -87,6 +87,8 @@ TEST_F(RunOrientations, WritesAnglesThatTheSensorsTookPartIn) {
   EXPECT_EQ(json["frames"], q.rows());
   EXPECT_EQ(json["sensors"].size(), outcome->result.fit.sensors.size());
   EXPECT_EQ(json["heading"]["from"], "motion");
+  ASSERT_FALSE(json["inputs"].empty());
+  for (const auto& input : json["inputs"]) EXPECT_EQ(input["hash_kind"], "XXH3-64") << "as run files read it";
   EXPECT_TRUE(json["gates"][0]["passed"]);
   for (const auto& warning : outcome->warnings) {
     EXPECT_THAT(warning, Not(HasSubstr("no body carries these sensors, which are not used")));

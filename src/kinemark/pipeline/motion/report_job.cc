@@ -12,15 +12,15 @@
 #include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
@@ -73,9 +73,9 @@ void read_open_frames(const Json& json, data::JointMotion& motion) {
 bool edit_again(const report::IkRun& run, const fs::path& path, data::Recording& recording) {
   const auto was = std::ranges::find(run.inputs, "edits", &data::InputFile::role);
   if (was == run.inputs.end()) return true;
-  const auto is = record_input("edits", was->path);
+  const auto is = io::record_input("edits", was->path);
   return is && is->bytes == was->bytes && is->hash == was->hash &&
-         take_edits({.edits = was->path, .recording = path, .seed = run.seed}, recording).has_value();
+         take_edits({.edits = was->path, .recording = path}, recording, run.seed).has_value();
 }
 
 /// What is still known of a recording.
@@ -88,7 +88,7 @@ struct Recorded {
 std::optional<Recorded> recorded_of(const report::IkRun& run, const data::JointMotion& motion) {
   for (const auto& input : run.inputs) {
     if (input.role != "markers") continue;
-    auto markers = read_marker_input({.path = input.path});
+    auto markers = io::read_marker_input({.path = input.path});
     if (!markers) return std::nullopt;
     data::Recording recording{.trial = std::move(markers->trial)};
     if (!edit_again(run, input.path, recording)) return std::nullopt;

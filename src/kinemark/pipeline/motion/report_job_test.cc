@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/io/text/trc.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
 
@@ -57,7 +57,7 @@ TEST_F(RunReport, AReportMadeLaterIsTheReportMadeAtOnce) {
 }
 
 TEST_F(RunReport, AReportMadeLaterListsTheSameSamplesLeftOut) {
-  auto trial = read_marker_input({.path = at("in/markers.c3d")}).value().trial;
+  auto trial = io::read_marker_input({.path = at("in/markers.c3d")}).value().trial;
   for (const std::int64_t frame : {8, 14, 15}) {
     std::int64_t marker = 0;
     while (!trial.markers.present(frame, marker)) ++marker;
@@ -77,7 +77,7 @@ TEST_F(RunReport, AReportMadeLaterListsTheSameSamplesLeftOut) {
 }
 
 TEST_F(RunReport, LabelsExchangedBackAreThePagesOfTheCleanRecording) {
-  auto trial = read_marker_input({.path = at("in/markers.c3d")}).value().trial;
+  auto trial = io::read_marker_input({.path = at("in/markers.c3d")}).value().trial;
   ASSERT_TRUE(io::write_trc(at("whole.trc"), trial, {}));
   std::int64_t one = 0, other = 1, count = 0;
   while ((trial.markers.x(0, one) - trial.markers.x(0, other)).norm() < 0.1) ++other;

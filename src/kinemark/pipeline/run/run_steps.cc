@@ -14,8 +14,8 @@
 
 #include "kinemark/core/name_pattern.h"
 #include "kinemark/core/number.h"
+#include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
-#include "kinemark/pipeline/files/edit_input.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -230,7 +230,7 @@ class Planner {
     const auto read = inputs;
     for (const auto& input : read) {
       std::error_code absent;
-      const auto journal = edits_of(input);
+      const auto journal = io::edits_of(input);
       if (fs::is_regular_file(base_ / journal, absent)) inputs.push_back(journal);
     }
   }
@@ -238,7 +238,7 @@ class Planner {
   /// With its options behind its own words; every value that names a file is an input.
   std::size_t add(RunStep step, const std::vector<Setting>& options, const std::string& subject,
                   const std::string& trial) {
-    std::string edits = kEditsBeside;  // as the commands take them by themselves
+    std::string edits = io::kEditsBeside;  // as the commands take them by themselves
     for (const auto& setting : options) {
       if (setting.is_switch) {
         if (setting.on) step.words.push_back("--" + setting.name), step.lines.push_back(setting.line);
@@ -260,7 +260,7 @@ class Planner {
           add_frames(value.substr(behind + 1), step.inputs);
       }
     }
-    if (edits == kEditsBeside) add_edits(step.inputs);
+    if (edits == io::kEditsBeside) add_edits(step.inputs);
     steps_.push_back(std::move(step));
     return steps_.size() - 1;
   }

@@ -10,7 +10,7 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/io/file.h"
-#include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::pipeline {
@@ -24,7 +24,7 @@ constexpr std::size_t kLargestRecord = 64UL << 20;  // bytes
 Result<std::vector<HashedFile>> hashed(const std::vector<fs::path>& files, const fs::path& base) {
   std::vector<HashedFile> out;
   for (const auto& file : files) {
-    const auto hash = hash_file(base / file);
+    const auto hash = io::hash_file(base / file);
     if (!hash) return std::unexpected(hash.error());
     out.emplace_back(file.string(), hash->hex);
   }
@@ -66,7 +66,7 @@ Result<StepRecord> read_record(const fs::path& path, bool& found) {
 Result<std::string> changed_output(const StepRecord& record, const fs::path& base) {
   for (const auto& [file, hash] : record.outputs) {
     if (!is_there(base / file)) continue;
-    const auto now = hash_file(base / file);
+    const auto now = io::hash_file(base / file);
     if (!now) return std::unexpected(now.error());
     if (now->hex != hash) return file;
   }
@@ -89,7 +89,7 @@ Result<bool> same_inputs(const StepRecord& record, const RunStep& step, const fs
   if (record.inputs.size() < own->size() || !std::equal(own->begin(), own->end(), record.inputs.begin()))
     return false;
   for (std::size_t i = own->size(); i < record.inputs.size(); ++i) {
-    const auto hash = hash_file(base / record.inputs[i].first);
+    const auto hash = io::hash_file(base / record.inputs[i].first);
     if (!hash || hash->hex != record.inputs[i].second) return false;
   }
   return true;
@@ -100,7 +100,7 @@ Status remove_stale(const std::vector<HashedFile>& before, const std::vector<Has
                     const fs::path& base) {
   for (const auto& [file, hash] : before) {
     if (holds(now, file) || !is_there(base / file)) continue;
-    const auto content = hash_file(base / file);
+    const auto content = io::hash_file(base / file);
     if (!content || content->hex != hash) continue;
     std::error_code error;
     if (!fs::remove(base / file, error) || error)

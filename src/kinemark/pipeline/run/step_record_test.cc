@@ -7,7 +7,7 @@
 
 #include "kinemark/core/version.h"
 #include "kinemark/io/file.h"
-#include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/io/input/file_hash.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -86,7 +86,7 @@ TEST_F(Step, EveryFileThatTheCommandWroteCounts) {
 TEST_F(Step, WhatItsResultsWereMadeFromCountsToo) {
   put("tasks.xml", "weights");
   auto record = mark_begun(step_, scratch_.path()).value();
-  const auto hash = hash_file(scratch_ / "tasks.xml").value().hex;
+  const auto hash = io::hash_file(scratch_ / "tasks.xml").value().hex;
   put("out.c3d", "result");
   put("out_report.json",
       R"({"inputs": [{"path": "tasks.xml", "hash_kind": "XXH3-64", "hash": ")" + hash + "\"}]}");

@@ -14,6 +14,7 @@
 
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/scale_setup.h"
+#include "kinemark/io/place.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
@@ -37,7 +38,7 @@ Result<Setup> read_setup(ScaleJob& job) {
   if (!setup) return std::unexpected(setup.error());
   if (job.model.empty()) job.model = setup->model_file;
   if (job.output.empty() && !setup->output_model_file.empty()) {
-    if (auto s = check_below(job.setup, setup->output_model_file, "output_model_file"); !s)
+    if (auto s = io::check_below(job.setup, setup->output_model_file, "output_model_file"); !s)
       return std::unexpected(s.error());
     job.output = setup->output_model_file;
   }

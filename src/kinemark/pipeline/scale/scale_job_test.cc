@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/osim/scale_setup.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/pipeline/simulate/simulate_subject_job.h"
 #include "kinemark/pipeline/testing/shared_folder.h"
 #include "support/scratch.h"
@@ -193,7 +193,7 @@ TEST_F(RunScale, joints_of_the_very_motion_do_not_count_twice) {
   auto subject = io::read_osim(at("in/model.osim")).value();
   for (auto& joint : subject.joints)
     if (joint.name.starts_with("hip_")) joint.parent_from_joint.translation.z() *= 1.25;
-  io::write_text(at("skeleton.json"), hips_of(subject, 1e-4, hash_file(at("in/markers.c3d"))->hex), true)
+  io::write_text(at("skeleton.json"), hips_of(subject, 1e-4, io::hash_file(at("in/markers.c3d"))->hex), true)
       .value();
   ScaleJob j = job("once.osim");
   j.joints = at("skeleton.json");

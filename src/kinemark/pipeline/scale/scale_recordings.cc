@@ -41,7 +41,7 @@ std::size_t count_recordings(const ScaleJob& job, const io::ScaleSetup* setup) {
 
 Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, const fs::path& path) {
   const RecordingSource source{.path = path,
-                               .rate = count > 1 ? RateRule::where_needed : RateRule::given,
+                               .rate = count > 1 ? io::RateRule::where_needed : io::RateRule::given,
                                .record = !job.joints.empty(),
                                .turns = false,
                                .force = job.force,

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -103,7 +103,7 @@ TEST_F(ScaleRecordingsTest, OfTheSetupThoseAreReadThatAreOfUse) {
 TEST_F(ScaleRecordingsTest, TheOneThatJointsWereFoundInIsKnown) {
   job_.joints = scratch_ / "skeleton.json";
   workflow::ScaleInputs inputs;
-  const auto hash = hash_file(job_.markers)->hex;
+  const auto hash = io::hash_file(job_.markers)->hex;
   ASSERT_TRUE(read_scale_recordings(job_, nullptr, hash, inputs));
   EXPECT_TRUE(inputs.motion->holds_joints);
   EXPECT_FALSE(inputs.still->holds_joints);

@@ -7,15 +7,16 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <utility>
 
+#include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/segments/definition_file.h"
-#include "kinemark/pipeline/segments/internal/segment_files.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/subject_input.h"
 
@@ -37,7 +38,7 @@ RecordingOptions beside_options(const SegmentsJob& job) {
   RecordingOptions out;
   out.rate_hz = job.rate_hz;
   out.unit = job.unit;
-  if (job.edits.empty() || job.edits == kEditsNone) out.edits = kEditsNone;
+  if (job.edits.empty() || job.edits == io::kEditsNone) out.edits = io::kEditsNone;
   out.axes = job.axes;
   return out;
 }
@@ -47,7 +48,7 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
                            SegmentsOutcome& outcome) {
   const bool alone = job.static_trial.empty() && job.trials.empty();
   auto read = open_recording({.path = path,
-                              .rate = alone ? RateRule::given : RateRule::where_needed,
+                              .rate = alone ? io::RateRule::given : io::RateRule::where_needed,
                               .needs_samples = true,
                               .record = true,
                               .plates = path == job.input,
@@ -73,10 +74,10 @@ std::vector<fs::path> files_of(const SegmentsJob& job) {
   auto files = pipeline::files_of(job.input, job);
   std::ranges::move(pipeline::files_of(job.gait), std::back_inserter(files));
   files.insert(files.end(), {job.definition, job.static_trial, job.vsk, job.forces});
-  if (!job.static_trial.empty()) files.push_back(edits_of(job.static_trial));
+  if (!job.static_trial.empty()) files.push_back(io::edits_of(job.static_trial));
   for (const auto& text : job.trials) {
     files.emplace_back(text.substr(text.find('=') + 1));
-    files.push_back(edits_of(files.back()));
+    files.push_back(io::edits_of(files.back()));
   }
   return files;
 }
@@ -175,6 +176,52 @@ Result<Staging> stage(const SegmentsJob& job) {
       files_of(job));
 }
 
+/// What the files of the folder are made from, until they are written.
+struct SegmentTables {
+  SeriesList angles, loads;
+  data::Trial points, whole;
+  std::string set;  ///< its name
+};
+
+/// The outcome must outlive them.
+SegmentTables tables_of(const SegmentsOutcome& outcome, const data::Trial& recording) {
+  const auto& motion = outcome.motion;
+  SegmentTables out{.angles = series_of(motion),
+                    .loads = series_of(outcome.loads),
+                    .points = points_trial(motion, recording),
+                    .whole = trial_with(motion, outcome.loads, recording),
+                    .set = ""};
+  SetDigest digest;
+  digest.add("segments").add(outcome.inputs).add(series_csv(out.angles, motion.time));
+  if (!out.loads.empty()) digest.add(series_csv(out.loads, motion.time));
+  out.set = digest.hex();
+  return out;
+}
+
+/// All files; those of loads are added to `staging`, which has the others. They need tables and outcome
+/// until they are written.
+Result<std::vector<ResultFile>> list_files(const SegmentsJob& job, const SegmentTables& tables,
+                                           const SegmentsOutcome& outcome, Staging& staging) {
+  const auto& [angles, loads, points, whole, set] = tables;
+  const auto& time = outcome.motion.time;
+  const auto target = [&job](const char* name) { return job.output / name; };
+  std::vector<ResultFile> made{
+      table_file(target("angles.mot"), [&] { return series_table(angles, time, "angles"); }),
+      table_file(target("angles_sd.sto"), [&] { return deviations_table(angles, time, "angles_sd"); }),
+      text_file(target("angles.csv"), [&] { return series_csv(angles, time); }),
+      marker_file(target("centres.csv"), points),
+      marker_file(target("segments.c3d"), whole),
+      json_file(target("segments.json"), [json = segments_outcome_json(outcome)] { return json; })};
+  if (loads.empty()) return made;
+  if (auto s = staging.add_in(job.output, {"loads.sto", "loads_sd.sto", "loads.csv"}); !s)
+    return std::unexpected(s.error());
+  made.push_back(table_file(target("loads.sto"), [&] { return series_table(loads, time, "loads"); }));
+  made.push_back(
+      table_file(target("loads_sd.sto"), [&] { return deviations_table(loads, time, "loads_sd"); }));
+  made.push_back(text_file(target("loads.csv"), [&] { return series_csv(loads, time); }));
+  return made;
+}
+
 GaitDrawingJob drawing_of(const SegmentsJob& job) {
   GaitDrawingJob out;
   static_cast<JobSettings&>(out) = job;
@@ -215,11 +262,11 @@ Result<std::vector<ResultFile>> draw_walking(const SegmentsJob& job, GaitDrawing
 Status write_all(const SegmentsJob& job, std::optional<GaitDrawing>& drawing, Staging& staging,
                  SegmentsOutcome& outcome) {
   staging.add_inputs(outcome.inputs);
-  internal::SegmentTables tables;
+  SegmentTables tables;
   std::vector<ResultFile> made;
   if (!job.output.empty()) {
-    tables = internal::tables_of(outcome, outcome.used.trial);
-    auto listed = internal::list_files(job, tables, outcome, staging);
+    tables = tables_of(outcome, outcome.used.trial);
+    auto listed = list_files(job, tables, outcome, staging);
     if (!listed) return std::unexpected(listed.error());
     made = std::move(*listed);
   }

@@ -30,8 +30,9 @@ struct SegmentsJob : JobSettings, RecordingOptions, GaitOutputs {
   std::vector<std::string> trials;     ///< NAME=FILE, trials in which landmarks were shown
   std::filesystem::path vsk;           ///< measures of the subject, .vsk or .mp
   std::vector<std::string> subject;    ///< NAME=VALUE or NAME=VALUE+-SD, mm, deg, kg
-  std::filesystem::path forces;  ///< read_external_forces() instead of the recording's plates; empty: these
-  double noise_sd_m = 0.0;       ///< per axis; 0: of the file, else found
+  std::filesystem::path
+      forces;               ///< io::read_external_forces() instead of the recording's plates; empty: these
+  double noise_sd_m = 0.0;  ///< per axis; 0: of the file, else found
   std::filesystem::path output;  ///< folder; empty: nothing is written
   std::int64_t refits = 99;      ///< behind deviations of loads and intervals of walking; 0: none
   double level = 0.95;           ///< of these intervals

@@ -191,6 +191,8 @@ TEST_F(SegmentsJobTest, SaysCrossTalkWhereThereIs) {
   const auto json = segments_outcome_json(*outcome);
   EXPECT_TRUE(json["cross_talk"][0]["suspicious"]);
   EXPECT_EQ(json["definition"], "A knee");
+  EXPECT_EQ(json["inputs"][0]["role"], "markers");
+  EXPECT_EQ(json["inputs"][0]["hash_kind"], "XXH3-64") << "as run files read it";
   EXPECT_EQ(json["angles"][0]["missing"], 1);
   EXPECT_EQ(json["angles"][0]["measured"], 149);
 }

@@ -12,6 +12,7 @@
 #include "kinemark/pipeline/measures/noise_table.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/segments_job.h"
+#include "kinemark/stages/report/inputs_json.h"
 #include "kinemark/workflow/segments/subject_values.h"
 
 namespace kinemark::pipeline {
@@ -72,15 +73,7 @@ std::string sample_noise(const analysis::SegmentMotion& motion) {
 nlohmann::ordered_json segments_outcome_json(const SegmentsOutcome& outcome) {
   nlohmann::ordered_json out;
   out["definition"] = outcome.title;
-  out["inputs"] = nlohmann::ordered_json::array();
-  for (const auto& input : outcome.inputs) {
-    nlohmann::ordered_json one{{"path", input.path}};
-    if (!input.hash.empty()) {
-      one["bytes"] = input.bytes;
-      one[input.hash_kind] = input.hash;
-    }
-    out["inputs"].push_back(std::move(one));
-  }
+  out["inputs"] = report::inputs_json(outcome.inputs);
   out["parameters"] = parameters_json(outcome.motion);
   if (outcome.motion.noise) out["noise"] = noises_json(outcome.motion.noise->all());
   if (!outcome.comparison.empty()) out["comparison"] = comparison_json(outcome.comparison);

@@ -11,11 +11,11 @@
 
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/text.h"
+#include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/io/set_mark.h"
 #include "kinemark/pipeline/files/file_set.h"
-#include "kinemark/pipeline/files/marker_input.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
 
@@ -35,7 +35,7 @@ struct Staged {
 
 Result<Staged> stage_markers(const SimulateRigJob& job) {
   if (job.markers.empty()) return fail(Code::usage, "the scene 'markers' needs a marker file");
-  const auto input = read_marker_input({.path = job.markers});
+  const auto input = io::read_marker_input({.path = job.markers});
   if (!input) return std::unexpected(input.error());
   const auto& markers = input->trial.markers;
   auto scene = simulation::markers_as_leds(markers, job.marker_options);

@@ -220,7 +220,7 @@ nlohmann::ordered_json clean_summary_json(const CleanReport& report) {
           {"defect_count", account.defects.size()},
           {"defects", std::move(defects)},
           {"options", internal::options_json(run.options)},
-          {"inputs", internal::inputs_json(run.inputs)},
+          {"inputs", inputs_json(run.inputs)},
           {"warnings", run.warnings}};
 }
 

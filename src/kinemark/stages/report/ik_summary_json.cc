@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 using internal::findings_json;
 using internal::gates_json;
-using internal::inputs_json;
 using internal::millimetres;
 using internal::number;
 using internal::options_json;

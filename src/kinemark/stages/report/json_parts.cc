@@ -65,9 +65,19 @@ Json groups_json(std::span<const NoticeGroup> groups) {
   return out;
 }
 
-Json inputs_json(std::span<const InputFile> inputs) {
-  Json out = Json::array();
-  for (const InputFile& i : inputs)
+Json options_json(std::span<const std::pair<std::string, std::string>> options) {
+  Json out = Json::object();
+  for (const auto& [key, value] : options) out[key] = value;
+  return out;
+}
+
+}  // namespace kinemark::report::internal
+
+namespace kinemark::report {
+
+nlohmann::ordered_json inputs_json(std::span<const data::InputFile> inputs) {
+  auto out = nlohmann::ordered_json::array();
+  for (const data::InputFile& i : inputs)
     out.push_back({{"role", i.role},
                    {"path", i.path},
                    {"bytes", i.bytes},
@@ -76,10 +86,4 @@ Json inputs_json(std::span<const InputFile> inputs) {
   return out;
 }
 
-Json options_json(std::span<const std::pair<std::string, std::string>> options) {
-  Json out = Json::object();
-  for (const auto& [key, value] : options) out[key] = value;
-  return out;
-}
-
-}  // namespace kinemark::report::internal
+}  // namespace kinemark::report

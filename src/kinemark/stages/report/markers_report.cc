@@ -135,7 +135,7 @@ Json summary_of(const MarkersReport& report) {
           {"event_count", trial.events.size()},
           {"events", events_json(trial)},
           {"cycles", cycle_spans_json(report.cycles)},
-          {"inputs", internal::inputs_json(report.inputs)}};
+          {"inputs", inputs_json(report.inputs)}};
 }
 
 }  // namespace

@@ -3,22 +3,12 @@
 #include "kinemark/stages/report/internal/page.h"
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/html_text.h"
 
 namespace kinemark::report::internal {
 
 std::string json_for_html(const nlohmann::ordered_json& json) {
-  const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  std::string out;
-  out.reserve(text.size() + text.size() / 64);
-  for (const char c : text) {
-    // '<' occurs in JSON only inside strings, where an escape means the same.
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
-  return out;
+  return json_in_html(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 std::string fill_page(const nlohmann::ordered_json& json) {

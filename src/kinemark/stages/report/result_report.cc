@@ -47,7 +47,7 @@ Json result_report_json(const ResultReport& report, const SceneOptions& options)
             {"version", report.version},
             {"command_line", report.command_line},
             {"groups", internal::groups_json(report.groups)},
-            {"inputs", internal::inputs_json(report.inputs)},
+            {"inputs", inputs_json(report.inputs)},
             {"clock", clock_of(report)}}},
           {"result", report.result},
           {"scene", report.scene ? scene_json(*report.scene, options) : Json(nullptr)}};

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 
+#include "kinemark/core/nearest_name.h"
+#include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/body/body_definitions.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
@@ -18,12 +21,30 @@ bool is_path_measure(const std::string& id) {
          analysis::find_rhythm_definition(id) != nullptr;
 }
 
+Status unknown_measure(const std::string& id) {
+  if (analysis::find_body_definition(id) != nullptr)
+    return fail(Code::usage,
+                fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
+                            "a .mot or .sto with --model",
+                            id));
+  std::vector<std::string> known{"gait", "plates", "emg"};
+  for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::rhythm_definitions()) known.emplace_back(definition.id);
+  for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::force_definitions()) known.emplace_back(definition.what.id);
+  for (const auto& definition : analysis::emg_definitions()) known.emplace_back(definition.id);
+  const auto nearest = nearest_names(id, known);
+  return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
+                                       nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
+}
+
 Status check_kinds(const MeasureOptions& options) {
   for (const auto& id : options.measures) {
     const auto kind = measures_of(id);
-    if (!kind) return fail(Code::usage, fmt::format("there is no measure '{}' of a recording", id));
+    if (!kind) return unknown_measure(id);
     if (options.of != MeasuresOf::everything && options.of != *kind)
-      return fail(Code::usage, fmt::format("{} is measured of something else than what is asked for", id));
+      return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
+                                           command_of(options.of), command_of(*kind)));
   }
   return {};
 }
@@ -67,6 +88,10 @@ void spread_intervals(const MeasureOptions& options, AskedMeasures& out) {
 }
 
 }  // namespace
+
+const char* command_of(MeasuresOf of) {
+  return of == MeasuresOf::walking ? "gait" : of == MeasuresOf::muscles ? "emg" : "measure";
+}
 
 std::optional<MeasuresOf> measures_of(const std::string& id) {
   if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;

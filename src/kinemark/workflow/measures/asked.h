@@ -26,6 +26,9 @@ enum class MeasuresOf : std::uint8_t {
   muscles,     ///< `emg`: electromyograms
 };
 
+/// The command for measures of this kind, without "kinemark".
+[[nodiscard]] const char* command_of(MeasuresOf of);
+
 /// What is asked of measures, be it of markers or of a motion.
 struct MeasureChoice {
   std::vector<std::string> measures;  ///< ids; empty: those that apply

@@ -7,8 +7,11 @@
 namespace kinemark::workflow {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 AskedMeasures asked_for(MeasuresOf of, std::vector<std::string> measures = {}, MeasureNeeds needs = {}) {
   MeasureOptions options;
@@ -55,8 +58,22 @@ TEST(AskedMeasures, RefuseWhatIsNoneOrOfAnotherVerb) {
     options.measures = {id};
     EXPECT_EQ(asked_measures(options).error().code, Code::usage) << id;
   }
+  EXPECT_EQ(
+      asked_measures(options).error().message,
+      "joint_range is measured of a motion, not of markers; 'kinemark dynamics' measures it, of a .mot or "
+      ".sto with --model");
+  options.measures = {"cadence"};
+  EXPECT_EQ(asked_measures(options).error().message,
+            "cadence is no measure of 'kinemark measure'; 'kinemark gait' measures it");
+  options.measures = {"cadense"};
+  EXPECT_THAT(asked_measures(options).error().message,
+              AllOf(StartsWith("there is no measure 'cadense' (nearest: cadence"),
+                    EndsWith("; --list shows them all")));
   options.measures = {"path_length"};
   EXPECT_TRUE(asked_measures(options));
+  options.emg.envelope.low_pass_hz = 5.0;
+  EXPECT_EQ(asked_measures(options).error().code, Code::usage);
+  options.emg.envelope = {};
   options.refits = 12;
   EXPECT_EQ(asked_measures(options).error().code, Code::usage);
 }

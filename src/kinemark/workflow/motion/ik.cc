@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "kinemark/data/finding.h"
+#include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/motion/used_markers.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 #include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::workflow {

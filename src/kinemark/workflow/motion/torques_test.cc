@@ -13,8 +13,8 @@
 
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/external_forces.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/pipeline/files/external_forces.h"
 #include "support/scratch.h"
 
 namespace kinemark::workflow {
@@ -97,7 +97,7 @@ void write_plate(const std::filesystem::path& path, double weight) {
 /// Torques of the motion with the forces of a file.
 Result<TorqueAccount> torques_with(const model::Model& model, data::JointMotion& motion,
                                    const std::filesystem::path& forces) {
-  const auto read = pipeline::read_external_forces(forces, motion.time, 20.0);
+  const auto read = io::read_external_forces(forces, motion.time, 20.0);
   if (!read) return std::unexpected(read.error());
   return add_torques(model, motion, &read->wrenches, {.error_bars = false});
 }

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "kinemark/data/finding.h"
+#include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 #include "kinemark/workflow/motion/used_markers.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 
 namespace kinemark::workflow {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/foundations/body_size.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 #include "kinemark/workflow/prepare/turn.h"
 

@@ -2,8 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/workflow/segments/segments.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
+#include <list>
+#include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "kinemark/core/check.h"
@@ -13,12 +20,20 @@
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/vertical.h"
+#include "kinemark/workflow/segments/internal/modelled_points.h"
 #include "kinemark/workflow/segments/internal/segment_notes.h"
-#include "kinemark/workflow/segments/internal/segment_trials.h"
 #include "kinemark/workflow/segments/subject_values.h"
 
 namespace kinemark::workflow {
 namespace {
+
+/// Trials beside the recording, screened, and markers of all with modelled points where some stand in for
+/// markers.
+struct SegmentTrials {
+  std::optional<data::Trial> still;          ///< none: there is none, or it is the recording
+  std::map<std::string, data::Trial> shown;  ///< by the names that the definition has for them
+  std::list<MarkersAndModelled> modelled;    ///< stays where it is: the input points into it
+};
 
 const std::string& where_of(const SegmentsOptions& options) {
   return options.where.empty() ? options.name : options.where;
@@ -108,6 +123,53 @@ Eigen::Vector3d up_of(const data::Recording& recording) {
   if (const auto plates = vertical_of_plates(recording.trial)) return plates->up;
   if (const auto screen_up = vertical_of_screen(recording.trial)) return screen_up->up;
   return Eigen::Vector3d::UnitZ();
+}
+
+/// Takes markers of one trial after the other.
+class PointTaker {
+ public:
+  PointTaker(const analysis::SegmentDefinition& definition, std::list<MarkersAndModelled>& modelled,
+             analysis::SegmentInput& input, std::vector<std::string>& warnings)
+      : wanted_(names_of_points(definition)), modelled_(modelled), input_(input), warnings_(warnings) {}
+
+  const data::Trajectories* take(const data::Trial& trial, const std::string& name) {
+    const auto* markers = with_modelled(trial, name);
+    for (auto& [wanted, theirs] : suffixed_names(trial.markers.names, wanted_))
+      input_.aliases.try_emplace(wanted, theirs);
+    return markers;
+  }
+
+ private:
+  const data::Trajectories* with_modelled(const data::Trial& trial, const std::string& name) {
+    auto found = with_modelled_points(trial, wanted_);
+    if (!found) return &trial.markers;
+    warnings_.push_back(fmt::format("{}: not measured, taken as a model of the file has them: {}", name,
+                                    fmt::join(found->points, ", ")));
+    modelled_.push_back(std::move(*found));
+    return &modelled_.back().markers;
+  }
+
+  std::set<std::string> wanted_;
+  std::list<MarkersAndModelled>& modelled_;
+  analysis::SegmentInput& input_;
+  std::vector<std::string>& warnings_;
+};
+
+/// Markers of all trials, and names of outputs in them. A sentence for each trial with modelled points that
+/// stand in for markers.
+/// @param own_static  the recording is its own static trial
+/// @return            points into `recording` and `trials`, which must outlive it
+analysis::SegmentInput points_of(const analysis::SegmentDefinition& definition,
+                                 const SegmentsOptions& options, bool own_static,
+                                 const data::Trial& recording, SegmentTrials& trials,
+                                 std::vector<std::string>& warnings) {
+  analysis::SegmentInput input;
+  PointTaker taker(definition, trials.modelled, input, warnings);
+  input.markers = taker.take(recording, options.name);
+  if (own_static) input.static_trial = input.markers;
+  if (trials.still) input.static_trial = taker.take(*trials.still, options.static_name);
+  for (const auto& [name, trial] : trials.shown) input.trials[name] = taker.take(trial, name);
+  return input;
 }
 
 /// What is known of the subject: given, then of its file, of the recording, of the static trial.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/io/place.h"
 #include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline::internal {
@@ -115,7 +116,7 @@ Result<AnalysisInputs> read_analysis_inputs(const AnalysisJob& job) {
     if (plan.model.empty()) plan.model = setup->model_file;
     if (plan.forces.empty() && setup->torques) plan.forces = setup->external_loads_file;
     if (plan.output.empty() && !setup->results_directory.empty()) {
-      if (auto s = check_below(job.setup, setup->results_directory, "results_directory"); !s)
+      if (auto s = io::check_below(job.setup, setup->results_directory, "results_directory"); !s)
         return std::unexpected(s.error());
       plan.output = setup->results_directory;
     }

@@ -151,6 +151,14 @@ void add_heading(const data::JointMotion& other, double step_rad, double heading
                                        step_rad * heading_sd_rad);
 }
 
+/// Progress of one of several solutions of the same frames, which are counted once.
+Progress share_of(const Progress& progress, std::int64_t pass, std::int64_t passes) {
+  if (!progress) return {};
+  return [&progress, pass, passes](std::int64_t done, std::int64_t total) {
+    return progress((pass * total + done) / passes, total);
+  };
+}
+
 }  // namespace
 
 Status OrientationOptions::check() const {
@@ -193,6 +201,9 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
     heading = *found;
   }
 
+  // By a noise that is assumed, by that of the residuals, and with the heading a step further.
+  const std::int64_t passes = !options.error_bars ? 1 : heading.sd_rad > 0.0 ? 3 : 2;
+  std::int64_t pass = 0;
   const auto solve = [&](double heading_rad, double noise_sd_rad) {
     return internal::solve_turned(model.description(), recording, *posed, *frames, heading_rad,
                                   {.limits = options.limits,
@@ -201,7 +212,7 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
                                    .error_bars = noise_sd_rad > 0.0,
                                    .seed = options.seed,
                                    .threads = options.threads},
-                                  progress);
+                                  share_of(progress, pass++, passes));
   };
   const double first_noise = options.noise_sd_rad > 0.0 ? options.noise_sd_rad : kNominalNoise;
   auto solved = solve(heading.rad, options.error_bars ? first_noise : 0.0);

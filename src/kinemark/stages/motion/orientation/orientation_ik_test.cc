@@ -146,6 +146,27 @@ TEST(OrientationIk, ErrorBarsHoldTheTruth) {
   EXPECT_LT(share(within_two), 0.98);
 }
 
+TEST(OrientationIk, FramesAreCountedOnceHoweverOftenTheyAreSolved) {
+  constexpr std::int64_t kFrames = 1000;  // progress is said after so many
+  const auto s = session(0.7, 0.02, 3, kFrames);
+  for (const bool error_bars : {true, false}) {
+    auto options = kUpright;
+    options.error_bars = error_bars;
+    std::vector<std::int64_t> done;
+    const auto count = [&](std::int64_t frames, std::int64_t total) {
+      EXPECT_EQ(total, kFrames);
+      done.push_back(frames);
+      return true;
+    };
+    ASSERT_TRUE(solve_orientations(s.model, s.recording, &s.pose, options, count));
+    ASSERT_FALSE(done.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(done));
+    EXPECT_EQ(done.size() > 1, error_bars) << "they are solved again with the noise that was found";
+    EXPECT_EQ(done.back(), kFrames);
+    EXPECT_EQ(std::ranges::count(done, kFrames), 1);
+  }
+}
+
 TEST(OrientationIk, AFacingAxisGivesTheHeading) {
   auto s = session(-70.0 * kDegree, 0.0, 3, 30);
   // The trunk's sensor: which of its axes faces along the model's x in the pose?

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/stages/report/inputs_json.h"
 #include "kinemark/stages/report/report_parts.h"
 
 namespace kinemark::report::internal {
@@ -26,7 +27,6 @@ namespace kinemark::report::internal {
 [[nodiscard]] nlohmann::ordered_json findings_json(std::span<const Notice> findings);
 /// Each with 2,000 items at most, so that a page stays usable.
 [[nodiscard]] nlohmann::ordered_json groups_json(std::span<const NoticeGroup> groups);
-[[nodiscard]] nlohmann::ordered_json inputs_json(std::span<const InputFile> inputs);
 [[nodiscard]] nlohmann::ordered_json options_json(
     std::span<const std::pair<std::string, std::string>> options);
 

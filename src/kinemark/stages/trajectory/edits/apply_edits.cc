@@ -3,7 +3,6 @@
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -16,17 +15,11 @@ namespace {
 
 using data::EditKind;
 
-std::vector<std::int64_t> all_of(std::int64_t count) {
-  std::vector<std::int64_t> indices(at(count));
-  std::iota(indices.begin(), indices.end(), 0);
-  return indices;
-}
-
 Status crop(EditedTrial& state, const data::Edit& edit) {
   auto& trial = state.trial;
   const auto frames = internal::frames_of(edit, trial);
   if (!frames) return std::unexpected(frames.error());
-  keep_part(trial, *frames, all_of(trial.markers.markers()), all_of(trial.channels.count()));
+  keep_frames(trial, *frames);
   std::erase_if(state.regions, [&](const data::Region& region) {
     return region.last_frame < trial.first_frame || region.first_frame > trial.last_frame();
   });

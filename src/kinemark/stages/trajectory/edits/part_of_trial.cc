@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,12 @@ void crop_analog(data::AnalogChannels& analog, double rate_hz, const FrameSpan& 
   analog.samples = end - first;
 }
 
+std::vector<std::int64_t> all_of(std::int64_t count) {
+  std::vector<std::int64_t> indices(at(count));
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
 void crop_events(data::Trial& trial, const data::Trajectories& part) {
   const double half = 0.5 / part.time.rate_hz;
   const double first = part.time.t0_s - half, last = part.time.time_s(part.frames() - 1) + half;
@@ -112,6 +119,14 @@ void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std:
         "has "
         "no baseline to subtract");
   trial.markers.time.first_number = trial.first_frame;
+}
+
+void keep_frames(data::Trial& trial, const FrameSpan& frames) {
+  keep_part(trial, frames, all_of(trial.markers.markers()), all_of(trial.channels.count()));
+}
+
+void keep_markers(data::Trial& trial, std::span<const std::int64_t> markers) {
+  keep_part(trial, {.first = 0, .count = trial.markers.frames()}, markers, all_of(trial.channels.count()));
 }
 
 }  // namespace kinemark::trajectory

@@ -20,5 +20,9 @@ struct FrameSpan {
 /// the last; events outside are left out, which the warnings say. O(samples).
 void keep_part(data::Trial& trial, const FrameSpan& frames, std::span<const std::int64_t> markers,
                std::span<const std::int64_t> channels);
+/// The same with all markers and channels.
+void keep_frames(data::Trial& trial, const FrameSpan& frames);
+/// The same with all frames and channels.
+void keep_markers(data::Trial& trial, std::span<const std::int64_t> markers);
 
 }  // namespace kinemark::trajectory

@@ -50,6 +50,23 @@ TEST(PartOfTrial, TakesWhatIsKnownOfEverySample) {
   EXPECT_EQ(part.channels.values[0], whole.channels.values[3 * (3 * 2 + 1)]);
 }
 
+TEST(PartOfTrial, SomeFramesOrSomeMarkersLeaveTheRestWhole) {
+  const auto whole = numbered_trial();
+  auto frames = whole;
+  keep_frames(frames, {.first = 3, .count = 4});
+  EXPECT_EQ(frames.markers.names, whole.markers.names);
+  EXPECT_EQ(frames.channels.names, whole.channels.names);
+  EXPECT_EQ(frames.markers.frames(), 4);
+  EXPECT_EQ(frames.first_frame, whole.first_frame + 3);
+  auto markers = whole;
+  const std::array<std::int64_t, 2> kept{2, 0};
+  keep_markers(markers, kept);
+  EXPECT_THAT(markers.markers.names, ElementsAre("C", "A"));
+  EXPECT_EQ(markers.channels.names, whole.channels.names);
+  EXPECT_EQ(markers.channels.values, whole.channels.values);
+  EXPECT_EQ(markers.markers.frames(), whole.markers.frames());
+}
+
 TEST(PartOfTrial, FramesKeepTheirNumbersAndTimes) {
   const auto whole = numbered_trial();
   auto part = whole;

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/resample_forces.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/workflow/prepare/axes.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 
 namespace kinemark::workflow::internal {
 namespace {

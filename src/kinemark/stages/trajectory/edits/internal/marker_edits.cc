@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "kinemark/core/counted.h"
@@ -44,6 +43,21 @@ std::string words_of(const FrameSpan& frames, const data::Trial& trial) {
   return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
+/// A marker in some frames.
+struct Target {
+  std::int64_t marker = 0;
+  FrameSpan frames;
+  std::string name;  ///< of the marker, as the recording has it
+};
+
+Result<Target> target_of(const data::Edit& edit, const data::Trial& trial) {
+  const auto marker = find_marker(trial, edit.marker);
+  if (!marker) return std::unexpected(marker.error());
+  const auto frames = frames_of(edit, trial);
+  if (!frames) return std::unexpected(frames.error());
+  return Target{.marker = *marker, .frames = *frames, .name = trial.markers.names[at(*marker)]};
+}
+
 template <class Wanted>
 std::vector<std::int64_t> frames_where(const FrameSpan& frames, const Wanted& wanted) {
   std::vector<std::int64_t> found;
@@ -52,10 +66,14 @@ std::vector<std::int64_t> frames_where(const FrameSpan& frames, const Wanted& wa
   return found;
 }
 
-Status nothing_there(const data::Trial& trial, const FrameSpan& frames, const std::string& name,
-                     std::string_view what) {
-  return fail(Code::bad_input,
-              fmt::format("'{}' has no {} in {}; need one at least", name, what, words_of(frames, trial)));
+/// The frames of a target that are `wanted`; none: there is no `what`.
+template <class Wanted>
+Result<std::vector<std::int64_t>> some_frames(const Target& target, const data::Trial& trial,
+                                              std::string_view what, const Wanted& wanted) {
+  auto found = frames_where(target.frames, wanted);
+  if (!found.empty()) return found;
+  return fail(Code::bad_input, fmt::format("'{}' has no {} in {}; need one at least", target.name, what,
+                                           words_of(target.frames, trial)));
 }
 
 Status check_frame(std::int64_t frame, const data::Trial& trial) {
@@ -83,11 +101,10 @@ Result<std::vector<FrameSpan>> spans_of(const data::Edit& edit, const data::Tria
 }
 
 void remove_marker(data::Trial& trial, std::int64_t marker) {
-  std::vector<std::int64_t> kept, channels(at(trial.channels.count()));
+  std::vector<std::int64_t> kept;
   for (std::int64_t m = 0; m < trial.markers.markers(); ++m)
     if (m != marker) kept.push_back(m);
-  std::iota(channels.begin(), channels.end(), 0);
-  keep_part(trial, {.first = 0, .count = trial.markers.frames()}, kept, channels);
+  keep_markers(trial, kept);
 }
 
 /// A sample that was filled, as it was before.
@@ -124,31 +141,31 @@ Result<FrameSpan> frames_of(const data::Edit& edit, const data::Trial& trial) {
 }
 
 Status relabel(data::Trial& trial, const data::Edit& edit) {
-  const auto from = find_marker(trial, edit.marker);
-  if (!from) return std::unexpected(from.error());
-  const auto frames = frames_of(edit, trial);
-  if (!frames) return std::unexpected(frames.error());
+  const auto target = target_of(edit, trial);
+  if (!target) return std::unexpected(target.error());
   if (std::ranges::find(trial.channels.names, edit.other) != trial.channels.names.end())
     return fail(Code::bad_input, fmt::format("'{}' is an output of a model; need another name", edit.other));
   auto& markers = trial.markers;
+  const auto from = target->marker;
   const bool whole = !edit.first_frame && !edit.last_frame;
   auto to = data::NameIndex(markers.names).find(edit.other);
-  if (to == *from) to = markers.find(edit.other);  // "LASI" of "Ann:LASI" is a new name for it
-  if (to == *from) return fail(Code::bad_input, fmt::format("'{}' has that name already", edit.other));
+  if (to == from) to = markers.find(edit.other);  // "LASI" of "Ann:LASI" is a new name for it
+  if (to == from) return fail(Code::bad_input, fmt::format("'{}' has that name already", edit.other));
   if (to < 0 && whole) {
-    markers.names[at(*from)] = edit.other;
+    markers.names[at(from)] = edit.other;
     return {};
   }
-  const auto moved = frames_where(*frames, [&](std::int64_t f) { return markers.present(f, *from); });
-  if (moved.empty()) return nothing_there(trial, *frames, markers.names[at(*from)], "sample");
+  const auto is_there = [&](std::int64_t f) { return markers.present(f, from); };
+  if (const auto moved = some_frames(*target, trial, "sample", is_there); !moved)
+    return std::unexpected(moved.error());
   if (to >= 0)
-    if (auto s = check_no_overlap(trial, *from, to, *frames); !s) return s;
+    if (auto s = check_no_overlap(trial, from, to, target->frames); !s) return s;
   if (to < 0) {
-    add_marker(trial, edit.other, *from);
+    add_marker(trial, edit.other, from);
     to = markers.markers() - 1;
   }
-  move_samples(trial, *from, to, *frames);
-  if (whole) remove_marker(trial, *from);
+  move_samples(trial, from, to, target->frames);
+  if (whole) remove_marker(trial, from);
   gather_times(markers);
   return {};
 }
@@ -167,30 +184,27 @@ Status swap_markers(data::Trial& trial, const data::Edit& edit) {
 }
 
 Status cut(data::Trial& trial, const data::Edit& edit) {
-  const auto marker = find_marker(trial, edit.marker);
-  if (!marker) return std::unexpected(marker.error());
-  const auto frames = frames_of(edit, trial);
-  if (!frames) return std::unexpected(frames.error());
-  const auto present =
-      frames_where(*frames, [&](std::int64_t f) { return trial.markers.present(f, *marker); });
-  if (present.empty()) return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "sample");
-  for (const auto f : present) blank_sample(trial, f, *marker, SampleState::rejected);
+  const auto target = target_of(edit, trial);
+  if (!target) return std::unexpected(target.error());
+  const auto is_there = [&](std::int64_t f) { return trial.markers.present(f, target->marker); };
+  const auto present = some_frames(*target, trial, "sample", is_there);
+  if (!present) return std::unexpected(present.error());
+  for (const auto f : *present) blank_sample(trial, f, target->marker, SampleState::rejected);
   return {};
 }
 
 Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& options,
             std::vector<std::string>& notes) {
-  auto& markers = trial.markers;
-  const auto marker = find_marker(trial, edit.marker);
-  if (!marker) return std::unexpected(marker.error());
-  const auto frames = frames_of(edit, trial);
-  if (!frames) return std::unexpected(frames.error());
+  const auto target = target_of(edit, trial);
+  if (!target) return std::unexpected(target.error());
   const auto method = edit.method.empty() ? GapMethod::automatic : parse_gap_method(edit.method);
   if (!method) return fail(Code::bad_input, method.error().message);
   if (*method == GapMethod::none) return fail(Code::bad_input, "the method 'none' fills nothing");
-  const auto missing = frames_where(*frames, [&](std::int64_t f) { return !markers.present(f, *marker); });
-  const auto& name = markers.names[at(*marker)];
-  if (missing.empty()) return nothing_there(trial, *frames, name, "gap");
+  auto& markers = trial.markers;
+  const auto& [marker, frames, name] = *target;
+  const auto missing =
+      some_frames(*target, trial, "gap", [&](std::int64_t f) { return !markers.present(f, target->marker); });
+  if (!missing) return std::unexpected(missing.error());
   // A person asked for this gap: it is filled whatever its length and deviation, which go with the samples.
   GapOptions gaps{.method = *method,
                   .max_gap_s = std::numeric_limits<double>::infinity(),
@@ -198,14 +212,14 @@ Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& optio
                   .check_labels = *method >= GapMethod::rigid,  // those before it look at no other marker
                   .seed = options.seed,
                   .threads = options.threads};
-  gaps.only = {.marker = *marker, .first_frame = missing.front(), .last_frame = missing.back()};
+  gaps.only = {.marker = marker, .first_frame = missing->front(), .last_frame = missing->back()};
   auto filled = fill_gaps(markers, gaps);
   if (!filled) return std::unexpected(filled.error());
-  const auto gone =
-      frames_where(*frames, [&](std::int64_t f) { return !filled->trajectories.present(f, *marker); });
-  if (gone.size() == missing.size())
+  const auto open =
+      frames_where(frames, [&](std::int64_t f) { return !filled->trajectories.present(f, target->marker); });
+  if (open.size() == missing->size())
     return fail(Code::bad_input, fmt::format("the gap of '{}' in {} cannot be filled: {}", name,
-                                             words_of(*frames, trial), filled->gaps.front().why_open));
+                                             words_of(frames, trial), filled->gaps.front().why_open));
   // Gaps are filled as a whole; what lies outside the range is as it was.
   auto after = trial;
   after.markers = std::move(filled->trajectories);
@@ -215,11 +229,11 @@ Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& optio
                                   words_of({.first = gap.first_frame, .count = gap.frames()}, trial),
                                   gap.why_open));
     for (auto f = gap.first_frame; f <= gap.last_frame; ++f) {
-      if (!after.markers.present(f, *marker)) continue;
-      if (f < frames->first || f >= frames->first + frames->count)
-        take_back_fill(after.markers, f, *marker, markers);
+      if (!after.markers.present(f, marker)) continue;
+      if (f < frames.first || f >= frames.first + frames.count)
+        take_back_fill(after.markers, f, marker, markers);
       else
-        forget_cameras(after, f, *marker);
+        forget_cameras(after, f, marker);
     }
   }
   trial = std::move(after);
@@ -227,16 +241,15 @@ Status fill(data::Trial& trial, const data::Edit& edit, const EditOptions& optio
 }
 
 Status unfill(data::Trial& trial, const data::Edit& edit) {
-  const auto marker = find_marker(trial, edit.marker);
-  if (!marker) return std::unexpected(marker.error());
-  const auto frames = frames_of(edit, trial);
-  if (!frames) return std::unexpected(frames.error());
-  const auto filled = frames_where(*frames, [&](std::int64_t f) {
-    const auto state = trial.markers.state[trial.markers.index(f, *marker)];
+  const auto target = target_of(edit, trial);
+  if (!target) return std::unexpected(target.error());
+  const auto is_filled = [&](std::int64_t f) {
+    const auto state = trial.markers.state[trial.markers.index(f, target->marker)];
     return state == SampleState::interpolated || state == SampleState::model_filled;
-  });
-  if (filled.empty()) return nothing_there(trial, *frames, trial.markers.names[at(*marker)], "filled sample");
-  for (const auto f : filled) blank_sample(trial, f, *marker, SampleState::missing);
+  };
+  const auto filled = some_frames(*target, trial, "filled sample", is_filled);
+  if (!filled) return std::unexpected(filled.error());
+  for (const auto f : *filled) blank_sample(trial, f, target->marker, SampleState::missing);
   return {};
 }
 

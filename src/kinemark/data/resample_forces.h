@@ -6,10 +6,10 @@
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/wrenches.h"
 
-namespace kinemark::workflow {
+namespace kinemark::data {
 
 /// The same forces at other instants, linear in force and in moment about one point; NaN outside. Instants
 /// that meet a frame to 1 % of a frame are copied.
-[[nodiscard]] data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time);
+[[nodiscard]] Wrenches resample(const Wrenches& wrenches, const TimeBase& time);
 
-}  // namespace kinemark::workflow
+}  // namespace kinemark::data

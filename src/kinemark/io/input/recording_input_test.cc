@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/marker_input.h"
+#include "kinemark/io/input/recording_input.h"
 
 #include <gmock/gmock.h>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "support/scratch.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 namespace {
 
 using ::testing::ElementsAre;
@@ -28,11 +28,11 @@ class ReadMarkerInput : public ::testing::Test {
         trial.markers.x(f, m) = Eigen::Vector3d(static_cast<double>(f), static_cast<double>(m), 0.25);
         trial.markers.state[trial.markers.index(f, m)] = data::SampleState::measured;
       }
-    ASSERT_TRUE(io::write_markers(trc_, trial, false));
-    ASSERT_TRUE(io::write_text(v3d_,
-                               "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
-                               "ITEM\tX\tY\tZ\n1\t1\t2\t3\n2\t1\t2\t3\n",
-                               false));
+    ASSERT_TRUE(write_markers(trc_, trial, false));
+    ASSERT_TRUE(write_text(v3d_,
+                           "\ts\ts\ts\n\tA\tA\tA\n\tTARGET\tTARGET\tTARGET\n\tp\tp\tp\n"
+                           "ITEM\tX\tY\tZ\n1\t1\t2\t3\n2\t1\t2\t3\n",
+                           false));
   }
   testing_support::ScratchFolder scratch_;
   fs::path trc_ = scratch_ / "a.trc", v3d_ = scratch_ / "a.v3d";
@@ -82,7 +82,7 @@ TEST_F(ReadMarkerInput, ARecordingOfAnalogChannelsAloneIsRefusedWhereSamplesAreN
   trial.markers = data::Trajectories::all_missing({}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 3});
   trial.analog = {.names = {"EMG"}, .units = {"V"}, .rate_hz = 100.0, .samples = 3};
   trial.analog.values.assign(3, 0.5);
-  ASSERT_TRUE(io::write_markers(scratch_ / "emg.c3d", trial, false));
+  ASSERT_TRUE(write_markers(scratch_ / "emg.c3d", trial, false));
   ASSERT_TRUE(read_marker_input({.path = scratch_ / "emg.c3d"})) << "info and convert can use it";
   const auto refused = read_marker_input({.path = scratch_ / "emg.c3d", .needs_samples = true});
   ASSERT_FALSE(refused);
@@ -93,9 +93,9 @@ TEST_F(ReadMarkerInput, ARecordingOfAnalogChannelsAloneIsRefusedWhereSamplesAreN
 
 TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
   EXPECT_EQ(read_marker_input({.path = scratch_ / "none.c3d"}).error().code, Code::io);
-  ASSERT_TRUE(io::write_text(scratch_ / "notes.docx", "hello", false));
+  ASSERT_TRUE(write_text(scratch_ / "notes.docx", "hello", false));
   EXPECT_EQ(read_marker_input({.path = scratch_ / "notes.docx"}).error().code, Code::not_supported);
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io

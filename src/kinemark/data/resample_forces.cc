@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/workflow/prepare/resample_forces.h"
+#include "kinemark/data/resample_forces.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
-namespace kinemark::workflow {
+namespace kinemark::data {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,7 +19,7 @@ struct Push {
     const Vector3d nan = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     return {nan, nan, nan};
   }
-  static Push of(const data::Wrench& wrench, std::int64_t f) {
+  static Push of(const Wrench& wrench, std::int64_t f) {
     const auto triple = [f](const Array<double>& values) -> Vector3d {
       return Eigen::Map<const Vector3d>(values.data() + 3 * f);
     };
@@ -47,7 +47,7 @@ Push between(const Push& a, const Push& b, double later) {
   return push;
 }
 
-Push at_frame(const data::Wrench& wrench, std::int64_t frames, double frame) {
+Push at_frame(const Wrench& wrench, std::int64_t frames, double frame) {
   constexpr double kSame = 0.01;
   const double nearest = std::round(frame);
   if (!(nearest >= 0.0 && nearest < static_cast<double>(frames)) &&
@@ -62,16 +62,16 @@ Push at_frame(const data::Wrench& wrench, std::int64_t frames, double frame) {
 
 }  // namespace
 
-data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time) {
-  data::Wrenches out{.time = time, .items = {}};
+Wrenches resample(const Wrenches& wrenches, const TimeBase& time) {
+  Wrenches out{.time = time, .items = {}};
   const TimeBase& from = wrenches.time;
-  for (const data::Wrench& wrench : wrenches.items) {
-    data::Wrench& to = out.items.emplace_back(data::Wrench{.name = wrench.name,
-                                                           .body = wrench.body,
-                                                           .force = {},
-                                                           .moment = {},
-                                                           .point = {},
-                                                           .corners_in_world = wrench.corners_in_world});
+  for (const Wrench& wrench : wrenches.items) {
+    Wrench& to = out.items.emplace_back(Wrench{.name = wrench.name,
+                                               .body = wrench.body,
+                                               .force = {},
+                                               .moment = {},
+                                               .point = {},
+                                               .corners_in_world = wrench.corners_in_world});
     for (std::int64_t f = 0; f < time.frames; ++f) {
       const Push push = at_frame(wrench, wrenches.frames(), (time.time_s(f) - from.t0_s) * from.rate_hz);
       to.force.insert(to.force.end(), push.force.data(), push.force.data() + 3);
@@ -82,4 +82,4 @@ data::Wrenches resample(const data::Wrenches& wrenches, const TimeBase& time) {
   return out;
 }
 
-}  // namespace kinemark::workflow
+}  // namespace kinemark::data

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/external_forces.h"
+#include "kinemark/io/input/external_forces.h"
 
 #include <fmt/core.h>
 
@@ -9,23 +9,23 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/data/resample_forces.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/osim/external_loads.h"
 #include "kinemark/io/plates/plate_forces.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/workflow/prepare/resample_forces.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 namespace {
 
 Result<ExternalForces> read_plates(const std::filesystem::path& path, const TimeBase& time,
                                    double contact_force_n) {
-  const auto trial = io::read_markers(path);
+  const auto trial = read_markers(path);
   if (!trial) return std::unexpected(trial.error());
-  auto plates = io::plate_forces(*trial, {.contact_force_n = contact_force_n});
+  auto plates = plate_forces(*trial, {.contact_force_n = contact_force_n});
   if (!plates) return std::unexpected(plates.error());
-  ExternalForces out{.wrenches = workflow::resample(plates->wrenches, time), .files = {path}, .warnings = {}};
+  ExternalForces out{.wrenches = data::resample(plates->wrenches, time), .files = {path}, .warnings = {}};
   // Of its other irregularities, those of its markers, nothing is used here.
   std::ranges::copy_if(trial->warnings, std::back_inserter(out.warnings),
                        [](const std::string& warning) { return warning.starts_with("force plate "); });
@@ -35,29 +35,29 @@ Result<ExternalForces> read_plates(const std::filesystem::path& path, const Time
 
 /// Whether files of an extension can hold force plates.
 bool keeps_plates(std::string_view extension) {
-  const auto* format = io::written_format(extension);
-  return format != nullptr && format->keeps(io::Part::force_plates) != io::Kept::none;
+  const auto* format = written_format(extension);
+  return format != nullptr && format->keeps(Part::force_plates) != Kept::none;
 }
 
 Result<ExternalForces> read_loads(const std::filesystem::path& path, const TimeBase& time) {
-  const auto loads = io::read_external_loads(path);
+  const auto loads = read_external_loads(path);
   if (!loads) return std::unexpected(loads.error());
-  const auto table = io::read_table(loads->data_file);
+  const auto table = read_table(loads->data_file);
   if (!table)
     return fail(table.error().code,
                 fmt::format("{} (the <datafile> of {})", table.error().message, path.string()));
-  auto wrenches = io::sample_external_loads(*loads, *table, time);
+  auto wrenches = sample_external_loads(*loads, *table, time);
   if (!wrenches) return std::unexpected(wrenches.error());
   return ExternalForces{
       .wrenches = std::move(*wrenches), .files = {path, loads->data_file}, .warnings = table->warnings};
 }
 
 Result<ExternalForces> read_columns(const std::filesystem::path& path, const TimeBase& time) {
-  const auto table = io::read_table(path);
+  const auto table = read_table(path);
   if (!table) return std::unexpected(table.error());
-  const auto loads = io::loads_of_columns(*table, path);
+  const auto loads = loads_of_columns(*table, path);
   if (!loads) return std::unexpected(loads.error());
-  auto wrenches = io::sample_external_loads(*loads, *table, time);
+  auto wrenches = sample_external_loads(*loads, *table, time);
   if (!wrenches) return std::unexpected(wrenches.error());
   return ExternalForces{.wrenches = std::move(*wrenches), .files = {path}, .warnings = table->warnings};
 }
@@ -79,4 +79,4 @@ Result<ExternalForces> read_external_forces(const std::filesystem::path& path, c
                   path.string()));
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io

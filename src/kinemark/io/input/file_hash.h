@@ -10,7 +10,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/run_record.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 
 /// Size and checksum of a file.
 struct FileHash {
@@ -34,4 +34,4 @@ struct FileHash {
                                                     const std::filesystem::path& path,
                                                     std::span<const std::filesystem::path> files);
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/workflow/prepare/resample_forces.h"
+#include "kinemark/data/resample_forces.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "kinemark/core/missing.h"
 
-namespace kinemark::workflow {
+namespace kinemark::data {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,9 +19,9 @@ Vector3d of_frame(const Array<double>& values, std::int64_t f) {
 }
 
 /// A force and a moment about a point that all change evenly; nothing in the last two of 10 frames.
-data::Wrenches even() {
-  data::Wrenches w{.time = {.rate_hz = 50.0, .t0_s = 1.0, .frames = 10}, .items = {}};
-  data::Wrench wrench{.name = "plate 1", .body = "foot", .force = {}, .moment = {}, .point = {}};
+Wrenches even() {
+  Wrenches w{.time = {.rate_hz = 50.0, .t0_s = 1.0, .frames = 10}, .items = {}};
+  Wrench wrench{.name = "plate 1", .body = "foot", .force = {}, .moment = {}, .point = {}};
   for (int f = 0; f < 10; ++f)
     for (int axis = 0; axis < 3; ++axis) {
       wrench.force.push_back(f < 8 ? 100.0 * axis + f : 0.0);
@@ -33,7 +33,7 @@ data::Wrenches even() {
 }
 
 /// Moment about the laboratory's origin.
-Vector3d at_origin(const data::Wrench& w, std::int64_t f) {
+Vector3d at_origin(const Wrench& w, std::int64_t f) {
   return of_frame(w.moment, f) + of_frame(w.point, f).cross(of_frame(w.force, f));
 }
 
@@ -93,4 +93,4 @@ TEST(Resample, NothingIsKnownOutsideOrBesideTheUnknown) {
 }
 
 }  // namespace
-}  // namespace kinemark::workflow
+}  // namespace kinemark::data

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/edit_input.h"
+#include "kinemark/pipeline/files/recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kinemark/io/edits/edit_journal.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/convert_job.h"
-#include "kinemark/pipeline/files/file_hash.h"
 #include "kinemark/stages/trajectory/edits/testing/edited.h"
 #include "support/scratch.h"
 
@@ -24,18 +24,18 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-class EditInputTest : public ::testing::Test {
+class RecordingEditsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(io::write_markers(recording_, trajectory::testing::moving_trial(), false));
     loaded_.trial = io::read_markers(recording_).value();
   }
   void append(const std::vector<Edit>& edits) {
-    auto journal = io::EditJournal::open(journal_, identify_recording(recording_).value());
+    auto journal = io::EditJournal::open(journal_, io::identify_recording(recording_).value());
     ASSERT_TRUE(journal) << journal.error().message;
     for (const auto& edit : edits) ASSERT_TRUE(journal->append(edit));
   }
-  Result<UsedJournal> take(const std::filesystem::path& edits, bool force = false) {
+  Result<io::Journal> take(const std::filesystem::path& edits, bool force = false) {
     return take_edits({.edits = edits, .recording = recording_, .force = force}, loaded_);
   }
 
@@ -45,15 +45,7 @@ class EditInputTest : public ::testing::Test {
   data::Trial& trial_ = loaded_.trial;
 };
 
-TEST_F(EditInputTest, TheJournalLiesBesideItsRecording) {
-  EXPECT_EQ(edits_of("a/walk.c3d"), "a/walk_edits.jsonl");
-  const auto identity = identify_recording(recording_).value();
-  EXPECT_EQ(identity.name, "walk.c3d");
-  EXPECT_EQ(identity.hash, hash_file(recording_)->hex);
-  EXPECT_FALSE(identify_recording(scratch_ / "no.c3d"));
-}
-
-TEST_F(EditInputTest, TakesWhatIsInForce) {
+TEST_F(RecordingEditsTest, TakesWhatIsInForce) {
   append({{.kind = EditKind::cut, .marker = "RKNE", .first_frame = 510, .last_frame = 519},
           {.kind = EditKind::cut, .marker = "SACR"},
           {.kind = EditKind::undo},
@@ -64,7 +56,7 @@ TEST_F(EditInputTest, TakesWhatIsInForce) {
   EXPECT_EQ(trial_.markers.count_missing(), before + 10);
   EXPECT_EQ(loaded_.edits.in_force, 2U);
   EXPECT_EQ(taken->file->role, "edits");
-  EXPECT_EQ(taken->file->hash, hash_file(journal_)->hex);
+  EXPECT_EQ(taken->file->hash, io::hash_file(journal_)->hex);
   EXPECT_THAT(loaded_.notes, ElementsAre(HasSubstr("2 edits of")));
   EXPECT_THAT(
       edit_options(loaded_.edits, *taken),
@@ -72,8 +64,8 @@ TEST_F(EditInputTest, TakesWhatIsInForce) {
                   std::pair<std::string, std::string>("region 'gait'", "frames 520 to 530")));
 }
 
-TEST_F(EditInputTest, BesideMayBeAbsentANameMayNot) {
-  const auto none = take(kEditsBeside);
+TEST_F(RecordingEditsTest, BesideMayBeAbsentANameMayNot) {
+  const auto none = take(io::kEditsBeside);
   ASSERT_TRUE(none);
   EXPECT_FALSE(none->file);
   EXPECT_THAT(loaded_.notes, IsEmpty());
@@ -83,11 +75,11 @@ TEST_F(EditInputTest, BesideMayBeAbsentANameMayNot) {
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().code, Code::io);
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
-  ASSERT_TRUE(take(kEditsBeside));
+  ASSERT_TRUE(take(io::kEditsBeside));
   EXPECT_EQ(loaded_.edits.in_force, 1U);
 }
 
-TEST_F(EditInputTest, AnotherRecordingIsRefused) {
+TEST_F(RecordingEditsTest, AnotherRecordingIsRefused) {
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
   auto own = loaded_;
   ASSERT_TRUE(take_edits({.edits = journal_, .recording = recording_, .force = true}, own));
@@ -104,7 +96,7 @@ TEST_F(EditInputTest, AnotherRecordingIsRefused) {
               Contains(HasSubstr("these edits are of 'walk.c3d' and were applied to another recording,")));
 }
 
-TEST_F(EditInputTest, WhatCannotBeAppliedIsNamedWithItsLine) {
+TEST_F(RecordingEditsTest, WhatCannotBeAppliedIsNamedWithItsLine) {
   append({{.kind = EditKind::cut, .marker = "RKNE"}, {.kind = EditKind::cut, .marker = "RKNN"}});
   const auto before = trajectory::testing::bytes_of(trial_);
   const auto wrong = take(journal_);
@@ -114,7 +106,7 @@ TEST_F(EditInputTest, WhatCannotBeAppliedIsNamedWithItsLine) {
   EXPECT_EQ(trajectory::testing::bytes_of(trial_), before) << "all or nothing";
 }
 
-TEST_F(EditInputTest, ConvertAppliesThemBeforeItsSelection) {
+TEST_F(RecordingEditsTest, ConvertAppliesThemBeforeItsSelection) {
   append({{.kind = EditKind::relabel, .marker = "*12", .other = "LHEE"}});
   ConvertJob job;
   job.in = recording_;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/file_hash.h"
+#include "kinemark/io/input/file_hash.h"
 
 #include <fmt/core.h>
 #include <xxhash.h>
@@ -10,7 +10,7 @@
 
 #include "kinemark/io/file.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 
 Result<FileHash> hash_files(std::span<const std::filesystem::path> paths) {
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
@@ -18,7 +18,7 @@ Result<FileHash> hash_files(std::span<const std::filesystem::path> paths) {
   std::vector<std::byte> block(1 << 20);
   FileHash hash;
   for (const auto& path : paths) {
-    const auto file = io::InputFile::open(path);
+    const auto file = InputFile::open(path);
     if (!file) return std::unexpected(file.error());
     for (std::size_t at = 0;;) {
       const auto n = file->read_at(at, block);
@@ -47,4 +47,4 @@ Result<data::InputFile> record_input(const std::string& role, const std::filesys
   return record_inputs(role, path, {&path, 1});
 }
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/files/external_forces.h"
+#include "kinemark/io/input/external_forces.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "support/scratch.h"
 #include "support/test_data.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 namespace {
 
 using Eigen::Vector3d;
@@ -50,7 +50,7 @@ TEST(ExternalForces, APlateThatCannotBeReadIsSaid) {
                             Vector3d(0.5, 0.5, 0)};
   trial.force_plates = {{.type = 6, .channel_idx = {0}}, plate};
   const testing_support::ScratchFolder scratch;
-  ASSERT_TRUE(io::write_markers(scratch / "p.c3d", trial, false));
+  ASSERT_TRUE(write_markers(scratch / "p.c3d", trial, false));
   const auto read = read_external_forces(scratch / "p.c3d", trial.markers.time, 20.0);
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->wrenches.items.size(), 1U);
@@ -70,12 +70,12 @@ TEST(ExternalForces, OtherFilesAreRefusedInASentence) {
   EXPECT_EQ(read_external_forces("none.c3d", time, 20.0).error().code, Code::io);
   EXPECT_EQ(read_external_forces("none.XML", time, 20.0).error().code, Code::io);
   const testing_support::ScratchFolder scratch;
-  ASSERT_TRUE(io::write_text(
-      scratch / "loads.xml",
-      "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"a\"><applied_to_body>foot"
-      "</applied_to_body><torque_identifier>t</torque_identifier></ExternalForce></objects>"
-      "<datafile>gone.mot</datafile></ExternalLoads></OpenSimDocument>",
-      false));
+  ASSERT_TRUE(
+      write_text(scratch / "loads.xml",
+                 "<OpenSimDocument><ExternalLoads><objects><ExternalForce name=\"a\"><applied_to_body>foot"
+                 "</applied_to_body><torque_identifier>t</torque_identifier></ExternalForce></objects>"
+                 "<datafile>gone.mot</datafile></ExternalLoads></OpenSimDocument>",
+                 false));
   const auto gone = read_external_forces(scratch / "loads.xml", time, 20.0);
   EXPECT_EQ(gone.error().code, Code::io);
   EXPECT_THAT(gone.error().message, HasSubstr("gone.mot"));
@@ -83,4 +83,4 @@ TEST(ExternalForces, OtherFilesAreRefusedInASentence) {
 }
 
 }  // namespace
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io

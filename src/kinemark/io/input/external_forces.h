@@ -10,7 +10,7 @@
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/wrenches.h"
 
-namespace kinemark::pipeline {
+namespace kinemark::io {
 
 /// Forces that act on the body besides gravity, and the files they come from.
 struct ExternalForces {
@@ -20,10 +20,10 @@ struct ExternalForces {
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d or .mat file, an OpenSim ExternalLoads
-/// .xml with its table, or a table alone, by the names of its columns (io::loads_of_columns()). NaN where the
+/// .xml with its table, or a table alone, by the names of its columns (loads_of_columns()). NaN where the
 /// file has no data. Another kind of file: Code::usage.
-/// @param contact_force_n  of plates, io::PlateOptions
+/// @param contact_force_n  of plates, PlateOptions
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
 
-}  // namespace kinemark::pipeline
+}  // namespace kinemark::io
