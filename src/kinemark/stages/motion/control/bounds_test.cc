@@ -210,5 +210,41 @@ TEST(Bounds, ALockedCoordinateIsKnownFromTheModelAndOneLockedHereIsNot) {
   EXPECT_TRUE(here.bounds.determined()[kKnee]);
 }
 
+TEST(Bounds, ErrorsThatAPoseExplainsAreCoordinatesAndNothingElse) {
+  Tracked t;
+  t.find();
+  const auto& model = t.plan.problem.model;
+  model::Workspace w(model);
+  model::kinematics(model, w, t.x);
+  const Eigen::Matrix3Xd before = w.marker;
+  VectorXd move = VectorXd::Zero(model.speed_count()), there = t.x, q = t.q, squares, freedom;
+  for (Eigen::Index k = 6; k < move.size(); ++k) move[k] = 1e-6 * static_cast<double>(k);
+  model::integrate(model, there, move);
+  model::kinematics(model, w, there);
+  model::coordinates_from_state(model, there, t.q, q);
+  const Eigen::Matrix3Xd error = w.marker - before;
+  const VectorXd found = t.bounds.coordinates_of(error);
+  for (int c = 0; c < t.count(); ++c) EXPECT_NEAR(found[c], q[c] - t.q[c], 1e-10) << c;
+  t.bounds.unexplained(error, squares, freedom);
+  EXPECT_LT(squares.maxCoeff(), 1e-8 * error.squaredNorm());
+  EXPECT_NEAR(freedom.sum(), 3.0 * static_cast<double>(error.cols()) - t.bounds.rank(), 1e-9);
+  // A marker that is no goal explains nothing, and nothing is asked of it.
+  t.goal.weight[0] = 0.0;
+  t.find();
+  t.bounds.unexplained(error, squares, freedom);
+  EXPECT_EQ(squares[0], 0.0);
+  EXPECT_EQ(freedom[0], 0.0);
+}
+
+TEST(Bounds, VarianceOfIndependentErrorsIsThatOfTheirNoise) {
+  Tracked t;
+  for (Eigen::Index m = 0; m < t.noise.own.size(); ++m)
+    t.noise.own[m] = 1e-6 * (1.0 + static_cast<double>(m));
+  t.goal.weight[3] = 0.3;
+  t.find();
+  const VectorXd variance = t.bounds.variance_of(t.noise.own);
+  for (int c = 0; c < t.count(); ++c) EXPECT_NEAR(std::sqrt(variance[c]), t.bounds.sd()[c], 1e-9) << c;
+}
+
 }  // namespace
 }  // namespace kinemark::motion::internal

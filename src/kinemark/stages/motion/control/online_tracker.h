@@ -30,8 +30,10 @@ struct LivePose {
 
 /// track_markers() on a stream: poses are returned `delay_frames()` after their frames, with the same numbers
 /// (q, qd, qdd, tau) as from a file, provided that the first frame shows 95 % of the markers and that the
-/// same coordinates are locked. Standard deviations and bounds agree to rounding when the marker noise is
-/// given; otherwise it is estimated from the frames so far.
+/// same coordinates are locked. Standard deviations and bounds hold the noise of the goals, and agree with
+/// those of a file to rounding when the marker noise is given; otherwise it is estimated from the frames so
+/// far. What the filter takes away from the movement (TrackResult::filter_sd) is known of files only: where
+/// that is large beside the noise, deviations of a stream are too small.
 ///
 /// The delay is the lookahead of the goals' filter, TrackOptions::lookahead_s, or the fading time where that
 /// is longer; a shorter lookahead reduces the delay and filters less well. Memory use is constant.

@@ -169,9 +169,7 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
     internal::add_sample_findings(plan->problem, *judged, markers, result.motion, result.fit);
   if (options.error_bars) {
     forget_rejected(*plan, kept, track);
-    const auto noise = internal::goal_noise(*plan, kept, track, filter, options);
-    internal::add_error_bars(*plan, track, noise, options.threads, result);
-    internal::add_marker_noise(plan->problem.model, noise, result.fit);
+    internal::add_error_bars(*plan, kept, track, filter, options, result);
   }
   internal::add_marker_errors(result.motion, result.fit);
   if (result.flagged_frames > 0)

@@ -34,6 +34,9 @@ struct TrackResult {
   /// F x n, with error bars: bound of equation 16 on the distance to the coordinates that the goals ask for,
   /// level by level. It takes goals for exact and knows norms only; motion.q_bound is the bound on the error.
   Array<double> goal_bound;
+  /// F x n, with error bars: SD of what the filter of the goals took away from the movement, part of
+  /// motion.q_sd; 0 without a filter, NaN where not determined.
+  Array<double> filter_sd;
   int free_speeds = 0;                                ///< directions there are: speeds that are not locked
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames

@@ -30,6 +30,7 @@ constexpr double kFurther = 1.6;
 constexpr double kLinear = 0.5;   // of the rise of a linear model: what rises by less is not linear
 constexpr double kEnough = 16.0;  // rise of chi-square beyond which a pose is not asked
 constexpr int kMostSteps = 20;
+constexpr double kLongestMove = 0.5;  // rad or m, of any speed
 constexpr int kMostHalved = 5;
 constexpr int kTrusted = 3;        // steps after which one that cannot lead to a fit is believed
 constexpr double kSettled = 0.01;  // of chi-square, by which the next step would lower it
@@ -86,7 +87,7 @@ double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
     if (!std::isfinite(longest)) return HUGE_VAL;
     const double less = step_.dot(force_);  // chi-square, were the model linear
     if (less < kSettled || (k >= kTrusted && chi_square - less > chi_square_ + kEnough)) return chi_square;
-    if (longest > 0.5) step_ *= 0.5 / longest;
+    if (longest > kLongestMove) step_ *= kLongestMove / longest;
     bool lower = false;
     for (int halved = 0; !lower && halved < kMostHalved; ++halved) {
       tried_ = state;
@@ -104,13 +105,20 @@ double ProfileErrors::settle(VectorXd& state, Eigen::Index held) {
 
 /// Ask at places ever further along one direction, as long as chi-square rises by less than `least` of what
 /// it would were the model linear; lacks_ becomes what they show.
-void ProfileErrors::profile(const Direction& direction, double sign, double least) {
+void ProfileErrors::profile(const Direction& direction, double sign, double least, Drags drags) {
   const auto& v = direction.along;
-  const double farthest = kMostMoved / v.cwiseAbs().maxCoeff();
+  const double farthest =
+      kMostMoved / (drags == Drags::counted ? v.cwiseAbs().maxCoeff() : std::abs(v[direction.speed]));
   double before = 0.0;
   moved_ = best_;
   for (double s = std::min(kFirst, farthest);; s = std::min(kFurther * s, farthest)) {
     step_ = sign * (s - before) * v;
+    if (drags == Drags::left_behind) {
+      const double own = std::exchange(step_[direction.speed], 0.0);
+      if (const double longest = step_.cwiseAbs().maxCoeff(); longest > kLongestMove)
+        step_ *= kLongestMove / longest;
+      step_[direction.speed] = own;
+    }
     model::integrate(problem_.model, moved_, step_);
     const double rise = settle(moved_, direction.speed) - chi_square_;
     if (!(rise < std::min(kEnough, least * s * s))) return;
@@ -146,7 +154,7 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   for (const auto& direction : directions_) {
     linear_.noalias() = E * direction.along;
     lacks_.setZero(q_.size());
-    for (const double sign : {-1.0, 1.0}) profile(direction, sign, HUGE_VAL);
+    for (const double sign : {-1.0, 1.0}) profile(direction, sign, HUGE_VAL, Drags::counted);
     variance += lacks_;
   }
   if (kFirst * directions_.front().along.cwiseAbs().maxCoeff() > kMostMoved) ask_what_is_known(E, variance);
@@ -164,7 +172,7 @@ void ProfileErrors::ask_what_is_known(const Eigen::MatrixXd& E, VectorXd& varian
     const Direction direction{.speed = i, .along = known_.col(i) / std::sqrt(own)};
     linear_.noalias() = E * direction.along;
     lacks_.setZero(q_.size());
-    for (const double sign : {-1.0, 1.0}) profile(direction, sign, kLinear);
+    for (const double sign : {-1.0, 1.0}) profile(direction, sign, kLinear, Drags::left_behind);
     variance[c] += lacks_[c];
   }
 }

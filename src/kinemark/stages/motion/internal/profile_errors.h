@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "kinemark/model/workspace.h"
@@ -47,7 +48,13 @@ class ProfileErrors {
 
   void find_directions();
   double settle(Eigen::VectorXd& state, Eigen::Index held);
-  void profile(const Direction& direction, double sign, double least);
+  /// What else moves along a direction, to first order: an open limb by radians for each deviation of a
+  /// coordinate that is known.
+  enum class Drags : std::uint8_t {
+    counted,      ///< it goes no farther than the coordinate that is held may
+    left_behind,  ///< it goes half a radian at most from one place to the next; settling does the rest
+  };
+  void profile(const Direction& direction, double sign, double least, Drags drags);
   void ask_what_is_known(const Eigen::MatrixXd& E, Eigen::VectorXd& variance);
   double residuals(const Eigen::VectorXd& state);
 

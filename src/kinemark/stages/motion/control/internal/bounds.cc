@@ -17,7 +17,6 @@ namespace {
 constexpr double kBlindRotation = 1.0 / 0.003;  // rad per m of goal error, as for inverse kinematics
 constexpr double kBlindTranslation = 20.0;      // m per m
 constexpr double kNullShare = 1e-4;             // of a coordinate's square that no level fixes
-constexpr double kLargestSd = 0.5;              // rad or m
 constexpr double kAtLimit = 1e-9;               // rad or m
 constexpr double kUnknownShare = 1e-6;          // of the squared gains that goals with a known SD have
 
@@ -232,6 +231,49 @@ void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goal
     measure();
   }
   judge(noise);
+}
+
+void Bounds::stack(const Eigen::Matrix3Xd& error) {
+  stacked_.setZero(explained_.cols());
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j) {
+      const auto row = 3 * static_cast<Eigen::Index>(j);
+      if (levels_[i].scale[row] > 0.0)
+        stacked_.segment<3>(first_column_[i] + row) = error.col(plan_.levels[i].markers[j]);
+    }
+}
+
+Eigen::VectorXd Bounds::coordinates_of(const Eigen::Matrix3Xd& error) {
+  stack(error);
+  return G_ * stacked_;
+}
+
+Eigen::VectorXd Bounds::variance_of(const Eigen::VectorXd& variance) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(G_.rows());
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j)
+      out += variance[plan_.levels[i].markers[j]] *
+             G_.middleCols<3>(first_column_[i] + 3 * static_cast<Eigen::Index>(j)).rowwise().squaredNorm();
+  return out;
+}
+
+void Bounds::unexplained(const Eigen::Matrix3Xd& error, Eigen::VectorXd& squares, Eigen::VectorXd& freedom) {
+  stack(error);
+  const Eigen::VectorXd change = explained_ * stacked_;
+  squares.setZero(error.cols());
+  freedom.setZero(error.cols());
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j) {
+      const int m = plan_.levels[i].markers[j];
+      for (Eigen::Index row = 3 * static_cast<Eigen::Index>(j), end = row + 3; row < end; ++row) {
+        const double scale = levels_[i].scale[row];
+        if (!(scale > 0.0)) continue;
+        const auto slope = levels_[i].A.col(row) / scale;
+        const double left = stacked_[first_column_[i] + row] - slope.dot(change);
+        squares[m] += left * left;
+        freedom[m] += 1.0 - slope.dot(explained_.col(first_column_[i] + row));
+      }
+    }
 }
 
 }  // namespace kinemark::motion::internal

@@ -34,6 +34,8 @@ class Bounds {
 
   /// Equations 15 and 16 assume exact goals; bound() counts this many standard deviations of their noise.
   static constexpr double kNoiseSds = 5.0;
+  /// A coordinate with a larger deviation is not determined, rad or m.
+  static constexpr double kLargestSd = 0.5;
 
   /// Evaluate pose x with coordinates q and the goals of this frame.
   void find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
@@ -49,6 +51,14 @@ class Bounds {
   /// Equation 16: bound on the distance to the coordinate that the goals require. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
   [[nodiscard]] const std::vector<std::uint8_t>& determined() const { return determined_; }
+  /// What an error of each marker (3 x M, m) in the frame of find() changes the coordinates by, to first
+  /// order.
+  [[nodiscard]] Eigen::VectorXd coordinates_of(const Eigen::Matrix3Xd& error);
+  /// Variance of the coordinates by independent errors of the markers, of `variance` (M, m^2) per axis.
+  [[nodiscard]] Eigen::VectorXd variance_of(const Eigen::VectorXd& variance) const;
+  /// What no change of the pose explains of such an error: m^2 of each marker (M), and how many of its three
+  /// directions that leaves (M; 0 where the marker is no goal).
+  void unexplained(const Eigen::Matrix3Xd& error, Eigen::VectorXd& squares, Eigen::VectorXd& freedom);
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] double smallest_singular() const { return smallest_; }
 
@@ -68,6 +78,8 @@ class Bounds {
   void measure();
   void find_coordinates(const Eigen::VectorXd& q);
   void judge(const MarkerVariances& noise);
+  /// Rows of all levels in one vector; 0 where a row is no marker that is seen.
+  void stack(const Eigen::Matrix3Xd& error);
 
   const Plan& plan_;
   model::Workspace w_;
@@ -76,7 +88,7 @@ class Bounds {
   TaskRows rows_;
   Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, force_;
+  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, force_, stacked_;
   std::vector<std::uint8_t> determined_, held_;
   int rank_ = 0;
   double smallest_ = 0.0;
