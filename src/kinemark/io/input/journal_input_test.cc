@@ -80,7 +80,7 @@ TEST_F(JournalInputTest, OfAnotherFileOfThatNameIsLeftToIt) {
 TEST_F(JournalInputTest, OfAnotherRecordingIsRefusedUnlessForced) {
   append({{.kind = EditKind::cut, .marker = "RKNE"}});
   ASSERT_TRUE(write_text(recording_, "recorded once more", true));
-  for (const std::filesystem::path edits : {journal_, std::filesystem::path(kEditsBeside)}) {
+  for (const auto& edits : {journal_, std::filesystem::path(kEditsBeside)}) {
     const auto refused = read(edits);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, Code::bad_input);
