@@ -36,6 +36,7 @@ void print_ik_outcome(const CommonOptions& common, const pipeline::IkOutcome& ou
       fmt::format("Marker error {:.2f} mm RMS, {:.1f} mm at most; {:.1f} % of the coordinates determined.",
                   1e3 * result.fit.rms_error_m, 1e3 * result.fit.max_error_m,
                   100.0 * summary.determined_fraction));
+  if (outcome.sensor_fit) say_sensors(common, *outcome.sensor_fit);
   const auto partly = coordinates_partly_determined(summary, motion.frames());
   if (!partly.empty()) say(common, partly);
   print_motion(common, outcome);
@@ -53,7 +54,11 @@ struct IkArguments {
 int run_command(const CommonOptions& common, IkArguments& arguments) {
   auto& job = arguments.job;
   if (auto status = apply(arguments.motion, job); !status) return report_error(status.error());
-  if (arguments.orientations.any()) return run_orientation_command(common, arguments.orientations, job);
+  if (arguments.orientations.any()) {
+    if (arguments.motion.recordings.empty())
+      return run_orientation_command(common, arguments.orientations, job);
+    if (auto status = add_sensors(arguments.orientations, job); !status) return report_error(status.error());
+  }
   for (const auto& text : arguments.coordinate_weights) {
     const auto weight = parse_pair(text, "WEIGHT");
     if (!weight) return report_error(weight.error());
@@ -67,6 +72,9 @@ int run_command(const CommonOptions& common, IkArguments& arguments) {
   if (auto s = is_one ? many.check_single() : Status(); !s) return report_error(s.error());
   if (is_one) return run_job(common, "frames", job, pipeline::run_ik, print_ik_outcome);
   if (auto s = pipeline::check_for_several(job); !s) return report_error(s.error());
+  if (arguments.orientations.any())
+    return report_error(
+        fail(Code::usage, "--orientations are of one recording; give one marker file").error());
   many.pages = job.report;
   const auto solve_one = [&job](const std::filesystem::path& input, const std::filesystem::path& output,
                                 const std::filesystem::path& page,
@@ -93,8 +101,9 @@ void add_ik(CLI::App& app, const CommonOptions& common, Run& run) {
       "not seen) and Q_report.json. Exit status 1: the files are there, but a quality gate was missed.\n"
       "Several marker files, or a folder of them: --output is a folder; what is there already is not done "
       "again.\n"
-      "With --orientations, of inertial sensors in place of markers: Q_orientation_errors.sto (degrees) "
-      "instead of Q_marker_errors.sto.");
+      "With --orientations, of inertial sensors: Q_orientation_errors.sto (degrees), beside "
+      "Q_marker_errors.sto "
+      "where there are markers.");
   const auto arguments = std::make_shared<IkArguments>();
   auto& job = arguments->job;
   auto& options = job.options;

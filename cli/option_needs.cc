@@ -24,7 +24,8 @@ struct Need {
   std::string_view options;
   std::string_view choice;
   std::string_view values;
-  std::string_view of;  ///< what they are for
+  std::string_view of;           ///< what they are for
+  std::string_view unless = {};  ///< an option that frees them of this need where it is given
 };
 
 constexpr std::array kNeeds = {
@@ -48,13 +49,14 @@ constexpr std::array kNeeds = {
     Need{"ik,track", "geometry", "report", kGiven, "the page"},
     Need{"ik", "loss-scale", "loss", "huber cauchy", "the losses huber and cauchy"},
     Need{"ik", "loss coordinate-weight", "estimator", "least-squares", "least squares"},
-    Need{"ik", "calibration sensor heading orientation-noise max-orientation-rms", "orientations", kGiven,
-         "orientations"},
+    Need{"ik", "calibration sensor sensors-up heading orientation-noise max-orientation-rms", "orientations",
+         kGiven, "orientations"},
+    Need{"ik", "rig images image-noise min-likelihood person jobs keep-going loss loss-scale estimator",
+         "orientations", kNotGiven, "markers alone"},
     Need{"ik",
-         "markers rate unit edits select drop rename frames rotate doubtful forces rig images image-noise "
-         "min-likelihood person geometry weight noise max-rms max-offset jobs keep-going setup tasks report "
-         "coordinate-weight loss loss-scale estimator locations torques",
-         "orientations", kNotGiven, "markers"},
+         "rate unit edits select drop rename frames rotate doubtful forces geometry weight noise max-rms "
+         "max-offset setup tasks report coordinate-weight locations torques",
+         "orientations", kNotGiven, "markers", "markers"},
     Need{"measure,gait,emg,segments,dynamics,analyze", "level", "refits", kNotZero, "intervals"},
     Need{"dynamics", "level refits", "no-error-bars", kNotGiven, "intervals"},
     Need{"gait", "noise", "refits", kNotZero, "intervals"},
@@ -160,6 +162,8 @@ Status check_needs_of(std::string_view words, const CLI::App& command) {
     if (!is_among(need.commands, words)) continue;
     const auto* choice = find_option(command, need.choice);
     if (choice == nullptr) continue;
+    const auto* unless = need.unless.empty() ? nullptr : find_option(command, need.unless);
+    if (unless != nullptr && unless->count() > 0) continue;
     if (auto s = check_need(need, command, *choice); !s) return s;
   }
   return {};

@@ -111,6 +111,11 @@ void describe_facts(const pipeline::TableFacts& facts, TrialRow& row) {
                row);
 }
 
+void describe_facts(const pipeline::OrientationFacts& facts, TrialRow& row) {
+  row.kind = "orientations";
+  set_length(facts.frames, facts.rate_hz, row);
+}
+
 void describe_facts(const pipeline::RecordingFacts& facts, TrialRow& row) {
   row.kind = "recording";
   if (facts.counts) set_length(facts.counts->frames, facts.counts->rate_hz, row);

@@ -66,7 +66,7 @@ def write_quaternions(path, times, names, rotations):
 class Subject:
     """A model that moves, with sensors on it."""
 
-    def __init__(self, opensim, model, motion, bodies, noise_deg, seed):
+    def __init__(self, opensim, model, motion, bodies, noise_deg, seed, frames=FRAMES):
         import numpy
         from scipy.spatial.transform import Rotation
 
@@ -79,7 +79,7 @@ class Subject:
         self.heading_deg = draw.uniform(-180, 180)
         upright = Rotation.from_euler("x", 90, degrees=True)
         self.world = upright * Rotation.from_euler("y", -self.heading_deg, degrees=True)
-        mounts = Rotation.random(len(bodies), random_state=seed)
+        mounts = self.mounts = Rotation.random(len(bodies), random_state=seed)
         self.sensors = [f"{body}_imu" for body in bodies]
 
         def seen():
@@ -93,9 +93,11 @@ class Subject:
 
         self.pose = [seen() for _ in range(POSE_FRAMES)]
         labels, table, in_degrees = read_table(motion)
-        table = table[:FRAMES]
+        table = table[:frames]
         self.times = numpy.round(table[:, 0] - table[0, 0], 4)
-        self.truth, self.recording = {name: [] for name in self.names}, []
+        self.truth, self.recording, self.markers = {name: [] for name in self.names}, [], []
+        spots = self.model.getMarkerSet()
+        self.marker_names = [spots.get(i).getName() for i in range(spots.getSize())]
         for values in table:
             for label, value in zip(labels[1:], values[1:]):
                 if label in self.names and not coordinates.get(label).get_locked():
@@ -105,6 +107,7 @@ class Subject:
             for name in self.names:
                 self.truth[name].append(numpy.degrees(coordinates.get(name).getValue(state)))
             self.recording.append(seen())
+            self.markers.append([spots.get(i).getLocationInGround(state).to_numpy() for i in range(spots.getSize())])
 
     def write(self, folder):
         write_quaternions(folder / "walk.sto", self.times, self.sensors, self.recording)

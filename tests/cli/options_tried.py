@@ -56,7 +56,7 @@ TRIED = {
     "ik": ([*ON_BODY, "o.mot"],
            {**MOTION, "--setup": "absent.xml", "--tasks": "absent.xml", "--locations": None, "--coordinate-weight": "pelvis_tilt=500",
             "--loss": "cauchy", "--estimator": "smoother", "--torques": None, "--loss-scale": 0.5, "--orientations": "absent.sto",
-            "--calibration": "absent.sto", "--sensor": "a=b", "--heading": "a:x", "--orientation-noise": 2, "--max-orientation-rms": 1}),
+            "--calibration": "absent.sto", "--sensor": "a=b", "--sensors-up": "z", "--heading": "a:x", "--orientation-noise": 2, "--max-orientation-rms": 1}),
     "track": ([*ON_BODY, "o.mot"],
               {**MOTION, "--level": "LASI,RASI", "--lock": "neck_bending", "--rest": "neck_bending=0.2", "--no-lock": None, "--omega": 50,
                "--step": 1, "--damping": 0.5, "--posture": "10,5", "--cutoff": 3, "--no-feed-forward": None}),

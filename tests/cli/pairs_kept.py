@@ -212,6 +212,7 @@ class Bench:
             "ik by a setup": ["ik", "--setup", "in/ik.xml", "-o", "out/x.mot", "--force"],
             "ik of sensors": ["ik", "-m", "in/body/model.osim", "--orientations", "in/imu.sto", "--calibration", "in/imu_pose.sto", "--heading", "pelvis_imu:x",
                               "-o", "out/x.mot"],
+            "ik of sensors and markers": ["ik", *body, "-o", "out/x.mot", "--orientations", "in/imu.sto", "--calibration", "in/imu_pose.sto", "--report", "out/x.html"],
             "ik of several": ["ik", "-m", "in/body/model.osim", "-t", "in/body/markers.c3d", "-t", "in/body/truth.trc", "-o", "out", "--report", "out/pages"],
             "track": ["track", *body, "-o", "out/x.mot", "--report", "out/x.html", "--forces", "in/loads.xml"],
             "track images": ["track", *body, "-o", "out/x.mot", "--rig", "in/rig.toml", "--images", "left=in/left.csv"],

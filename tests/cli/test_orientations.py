@@ -89,6 +89,25 @@ class OrientationsTest(CommandTest):
         self.assertAlmostEqual(report["noise_sd_deg"], 1.0, delta=0.15)
         self.assertTrue((self.folder / "q_orientation_errors.sto").is_file())
 
+    def test_markers_and_sensors_together(self):
+        ran = self.good("ik", "--model", self.model, "-t", self.trc, "--orientations", self.sensors / "walk.sto", "--calibration", self.sensors / "pose.sto",
+                        "--sensors-up", "z", "-o", "q.mot", "--report", "q.html", *(word for name in ("RTIB", "RANK", "RHEE", "RTOE") for word in ("--drop", name)))
+        self.assertRegex(ran.err, r"Heading 3[45]\.\d deg \(SD [01]\.\d\), estimated from markers and sensors")
+        self.assertRegex(ran.err, r"8 sensors, \d placed by markers, \d by the pose")
+        found, sd, truth = (columns_of(path) for path in (self.folder / "q.mot", self.folder / "q_sd.sto", self.truth))
+        within = total = 0
+        for name in ("knee_angle_r", "knee_angle_l", "hip_flexion_r", "elbow_flex_r", "pelvis_tilt", "pelvis_tx"):
+            for f, s, t in zip(found[name], sd[name], truth[name]):
+                within += abs(f - t) < 1.96 * s
+                total += 1
+        self.assertGreater(within, 0.88 * total)
+        report = json.loads((self.folder / "q_report.json").read_text())["orientations"]
+        self.assertEqual({s["name"]: s["placed_by"] for s in report["sensors"]}["pelvis_imu"], "markers")
+        self.assertEqual(report["heading"]["from"], "markers")
+        errors = columns_of(self.folder / "q_orientation_errors.sto")
+        self.assertEqual(len(errors["tibia_r_imu"]), len(columns_of(self.folder / "q_marker_errors.sto")["time"]))
+        self.assertTrue((self.folder / "q.html").is_file())
+
     def test_threads_do_not_change_a_bit(self):
         self.solve("--threads", 1)
         one = (self.folder / "q.mot").read_bytes(), (self.folder / "q_sd.sto").read_bytes()
@@ -109,8 +128,14 @@ class OrientationsTest(CommandTest):
 
     def test_what_is_not_for_sensors_is_refused(self):
         words = ("ik", "-m", self.model, "--orientations", self.sensors / "walk.sto", "-o", "q.mot")
-        for option in (["--markers", self.trc], ["--estimator", "smoother"], ["--noise", 2], ["--torques"], ["--report", "r.html"], ["--frames", "1-9"]):
+        for option in (["--noise", 2], ["--torques"], ["--report", "r.html"], ["--frames", "1-9"]):
             self.refused(2, [option[0], "is for markers; --orientations is given too"], *words, *option)
+        for option in (["--estimator", "smoother"], ["--loss", "huber"]):
+            self.refused(2, [option[0], "is for markers alone; --orientations is given too"], *words, *option)
+            self.refused(2, [option[0], "is for markers alone; --orientations is given too"], *words, "-t", self.trc, *option)
+        self.refused(2, "--orientations are of one recording", *words[:-1], "out", "-t", self.trc, "-t", self.folder / "other.trc")
+        self.refused(2, "--heading is for sensors that a pose places", *words, "-t", self.trc, "--heading", "pelvis_imu:x")
+        self.refused(2, "--sensors-up", *words, "-t", self.trc, "--sensors-up", "north")
         self.refused(2, ["--heading is for orientations"], "ik", "-m", self.model, "-t", self.trc, "-o", "q.mot", "--heading", "a:x")
         self.refused(2, "'pelvis' is not SENSOR:AXIS", *words, "--heading", "pelvis")
         self.refused(2, "is not SENSOR=BODY", *words, "--sensor", "pelvis")
@@ -122,4 +147,12 @@ class OrientationsTest(CommandTest):
         self.refused(3, "holds no orientations", *words, self.truth)
         broken = self.write("broken.sto", (self.sensors / "walk.sto").read_text().replace("0.00\t", "0.00\t9", 1))
         self.refused(3, ["row 1", "quaternion of length"], *words, broken)
-        self.refused(3, ["DataType=Quaternion", "--orientations"], "info", self.sensors / "walk.sto")
+
+    def test_info_says_what_sensors_there_are(self):
+        shown = self.good("info", self.sensors / "walk.sto").out
+        self.assertRegex(shown, r"kind +orientations")
+        self.assertIn("pelvis_imu (", shown)
+        facts = json.loads(self.good("info", self.sensors / "walk.sto", "--json").out)
+        self.assertEqual([sensor["name"] for sensor in facts["sensors"]], [f"{body}_imu" for body in BODIES])
+        self.assertEqual(facts["missing"], 0)
+        self.refused(3, ["DataType=Quaternion", "--orientations"], "convert", self.sensors / "walk.sto", "walk.mot")

@@ -10,7 +10,9 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/any_table.h"
+#include "kinemark/io/text/internal/table_header.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text_input.h"
 
@@ -79,6 +81,15 @@ Result<data::Orientations> read_orientations(const std::filesystem::path& path) 
   const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
   return parse_orientations(*text, path.string());
+}
+
+Result<bool> holds_orientations(const std::filesystem::path& path) {
+  const auto begin = read_begin(path);
+  if (!begin) return std::unexpected(begin.error());
+  internal::Lines lines(*begin);
+  const auto header = internal::parse_table_header(lines);
+  if (!header) return fail_at(path.string(), header.error());
+  return header->is_orientations;
 }
 
 }  // namespace kinemark::io

@@ -19,7 +19,10 @@ namespace kinemark::io {
 /// else as read_table().
 [[nodiscard]] Result<data::Orientations> read_orientations(const std::filesystem::path& path);
 
-/// The same from memory; `name` stands for the file in messages.
+/// Whether a .mot or .sto says that it holds orientations. Fails where its beginning is no table's.
+[[nodiscard]] Result<bool> holds_orientations(const std::filesystem::path& path);
+
+/// read_orientations() from memory; `name` stands for the file in messages.
 [[nodiscard]] Result<data::Orientations> parse_orientations(std::string_view text, std::string_view name);
 
 }  // namespace kinemark::io

@@ -4,7 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include "kinemark/io/file.h"
 #include "kinemark/io/text/table_file.h"
+#include "support/scratch.h"
 
 namespace kinemark::io {
 namespace {
@@ -63,6 +65,15 @@ TEST(OrientationTable, IsNoTableOfNumbers) {
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, Code::not_supported);
   EXPECT_THAT(read.error().message, HasSubstr("--orientations"));
+}
+
+TEST(OrientationTable, SaysWhichFilesHoldOrientations) {
+  const testing_support::ScratchFolder scratch;
+  ASSERT_TRUE(write_text(scratch / "q.sto", kSensorHeader + "0\t1,0,0,0\t1,0,0,0\n", true));
+  ASSERT_TRUE(write_text(scratch / "a.sto", "Q\nendheader\ntime\tknee\n0\t1\n", true));
+  EXPECT_TRUE(holds_orientations(scratch / "q.sto").value());
+  EXPECT_FALSE(holds_orientations(scratch / "a.sto").value());
+  EXPECT_FALSE(holds_orientations(scratch / "none.sto"));
 }
 
 }  // namespace

@@ -46,6 +46,10 @@ Size size_of(const TableFacts& facts) {
   return size;
 }
 
+Size size_of(const OrientationFacts& facts) {
+  return {.holds = count(facts.sensors.size(), "sensor"), .frames = facts.frames, .rate_hz = facts.rate_hz};
+}
+
 Size size_of(const ModelFacts& facts) { return {.holds = count(facts.labels.size(), "coordinate")}; }
 
 Size size_of(const RecordingFacts& facts) {

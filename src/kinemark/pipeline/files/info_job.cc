@@ -9,12 +9,14 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/core/index.h"
 #include "kinemark/data/filtering.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/recording/markers_recording.h"
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
+#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -97,7 +99,34 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
+Status describe_orientations(const InfoJob& job, InfoOutcome& out) {
+  auto sensors = io::read_orientations(job.file);
+  if (!sensors) return std::unexpected(sensors.error());
+  OrientationFacts facts{.frames = sensors->frames(),
+                         .rate_hz = sensors->time.rate_hz,
+                         .first_time_s = sensors->time.t0_s,
+                         .last_time_s = sensors->time.time_s(sensors->frames() - 1)};
+  for (std::int64_t s = 0; s < sensors->size(); ++s) {
+    SensorFacts one{.name = sensors->names[at(s)]};
+    for (std::int64_t f = 0; f < facts.frames; ++f) {
+      if (!sensors->present(f, s)) {
+        ++one.missing;
+      } else if (!one.first) {
+        one.first.emplace();
+        std::copy_n(sensors->quaternion.data() + 4 * (f * sensors->size() + s), 4, one.first->begin());
+      }
+    }
+    facts.missing += one.missing;
+    facts.sensors.push_back(std::move(one));
+  }
+  out.facts = std::move(facts);
+  out.warnings = std::move(sensors->warnings);
+  return {};
+}
+
 Status describe_table(const InfoJob& job, InfoOutcome& out) {
+  const auto turned = io::holds_orientations(job.file);
+  if (turned && *turned) return describe_orientations(job, out);
   auto table = io::read_table(job.file);
   if (!table) return std::unexpected(table.error());
   TableFacts facts{

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -59,6 +60,21 @@ struct TableFacts {
   std::vector<std::string> labels;                  ///< columns without the time
 };
 
+/// Of one inertial sensor.
+struct SensorFacts {
+  std::string name;                            ///< as the file says
+  std::int64_t missing = 0;                    ///< frames without an orientation
+  std::optional<std::array<double, 4>> first;  ///< its first orientation, w x y z; none: it has none
+};
+
+/// Of a table of orientations (.sto with DataType=Quaternion).
+struct OrientationFacts {
+  std::int64_t frames = 0;                                      ///< F
+  double rate_hz = 0.0, first_time_s = 0.0, last_time_s = 0.0;  ///< of its clock
+  std::int64_t missing = 0;                                     ///< sensor frames
+  std::vector<SensorFacts> sensors;                             ///< in the order of the file
+};
+
 /// Of a body model (.osim).
 struct ModelFacts {
   std::string name;                                                           ///< as the file says
@@ -89,7 +105,8 @@ struct RecordingFacts {
 };
 
 /// By the kind of the file.
-using FileFacts = std::variant<MarkerFileFacts, TableFacts, ModelFacts, RecordingFacts, io::Vsk>;
+using FileFacts =
+    std::variant<MarkerFileFacts, TableFacts, OrientationFacts, ModelFacts, RecordingFacts, io::Vsk>;
 
 /// What `kinemark info` found.
 struct InfoOutcome : JobOutcome {

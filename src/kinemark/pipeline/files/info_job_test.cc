@@ -55,6 +55,30 @@ TEST(RunInfo, MarkersTablesAndModels) {
   EXPECT_NEAR(model["mass_kg"].get<double>(), 75.0, 25.0);
 }
 
+TEST(RunInfo, OrientationsAreSensorsAndNoTable) {
+  const testing_support::ScratchFolder scratch;
+  const auto file = scratch / "walk.sto";
+  ASSERT_TRUE(
+      io::write_text(file,
+                     "DataRate=50\nDataType=Quaternion\nversion=3\nendheader\ntime\tpelvis_imu\ttibia_r_imu\n"
+                     "1\t1,0,0,0\tnan,nan,nan,nan\n1.02\t0.6,0.8,0,0\t0,0,1,0\n1.04\t1,0,0,0\t1,0,0,0\n",
+                     true));
+  const auto facts = facts_of(file).value();
+  EXPECT_EQ(facts["kind"], "orientations");
+  EXPECT_EQ(facts["frames"], 3);
+  EXPECT_NEAR(facts["rate_hz"].get<double>(), 50.0, 1e-6);
+  EXPECT_EQ(facts["first_time_s"], 1.0);
+  EXPECT_NEAR(facts["last_time_s"].get<double>(), 1.04, 1e-9);
+  EXPECT_EQ(facts["missing"], 1);
+  ASSERT_EQ(facts["sensors"].size(), 2U);
+  EXPECT_EQ(facts["sensors"][0]["name"], "pelvis_imu");
+  EXPECT_EQ(facts["sensors"][1]["missing"], 1);
+  EXPECT_EQ(facts["sensors"][1]["first_w_x_y_z"], nlohmann::json::array({0.0, 0.0, 1.0, 0.0}));
+  InfoJob job;
+  job.file = file;
+  EXPECT_THAT(info_text(run_info(job).value()), HasSubstr("pelvis_imu (1 0 0 0 first, 0 missing)"));
+}
+
 TEST(RunInfo, ChannelsAreNoMarkers) {
   const testing_support::ScratchFolder scratch;
   auto trial = testing::trial_with_channel();

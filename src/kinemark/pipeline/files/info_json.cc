@@ -47,10 +47,20 @@ std::string parameter_text(const Json& parameter) {
                      unit);
 }
 
+/// "pelvis_imu (0.707 0 0.707 0 first, 3 missing)"
+std::string sensor_text(const Json& sensor) {
+  std::string out = printable(sensor["name"].get<std::string>(), kNameLetters) + " (";
+  const Json& first = sensor["first_w_x_y_z"];
+  for (std::size_t k = 0; k < first.size(); ++k) out += fmt::format("{:.3g} ", first[k].get<double>());
+  return out + fmt::format("{}, {} missing)", first.empty() ? "none" : "first",
+                           sensor["missing"].get<std::int64_t>());
+}
+
 /// One entry of a list.
 std::string entry_text(const Json& entry) {
   if (entry.is_string()) return printable(entry.get<std::string>(), kNameLetters);
   if (entry.contains("joint_kind")) return segment_text(entry);
+  if (entry.contains("first_w_x_y_z")) return sensor_text(entry);
   return entry.contains("expression") ? parameter_text(entry) : channel_text(entry);
 }
 
@@ -112,6 +122,20 @@ void add(const TableFacts& facts, Json& to) {
   to["last_time_s"] = or_null(facts.last_time_s);
   to["in_degrees"] = facts.in_degrees;
   to["labels"] = facts.labels;
+}
+
+void add(const OrientationFacts& facts, Json& to) {
+  to["kind"] = "orientations";
+  to["frames"] = facts.frames;
+  to["rate_hz"] = facts.rate_hz;
+  to["first_time_s"] = facts.first_time_s;
+  to["last_time_s"] = facts.last_time_s;
+  to["missing"] = facts.missing;
+  to["sensors"] = Json::array();
+  for (const auto& sensor : facts.sensors)
+    to["sensors"].push_back({{"name", sensor.name},
+                             {"first_w_x_y_z", sensor.first ? Json(*sensor.first) : Json::array()},
+                             {"missing", sensor.missing}});
 }
 
 void add(const ModelFacts& facts, Json& to) {

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kinemark/pipeline/motion/motion_job.h"
+#include "kinemark/pipeline/motion/sensor_settings.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/workflow/motion/ik.h"
 
@@ -26,13 +28,15 @@ struct IkJob : MotionJob {
   motion::IkOptions options;                       ///< of the least squares
   workflow::Estimator estimator = workflow::Estimator::least_squares;  ///< which estimator
   bool marker_locations =
-      false;             ///< also Q_marker_locations.sto; a setup's report_marker_locations implies it
-  bool torques = false;  ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
+      false;               ///< also Q_marker_locations.sto; a setup's report_marker_locations implies it
+  SensorSettings sensors;  ///< besides the markers, on their clock; also Q_orientation_errors.sto
+  bool torques = false;    ///< also Q_tau.sto and Q_tau_sd.sto; a file of forces implies it
 };
 
 /// What `kinemark ik` did.
 struct IkOutcome : MotionOutcome {
-  motion::IkResult result;  ///< motion and fit
+  motion::IkResult result;                           ///< motion and fit
+  std::optional<motion::OrientationFit> sensor_fit;  ///< of the sensors, where there are any
 };
 
 /// Read, solve, judge and write. Either all files appear or, on a failure, none. Threads and seed of the

@@ -176,7 +176,7 @@ Status judge(report::IkRun run, const data::JointMotion& motion, const data::Tra
 }
 
 std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
-                                     const report::IkSummary& summary) {
+                                     const report::IkSummary& summary, const nlohmann::ordered_json& more) {
   const auto& output = job.output;
   std::vector<ResultFile> files;
   const auto add = [&](const fs::path& target, data::Table (*table)(const data::JointMotion&)) {
@@ -188,8 +188,11 @@ std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMoti
   if (!motion.tau.empty()) add(beside(output, "_tau.sto"), torques_table);
   if (!motion.tau_sd.empty()) add(beside(output, "_tau_sd.sto"), torque_deviations_table);
   add(beside(output, "_marker_errors.sto"), marker_errors_table);
-  files.push_back(
-      json_file(beside(output, "_report.json"), [&summary] { return report::summary_json(summary); }));
+  files.push_back(json_file(beside(output, "_report.json"), [&summary, more] {
+    auto json = report::summary_json(summary);
+    if (more.is_object()) json.update(more);
+    return json;
+  }));
   return files;
 }
 

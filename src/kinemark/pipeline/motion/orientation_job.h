@@ -5,27 +5,23 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/pipeline/motion/sensor_settings.h"
 #include "kinemark/stages/motion/orientation/orientation_ik.h"
 
 namespace kinemark::pipeline {
 
 /// What `kinemark ik --orientations` is asked to do. Writes Q.mot, Q_sd.sto, Q_orientation_errors.sto and
 /// Q_report.json.
-struct OrientationJob : JobSettings {
-  std::filesystem::path model;         ///< .osim; it needs no markers
-  std::filesystem::path orientations;  ///< .sto of quaternions, or .c3d with rotations
-  std::filesystem::path pose;    ///< the same, in the model's default pose; empty: the first whole frame
+/// Without a pose, and without frames of the model, the first whole frame is one.
+struct OrientationJob : JobSettings, SensorSettings {
+  std::filesystem::path model;   ///< .osim; it needs no markers
   std::filesystem::path output;  ///< Q.mot
-  std::string up;                ///< axis of the sensors' world that points up, "z"; empty: the model's
-  double max_rms_rad = 10.0 * std::numbers::pi / 180.0;  ///< gate: angle between measured and model, RMS
-  motion::OrientationOptions options;                    ///< threads and seed are the job's
 };
 
 /// What it did.

@@ -14,6 +14,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/testing/shared_folder.h"
 #include "kinemark/pipeline/testing/test_files.h"
 
@@ -241,6 +242,98 @@ TEST_F(RunOrientations, WhatIsMissingIsSaid) {
   none = job();
   none.output = at("imu.sto");
   EXPECT_FALSE(run_orientations(none)) << "an input is not replaced";
+}
+
+/// Sensors beside the markers of the same subject.
+IkJob beside_markers(const OrientationJob& sensors, const std::filesystem::path& markers) {
+  IkJob out;
+  out.force = true;
+  out.model = sensors.model;
+  out.markers = markers;
+  out.output = sensors.output;
+  out.sensors = sensors;
+  return out;
+}
+
+std::string option_of(const IkOutcome& outcome, std::string_view name) {
+  for (const auto& [key, value] : outcome.summary.run.options)
+    if (key == name) return value;
+  return {};
+}
+
+TEST_F(RunOrientations, BesideMarkersBothTakePart) {
+  auto with = beside_markers(job(), at("in/markers.c3d"));
+  with.report = at("Q.html");
+  const auto outcome = run_ik(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), 0);
+  EXPECT_EQ(outcome->written.size(), 6U);
+  ASSERT_TRUE(outcome->sensor_fit);
+  // Half a second of markers on moving skin: the heading is known to a few degrees, and says so.
+  EXPECT_LT(outcome->sensor_fit->heading_sd_rad, 0.08);
+  EXPECT_NEAR(outcome->sensor_fit->heading_rad, 0.0, 2.0 * outcome->sensor_fit->heading_sd_rad);
+  EXPECT_LT(outcome->sensor_fit->rms_rad, 0.08);
+  const auto errors = io::read_table(at("Q_orientation_errors.sto")).value();
+  EXPECT_EQ(errors.columns.size(), outcome->sensor_fit->sensors.size());
+  EXPECT_EQ(errors.rows(), io::read_table(at("Q_marker_errors.sto")).value().rows());
+  const auto json = nlohmann::json::parse(io::read_text(at("Q_report.json")).value());
+  EXPECT_EQ(json["orientations"]["heading"]["from"], "markers");
+  EXPECT_EQ(json["orientations"]["sensors"][0]["placed_by"], "markers");
+  EXPECT_THAT(option_of(*outcome, "orientations"), HasSubstr("how they stand on bodies said by markers for"));
+  EXPECT_THAT(option_of(*outcome, "noise of an orientation"),
+              HasSubstr("deg about each axis, estimated from the residuals"));
+  EXPECT_THAT(option_of(*outcome, "angle between sensors and model"), HasSubstr("deg RMS, "));
+  EXPECT_THAT(option_of(*outcome, "heading of the sensors"), HasSubstr("estimated (markers)"));
+  for (const auto& warning : outcome->warnings)
+    EXPECT_THAT(warning,
+                Not(HasSubstr("markers do not determine the bodies of these sensors, which are not used; "
+                              "--calibration would say how they stand there")));
+  // Markers alone say nothing of sensors.
+  auto alone = with;
+  alone.sensors = {};
+  const auto markers = run_ik(alone);
+  ASSERT_TRUE(markers) << markers.error().message;
+  EXPECT_FALSE(markers->sensor_fit);
+  EXPECT_EQ(option_of(*markers, "orientations"), "");
+  EXPECT_EQ(option_of(*markers, "noise of an orientation"), "");
+}
+
+TEST_F(RunOrientations, GivenNoiseBesideMarkersIsInTheOptions) {
+  auto with = beside_markers(job(), at("in/markers.c3d"));
+  with.sensors.options.noise_sd_rad = 0.02;
+  const auto outcome = run_ik(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(option_of(*outcome, "noise of an orientation"), Not(HasSubstr("estimated from the residuals")));
+  EXPECT_THAT(option_of(*outcome, "noise of an orientation"), HasSubstr("given"));
+}
+
+TEST_F(RunOrientations, SensorsThatNeitherMarkersNorAPosePlaceAreNamed) {
+  auto with = beside_markers(job(), at("in/markers.c3d"));
+  with.sensors.pose.clear();
+  const auto model = io::read_osim(with.model).value();
+  for (const auto& marker : model.markers)
+    if (model.bodies[static_cast<std::size_t>(marker.body_idx)].name == "hand_r" ||
+        model.bodies[static_cast<std::size_t>(marker.body_idx)].name == "ulna_r" ||
+        model.bodies[static_cast<std::size_t>(marker.body_idx)].name == "radius_r")
+      with.options.marker_weights.push_back({.marker = marker.name, .weight = 0.0});
+  const auto outcome = run_ik(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(outcome->warnings,
+              Contains(HasSubstr("markers do not determine the bodies of these sensors, which are not used; "
+                                 "--calibration would say how they stand there: ")));
+}
+
+TEST_F(RunOrientations, WhatSensorsBesideMarkersNeedIsSaid) {
+  auto with = beside_markers(job(), at("in/markers.c3d"));
+  with.estimator = workflow::Estimator::smoother;
+  EXPECT_THAT(run_ik(with).error().message, HasSubstr("the smoother cannot use orientations"));
+  with = beside_markers(job(), at("in/markers.c3d"));
+  with.sensors.up = "north";
+  EXPECT_THAT(run_ik(with).error().message, HasSubstr("--sensors-up"));
+  with = beside_markers(job(), at("in/markers.c3d"));
+  with.sensors.options.facing = motion::FacingAxis{.sensor = "pelvis_imu", .axis = Eigen::Vector3d::UnitX()};
+  with.sensors.pose.clear();
+  EXPECT_THAT(run_ik(with).error().message, HasSubstr("give it, --calibration"));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/rival_poses.h"
 #include "kinemark/stages/motion/internal/sample_findings.h"
+#include "kinemark/stages/motion/internal/solved_motion.h"
 #include "kinemark/stages/motion/internal/start.h"
 
 namespace kinemark::motion {
@@ -28,19 +29,6 @@ namespace {
 using data::FrameStatus;
 using internal::FrameSolver;
 using internal::Problem;
-
-/// Coordinates of all states, Euler angles continuous from frame to frame.
-void fill_coordinates(const Problem& problem, const Eigen::MatrixXd& states, data::JointMotion& motion) {
-  const int n = problem.model.coordinate_count();
-  Eigen::VectorXd near(n), q(n);
-  for (int c = 0; c < n; ++c) near[c] = problem.model.description().coordinates[at(c)].default_value;
-  motion.q.resize(at(problem.frames * n));
-  for (std::int64_t f = 0; f < problem.frames; ++f) {
-    model::coordinates_from_state(problem.model, states.col(f), near, q);
-    std::copy(q.data(), q.data() + n, motion.q.data() + motion.index(f, 0));
-    near = q;
-  }
-}
 
 /// What the frames add up to.
 void take_frames(internal::SolvedFrames& solved, IkResult& result) {
@@ -60,25 +48,6 @@ void add_task_costs(const Problem& problem, IkResult& result) {
     }
 }
 
-/// A coordinate that leans on its limit most of the time says that model and subject disagree.
-void note_limits(const Problem& problem, IkResult& result) {
-  const auto coordinates = problem.model.coordinates();
-  for (std::size_t c = 0; c < coordinates.size(); ++c) {
-    const int speed = coordinates[c].speed_idx;
-    if (speed < 0 || problem.fixed_speed[at(speed)]) continue;
-    std::int64_t leaning = 0;
-    for (std::int64_t f = 0; f < problem.frames; ++f) {
-      const double q = result.motion.q[result.motion.index(f, static_cast<std::int64_t>(c))];
-      leaning += q <= problem.lower[speed] + 1e-9 || q >= problem.upper[speed] - 1e-9;
-    }
-    if (10 * leaning > problem.frames)
-      result.fit.findings.push_back(
-          {.kind = data::FindingKind::at_limit,
-           .subject = result.motion.coordinates[c],
-           .size = static_cast<double>(leaning) / static_cast<double>(problem.frames)});
-  }
-}
-
 /// As given, or estimated from the residuals.
 MarkerVariances find_variances(const Problem& problem, const IkOptions& options,
                                const data::Trajectories& markers, const Eigen::MatrixXd& states) {
@@ -89,15 +58,6 @@ MarkerVariances find_variances(const Problem& problem, const IkOptions& options,
                             options.marker_noise_sd_m * options.marker_noise_sd_m);
   variances.common.setZero(static_cast<Eigen::Index>(problem.model.bodies().size()));
   return variances;
-}
-
-void flag_underdetermined(data::JointMotion& motion) {
-  for (std::int64_t f = 0; f < motion.frames(); ++f) {
-    const auto* row = motion.determined.data() + motion.index(f, 0);
-    if (motion.status[at(f)] == FrameStatus::converged &&
-        std::any_of(row, row + motion.size(), [](auto d) { return d == 0; }))
-      motion.status[at(f)] = FrameStatus::underdetermined;
-  }
 }
 
 }  // namespace
@@ -140,15 +100,15 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.error_bars && !loose.any()) variances = find_variances(*problem, options, kept, solved.states);
   take_frames(solved, result);
-  fill_coordinates(*problem, solved.states, motion);
+  internal::fill_coordinates(*problem, solved.states, motion);
   add_task_costs(*problem, result);
-  note_limits(*problem, result);
+  internal::note_limits(*problem, motion, result.fit);
   internal::add_sample_findings(*problem, *judged, markers, motion, result.fit);
 
   if (options.error_bars) {
     compute_error_bars(*problem, kept, solved.states, variances, options.threads, motion);
     internal::doubt_rivals(*problem, rivals, motion);
-    flag_underdetermined(motion);
+    internal::flag_underdetermined(motion);
     internal::add_marker_noise(problem->model, variances, result.fit);
   }
   internal::add_marker_errors(motion, result.fit);

@@ -107,6 +107,19 @@ Result<motion::IkResult> estimate(const model::Model& model, const data::Traject
   return in_terms_of_ik(std::move(*smooth));
 }
 
+Result<motion::IkResult> estimate_with_sensors(const model::Model& model, const data::Trajectories& markers,
+                                               const IkOptions& options,
+                                               std::optional<SensorsFound>& sensors) {
+  if (options.estimator != Estimator::least_squares)
+    return fail(Code::usage, "the smoother cannot use orientations; give --estimator least-squares");
+  const auto& inputs = *options.sensors;
+  auto mixed = motion::solve_mixed(model, markers, inputs.recording, inputs.pose ? &*inputs.pose : nullptr,
+                                   options.ik, inputs.options, options.progress);
+  if (!mixed) return std::unexpected(mixed.error());
+  sensors = SensorsFound{.error_rad = std::move(mixed->error_rad), .fit = std::move(mixed->fit)};
+  return std::move(mixed->ik);
+}
+
 Status find_torques(const model::Model& model, const data::Recording& recording, const IkOptions& options,
                     const motion::RateErrors& errors, IkFound& found) {
   auto& motion = found.result.motion;
@@ -137,7 +150,8 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   IkFound found;
   const auto& markers = recording.trial.markers;
   motion::RateErrors errors;
-  auto result = estimate(model, markers, options, errors);
+  auto result = options.sensors == nullptr ? estimate(model, markers, options, errors)
+                                           : estimate_with_sensors(model, markers, options, found.sensors);
   if (!result) return std::unexpected(result.error());
   found.result = std::move(*result);
   if (options.torques)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,8 +70,10 @@ void add_found(report::IkRun& run, const data::MarkerFit& fit, const workflow::T
                            const data::Trajectories* markers, MotionOutcome& outcome);
 /// A table for each thing that the motion holds, and Q_report.json. All three must live until they are
 /// written.
+/// @param more  members of the report behind those of the summary; an object, or null
 [[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
-                                                   const report::IkSummary& summary);
+                                                   const report::IkSummary& summary,
+                                                   const nlohmann::ordered_json& more = {});
 /// Name of the set of files of a motion.
 [[nodiscard]] std::string name_set(const data::JointMotion& motion, const report::IkRun& run);
 /// Write the files and let them appear, unless the caller stops `what` in the last moment. Refused where one

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/error_bars.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/normal_inverse.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/profile_errors.h"
 
@@ -45,7 +45,8 @@ struct Frame {
         y(3, p.model.marker_count()),
         weight(p.model.marker_count()),
         x(p.model.state_count()),
-        q(p.model.coordinate_count()) {}
+        q(p.model.coordinate_count()),
+        inverse(p) {}
 
   void visit(const data::Trajectories& markers, const MatrixXd& states, std::int64_t f) {
     problem.observe(markers, f, y, weight);
@@ -60,39 +61,7 @@ struct Frame {
   }
 
   /// Inverse of H on the speeds that may move and within the closed loops.
-  void invert(MatrixXd& H, double floor, MatrixXd& K) {
-    const Eigen::Index n = H.rows();
-    H.diagonal().array() += floor;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (!problem.fixed_speed[at(i)]) continue;
-      H.row(i).setZero();
-      H.col(i).setZero();
-      H(i, i) = 1.0;
-    }
-    llt.compute(H);
-    while (llt.info() != Eigen::Success) {  // rounding made the pivot of an undetermined direction negative
-      floor = std::max(10.0 * floor, 1e-16);
-      if (floor > 1e6) break;
-      H.diagonal().array() += floor;
-      llt.compute(H);
-    }
-    K.setIdentity(n, n);
-    llt.solveInPlace(K);
-    if (C.rows() > 0) {
-      MatrixXd free_C = C;
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (problem.fixed_speed[at(i)]) free_C.col(i).setZero();
-      const MatrixXd KC = K * free_C.transpose();
-      MatrixXd loop = free_C * KC;
-      loop.diagonal().array() += 1e-12 * loop.trace() + 1e-300;
-      K -= KC * loop.llt().solve(KC.transpose());
-    }
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (problem.fixed_speed[at(i)]) {
-        K.row(i).setZero();
-        K.col(i).setZero();
-      }
-  }
+  void invert(MatrixXd& H, double floor, MatrixXd& K) { inverse.invert(H, C, floor, K); }
 
   /// K = (J'WJ + tasks)^-1; q must be set when there are tasks.
   void inverse_normal_matrix() {
@@ -111,7 +80,7 @@ struct Frame {
   Eigen::Matrix3Xd y;
   VectorXd weight, x, q;
   MatrixXd H, K, C, E, J;
-  Eigen::LLT<MatrixXd> llt;
+  internal::NormalInverse inverse;
 };
 
 /// Sums of the normal equations for the variances.

@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/orientation/internal/heading.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_errors.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_placement.h"
 #include "kinemark/stages/motion/orientation/internal/turning_model.h"
 
@@ -42,20 +43,6 @@ Result<std::vector<std::int64_t>> frames_within(const data::Orientations& record
   return frames;
 }
 
-/// Leaves sensors out that none of the frames has.
-Status drop_unseen(const data::Orientations& recording, const std::vector<std::int64_t>& frames,
-                   PosedSensors& posed, std::vector<std::string>& never_seen) {
-  std::erase_if(posed.sensors, [&](const auto& sensor) {
-    const bool seen =
-        std::ranges::any_of(frames, [&](auto f) { return recording.present(f, sensor.column); });
-    if (!seen) never_seen.push_back(recording.names[at(sensor.column)]);
-    return !seen;
-  });
-  if (posed.sensors.empty())
-    return fail(Code::bad_input, "no frame of the time range has an orientation of a sensor on a body");
-  return {};
-}
-
 /// F x S angles between measured and model.
 Array<double> errors_of(const data::JointMotion& motion, std::int64_t sensors) {
   Array<double> out(at(motion.frames() * sensors));
@@ -68,30 +55,6 @@ Array<double> errors_of(const data::JointMotion& motion, std::int64_t sensors) {
     out[i] = std::isnan(squares) ? kNaN : internal::angle_of_tips(squares);
   }
   return out;
-}
-
-void summarize_errors(const Array<double>& errors, OrientationFit& fit) {
-  const auto sensors = fit.sensors.size();
-  double all = 0.0;
-  std::int64_t seen = 0;
-  for (std::size_t s = 0; s < sensors; ++s) {
-    auto& sensor = fit.sensors[s];
-    double squares = 0.0;
-    std::int64_t n = 0;
-    for (std::size_t i = s; i < errors.size(); i += sensors) {
-      if (std::isnan(errors[i])) continue;
-      squares += errors[i] * errors[i];
-      sensor.max_rad = std::max(sensor.max_rad, errors[i]);
-      ++n;
-    }
-    if (n > 0) sensor.rms_rad = std::sqrt(squares / static_cast<double>(n));
-    sensor.seen =
-        static_cast<double>(n * static_cast<std::int64_t>(sensors)) / static_cast<double>(errors.size());
-    all += squares;
-    seen += n;
-    fit.max_rad = std::max(fit.max_rad, sensor.max_rad);
-  }
-  if (seen > 0) fit.rms_rad = std::sqrt(all / static_cast<double>(seen));
 }
 
 /// Noise about each axis by the residuals: three numbers a sensor, less one for each coordinate that they
@@ -187,7 +150,8 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   if (!posed) return std::unexpected(posed.error());
   OrientationResult out;
   auto& fit = out.fit;
-  if (auto s = drop_unseen(recording, *frames, *posed, fit.never_seen); !s) return std::unexpected(s.error());
+  if (auto s = internal::drop_unseen(recording, *frames, *posed, fit.never_seen); !s)
+    return std::unexpected(s.error());
   Heading heading;
   if (posed->by_model) {
     // As it is.
@@ -228,9 +192,10 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   for (const auto& sensor : posed->sensors)
     fit.sensors.push_back({.name = recording.names[at(sensor.column)],
                            .body = model.description().bodies[at(sensor.body_idx)].name,
-                           .body_from_sensor = internal::body_from_sensor(*posed, sensor, heading.rad)});
+                           .body_from_sensor = internal::body_from_sensor(*posed, sensor, heading.rad),
+                           .placed_by = posed->by_model ? SensorPlacement::model : SensorPlacement::pose});
   out.error_rad = errors_of(solved->motion, static_cast<std::int64_t>(fit.sensors.size()));
-  summarize_errors(out.error_rad, fit);
+  internal::summarize_errors(out.error_rad, fit);
   if (options.noise_sd_rad > 0.0)
     // The pose is measured with the same noise as every frame.
     fit.noise_sd_rad =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Inverse kinematics from the orientations of inertial sensors alone: joint angles whose model bodies turn as
-// the sensors on them did. Theory: docs/theory/orientations.md
+// Inverse kinematics from the orientations of inertial sensors, alone or beside markers: joint angles whose
+// model bodies turn as the sensors on them did. Theory: docs/theory/orientations.md
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,9 @@
 #include "kinemark/core/result.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/orientations.h"
+#include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
+#include "kinemark/stages/motion/ik.h"
 
 namespace kinemark::motion {
 
@@ -57,11 +59,19 @@ struct OrientationOptions {
   [[nodiscard]] Status check() const;
 };
 
+/// What says how a sensor stands on its body.
+enum class SensorPlacement : std::uint8_t {
+  pose,     ///< a recording of the model's default pose
+  model,    ///< a frame of the model
+  markers,  ///< the frames in which markers determine how its body is turned
+};
+
 /// One sensor that took part.
 struct FittedSensor {
   std::string name;                                                ///< in the recording
   std::string body;                                                ///< of the model, that carries it
-  Eigen::Matrix3d body_from_sensor = Eigen::Matrix3d::Identity();  ///< as the pose placed it
+  Eigen::Matrix3d body_from_sensor = Eigen::Matrix3d::Identity();  ///< how it stands there
+  SensorPlacement placed_by = SensorPlacement::pose;               ///< what says so
   double seen = 0.0;                                               ///< share of the solved frames, 0 to 1
   double rms_rad = kNaN;  ///< angle between measured and model; NaN when never seen
   double max_rad = 0.0;   ///< largest such angle
@@ -69,10 +79,11 @@ struct FittedSensor {
 
 /// How the sensors' heading, about the vertical, was found.
 enum class HeadingSource : std::uint8_t {
-  motion,  ///< estimated: the one with which the joints' axes explain the motion best
-  model,   ///< none is needed: the model says how sensors stand on bodies; angles are those of the sensors'
-           ///< world
-  facing,  ///< the axis of a sensor faces where the model faces
+  motion,   ///< estimated: the one with which the joints' axes explain the motion best
+  model,    ///< none is needed: the model says how sensors stand on bodies; angles are those of the sensors'
+            ///< world
+  facing,   ///< the axis of a sensor faces where the model faces
+  markers,  ///< estimated: sensors turn as the markers of their bodies
 };
 
 /// How orientations and a model fit.
@@ -81,6 +92,8 @@ struct OrientationFit {
   std::vector<FittedSensor> sensors;    ///< those used
   std::vector<std::string> left_out;    ///< sensors that no body carries
   std::vector<std::string> never_seen;  ///< sensors on bodies that no solved frame has
+  std::vector<std::string>
+      unplaced;                 ///< on bodies, but nothing says how they stand there; beside markers only
   double pose_drift_rad = 0.0;  ///< largest turn of a sensor within the pose, or the recording's first 0.5 s
   double heading_rad = 0.0;     ///< turn about the model's vertical of the sensors' world
   double heading_sd_rad = 0.0;  ///< one standard deviation; 0 where it is given
@@ -119,5 +132,30 @@ struct OrientationResult {
                                                            const data::Orientations* pose,
                                                            const OrientationOptions& options = {},
                                                            const Progress& progress = {});
+
+/// What solve_mixed() found.
+struct MixedResult {
+  IkResult ik;              ///< motion and fit of the markers
+  Array<double> error_rad;  ///< F x S, angle between measured and model; NaN where a sensor is missing
+  OrientationFit fit;       ///< sensors, heading, noise; its first_frame is that of the markers
+};
+
+/// Joint angles from markers and sensors together, each by its own noise, on the frames of the markers. Both
+/// have the same clock: orientations are interpolated on it, frames beyond their span have markers alone.
+///
+/// Markers alone are solved and judged first. Sensors on bodies that the markers then fix to 2 deg in 10
+/// frames or more are placed by these frames, others by the pose; without a pose 0.1 rad will do; the model's
+/// frames take precedence over both (options.placed). The heading is that under which sensors turn as the
+/// markers of their bodies, unless options.facing gives it.
+/// @param pose  sensors in the default pose; null: only markers or the model place sensors
+///
+/// The loss is square. Times of `ik` count, those of `options` do not. Fails as solve_ik(); Code::bad_input
+/// where no body carries a sensor, nothing places one, the two have no time in common, or the heading is not
+/// determined. Costs about three times solve_ik().
+[[nodiscard]] Result<MixedResult> solve_mixed(const model::Model& model, const data::Trajectories& markers,
+                                              const data::Orientations& recording,
+                                              const data::Orientations* pose, const IkOptions& ik,
+                                              const OrientationOptions& options = {},
+                                              const Progress& progress = {});
 
 }  // namespace kinemark::motion

@@ -90,7 +90,7 @@ struct Candidate {
 };
 
 /// The valleys of the cost over a full turn, refined, the best one first.
-std::vector<Candidate> valleys(const HeadingCost& cost) {
+std::vector<Candidate> valleys(const std::function<double(double)>& cost) {
   constexpr double kSpacing = 2.0 * std::numbers::pi / kHeadings;
   std::vector<double> tried;
   for (int i = 0; i < kHeadings; ++i) tried.push_back(cost(i * kSpacing));
@@ -122,11 +122,8 @@ Result<IkResult> solve_turned(const data::ModelDescription& model, const data::O
   return solve_ik(*turning, record_tips(recording, tips, turn, frames), options, progress);
 }
 
-Result<Heading> estimate_heading(const model::Model& model, const data::Orientations& recording,
-                                 const PosedSensors& posed, const std::vector<std::int64_t>& frames,
-                                 const OrientationOptions& options) {
-  const auto tried = spread(frames);
-  const HeadingCost cost(model, recording, posed, tried, options);
+Result<Heading> choose_heading(const std::function<double(double)>& cost, double freedom,
+                               double least_variance) {
   const auto found = valleys(cost);
   const auto open = [](const std::string& why) {
     return fail(Code::bad_input,
@@ -135,9 +132,7 @@ Result<Heading> estimate_heading(const model::Model& model, const data::Orientat
   };
   if (found.empty() || !std::isfinite(found.front().cost)) return open("no heading explains it");
   const auto& best = found.front();
-  const double freedom = cost.freedom();
-  const double variance =
-      std::max({best.cost / freedom, options.noise_sd_rad * options.noise_sd_rad, kExact * kExact});
+  const double variance = std::max(best.cost / freedom, least_variance);
   const double curvature =
       (cost(best.rad + kStep) + cost(best.rad - kStep) - 2.0 * best.cost) / (kStep * kStep);
   const double sd = curvature > 0.0 ? std::sqrt(2.0 * variance / curvature) : std::numbers::pi;
@@ -149,6 +144,15 @@ Result<Heading> estimate_heading(const model::Model& model, const data::Orientat
           fmt::format("{:.0f} and {:.0f} deg explain it alike", best.rad / kDegree, rival.rad / kDegree));
   }
   return Heading{best.rad, sd};
+}
+
+Result<Heading> estimate_heading(const model::Model& model, const data::Orientations& recording,
+                                 const PosedSensors& posed, const std::vector<std::int64_t>& frames,
+                                 const OrientationOptions& options) {
+  const auto tried = spread(frames);
+  const HeadingCost cost(model, recording, posed, tried, options);
+  return choose_heading([&cost](double rad) { return cost(rad); }, cost.freedom(),
+                        std::max(options.noise_sd_rad * options.noise_sd_rad, kExact * kExact));
 }
 
 }  // namespace kinemark::motion::internal

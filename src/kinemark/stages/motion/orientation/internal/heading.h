@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "kinemark/core/result.h"
 #include "kinemark/data/model_description.h"
 #include "kinemark/data/orientations.h"
@@ -17,6 +19,15 @@ struct Heading {
   double rad = 0.0;
   double sd_rad = 0.0;
 };
+
+/// The heading of least cost: one in 15 deg is tried, the valleys are refined. The standard deviation follows
+/// from the curvature. Code::bad_input where another valley is as good within 3 standard deviations, or the
+/// standard deviation is above 10 deg.
+/// @param cost            sum of squares, by heading in rad; infinite where nothing is known
+/// @param freedom         numbers that the cost is the sum of, less those that are fitted
+/// @param least_variance  of one of these numbers
+[[nodiscard]] Result<Heading> choose_heading(const std::function<double(double)>& cost, double freedom,
+                                             double least_variance);
 
 /// The heading under which the joints explain the motion best, in 24 frames spread over the range: axes of
 /// hinges and ranges of coordinates, clamped or not, tell it. One in 15 deg is tried, the best ones are

@@ -124,18 +124,24 @@ Result<PosedSensors> sensors_of_model(const data::ModelDescription& description,
   return out;
 }
 
-}  // namespace
+/// Upright, and the body of each sensor; none where the model places them.
+struct Matched {
+  PosedSensors sensors;
+  std::vector<int> bodies;
+};
 
-Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orientations& recording,
-                                  const data::Orientations* pose, const OrientationOptions& options) {
-  const auto& description = model.description();
+Result<Matched> match_upright(const data::ModelDescription& description, const data::Orientations& recording,
+                              const OrientationOptions& options) {
   PosedSensors out;
   if (description.gravity.norm() > 0.0) out.up = -description.gravity.normalized();
   if (options.up_in_world.norm() > 0.0)
     out.model_from_world = math::rotation_between(options.up_in_world, out.up).toRotationMatrix();
-  if (!options.placed.empty())
-    return sensors_of_model(description, recording, options.placed, std::move(out));
-  const auto bodies = match(description, recording.names, options.sensors);
+  if (!options.placed.empty()) {
+    auto placed = sensors_of_model(description, recording, options.placed, std::move(out));
+    if (!placed) return std::unexpected(placed.error());
+    return Matched{.sensors = std::move(*placed), .bodies = {}};
+  }
+  auto bodies = match(description, recording.names, options.sensors);
   if (!bodies) return std::unexpected(bodies.error());
   if (std::ranges::all_of(*bodies, [](int b) { return b == data::kGround; })) {
     std::vector<std::string> names;
@@ -146,9 +152,22 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
                     "recording has {}; the model has {}",
                     list(recording.names), list(names)));
   }
+  for (std::int64_t s = 0; s < recording.size(); ++s)
+    if ((*bodies)[at(s)] == data::kGround) out.left_out.push_back(recording.names[at(s)]);
+  return Matched{.sensors = std::move(out), .bodies = std::move(*bodies)};
+}
+
+}  // namespace
+
+Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orientations& recording,
+                                  const data::Orientations* pose, const OrientationOptions& options) {
+  auto matched = match_upright(model.description(), recording, options);
+  if (!matched) return std::unexpected(matched.error());
+  auto& [out, bodies] = *matched;
+  if (out.by_model) return std::move(out);
   std::int64_t first = 0;
   if (pose == nullptr) {
-    const auto whole = first_whole_frame(recording, *bodies);
+    const auto whole = first_whole_frame(recording, bodies);
     if (!whole) return std::unexpected(whole.error());
     first = *whole;
   } else {
@@ -162,11 +181,8 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
   model::kinematics(model, w, model.default_state());
   for (std::int64_t s = 0; s < recording.size(); ++s) {
     const auto& name = recording.names[at(s)];
-    const int body = (*bodies)[at(s)];
-    if (body == data::kGround) {
-      out.left_out.push_back(name);
-      continue;
-    }
+    const int body = bodies[at(s)];
+    if (body == data::kGround) continue;
     const auto& source = pose == nullptr ? recording : *pose;
     const auto column = std::ranges::find(source.names, name) - source.names.begin();
     const auto mean =
@@ -180,7 +196,36 @@ Result<PosedSensors> pose_sensors(const model::Model& model, const data::Orienta
                            .world_from_sensor = out.model_from_world * *mean,
                            .world_from_body = w.rotation[at(model.body_of(body))]});
   }
-  return out;
+  return std::move(out);
+}
+
+Result<PosedSensors> sensors_on_bodies(const model::Model& model, const data::Orientations& recording,
+                                       const OrientationOptions& options) {
+  auto matched = match_upright(model.description(), recording, options);
+  if (!matched) return std::unexpected(matched.error());
+  auto& [out, bodies] = *matched;
+  if (out.by_model) return std::move(out);
+  out.unplaced = true;
+  for (std::int64_t s = 0; s < recording.size(); ++s)
+    if (bodies[at(s)] != data::kGround)
+      out.sensors.push_back({.column = s,
+                             .body_idx = bodies[at(s)],
+                             .world_from_sensor = Eigen::Matrix3d::Identity(),
+                             .world_from_body = Eigen::Matrix3d::Identity()});
+  return std::move(out);
+}
+
+Status drop_unseen(const data::Orientations& recording, const std::vector<std::int64_t>& frames,
+                   PosedSensors& posed, std::vector<std::string>& never_seen) {
+  std::erase_if(posed.sensors, [&](const auto& sensor) {
+    const bool seen =
+        std::ranges::any_of(frames, [&](auto f) { return recording.present(f, sensor.column); });
+    if (!seen) never_seen.push_back(recording.names[at(sensor.column)]);
+    return !seen;
+  });
+  if (posed.sensors.empty())
+    return fail(Code::bad_input, "no frame of the time range has an orientation of a sensor on a body");
+  return {};
 }
 
 Eigen::Matrix3d body_from_sensor(const PosedSensors& posed, const PosedSensors::Sensor& sensor,

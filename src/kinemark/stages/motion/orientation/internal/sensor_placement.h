@@ -25,6 +25,7 @@ struct PosedSensors {
   };
   std::vector<Sensor> sensors;
   bool by_model = false;  ///< all of them are placed by the model
+  bool unplaced = false;  ///< only their bodies are known
   std::vector<std::string> left_out;
   Eigen::Matrix3d model_from_world = Eigen::Matrix3d::Identity();  ///< upright; the heading is still open
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();                   ///< of the model
@@ -37,6 +38,15 @@ struct PosedSensors {
                                                 const data::Orientations& recording,
                                                 const data::Orientations* pose,
                                                 const OrientationOptions& options);
+
+/// The same without a pose: sensors are on their bodies, nobody says how, unless the model does.
+[[nodiscard]] Result<PosedSensors> sensors_on_bodies(const model::Model& model,
+                                                     const data::Orientations& recording,
+                                                     const OrientationOptions& options);
+
+/// Leave sensors out that none of these frames has. Code::bad_input where none is left.
+[[nodiscard]] Status drop_unseen(const data::Orientations& recording, const std::vector<std::int64_t>& frames,
+                                 PosedSensors& posed, std::vector<std::string>& never_seen);
 
 /// body_from_sensor where the world of the sensors is turned by `heading_rad` about the vertical.
 [[nodiscard]] Eigen::Matrix3d body_from_sensor(const PosedSensors& posed, const PosedSensors::Sensor& sensor,
