@@ -22,7 +22,7 @@ namespace {
 constexpr double kExact_m = 1e-5;           ///< what files round coordinates to
 constexpr double kMoveAgainst_m = 5e-3;     ///< least change of a distance that no rigid body has
 constexpr std::int64_t kFewestFrames = 20;  ///< in which chance puts no point onto a line
-constexpr std::int64_t kLooks = 16;         ///< frames in which pairs are tried first
+constexpr std::int64_t kTriedFirst = 16;    ///< frames in which pairs are tried first
 constexpr std::int64_t kMostMarkers = 200;  ///< beyond which no pairs are tried
 
 /// A point and the two markers that it may lie between.
@@ -61,7 +61,7 @@ bool lies_between(const data::Trajectories& markers, const Between& b, std::int6
 
 /// Whether a marker lies between two others of `real`.
 bool is_middle(const data::Trajectories& markers, std::int64_t point, const std::vector<std::int64_t>& real) {
-  const auto step = std::max<std::int64_t>(2, markers.frames() / kLooks);
+  const auto step = std::max<std::int64_t>(2, markers.frames() / kTriedFirst);
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t k = i + 1; k < real.size(); ++k) {
       const Between b{.point = point, .from = real[i], .to = real[k]};
