@@ -243,12 +243,9 @@ class GaitMeasurement {
         measure.remark = definition.squared ? "too few strides show what it needs"
                                             : "what it needs was not seen in any stride";
     } else if (options_.refits > 0) {
-      auto pivoted = definition.squared ? pivot_of_square(value, deviations, options_.level)
-                                        : pivot(value, deviations, options_.level);
+      const auto pivoted = definition.squared ? pivot_of_square(value, deviations, options_.level)
+                                              : pivot(value, deviations, options_.level);
       if (std::isfinite(pivoted.value)) {
-        // Errors of events are those of many laboratories. Where a recording's own are smaller, its SD
-        // between strides is nearly the one that was found.
-        if (definition.squared) pivoted.high = std::max(pivoted.high, value);
         measure.uncorrected = value;
         measure.value = pivoted.value;
         measure.sd = pivoted.sd;
