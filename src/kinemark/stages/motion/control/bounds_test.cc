@@ -224,7 +224,7 @@ TEST(Bounds, ErrorsThatAPoseExplainsAreCoordinatesAndNothingElse) {
   model::coordinates_from_state(model, there, t.q, q);
   const Eigen::Matrix3Xd error = w.marker - before;
   const VectorXd found = t.bounds.coordinates_of(error);
-  for (int c = 0; c < t.count(); ++c) EXPECT_NEAR(found[c], q[c] - t.q[c], 1e-10) << c;
+  for (int c = 0; c < t.count(); ++c) EXPECT_NEAR(found[c], q[c] - t.q[c], 1e-9) << c << ": to first order";
   t.bounds.unexplained(error, squares, freedom);
   EXPECT_LT(squares.maxCoeff(), 1e-8 * error.squaredNorm());
   EXPECT_NEAR(freedom.sum(), 3.0 * static_cast<double>(error.cols()) - t.bounds.rank(), 1e-9);
