@@ -51,6 +51,7 @@ constexpr std::array kValues = {
     Values{"images", "CAMERA=FILE"},
     Values{"sensor", "SENSOR=BODY"},
     Values{"heading", "SENSOR:AXIS"},
+    Values{"sensors-up", "AXIS"},
     Values{"occlude", "LED:CAMERA:FRAMES"},
     Values{"posture", "KP,KD"},
     Values{"rotate", "\"AXIS DEG\""},
