@@ -15,7 +15,6 @@
 #include "kinemark/stages/trajectory/gaps/gap_options.h"
 #include "kinemark/stages/trajectory/smoothing/smooth_options.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
-#include "kinemark/workflow/prepare/selection.h"
 #include "kinemark/workflow/remarks.h"
 
 namespace kinemark::workflow {

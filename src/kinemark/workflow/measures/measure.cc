@@ -14,7 +14,6 @@
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
-#include "kinemark/workflow/prepare/selection.h"
 
 namespace kinemark::workflow {
 namespace {

@@ -30,6 +30,23 @@ enum class RecorderMade : std::uint8_t {
 /// The choice of that name; the failure lists all names.
 [[nodiscard]] Result<RecorderMade> parse_recorder_made(std::string_view name);
 
+/// Points of a recording that are no markers, as indices of its markers, rising.
+struct PointsApart {
+  std::vector<std::int64_t> computed;  ///< that a model made of markers, and middles of two of them
+  std::vector<std::int64_t> unnamed;   ///< that nobody named (data::is_unlabelled())
+
+  /// Both, rising.
+  [[nodiscard]] std::vector<std::int64_t> all() const;
+  /// "36 computed points (PELO, PELA, ...) and 2 without a name"; empty where there are none.
+  [[nodiscard]] std::string describe(const std::vector<std::string>& names) const;
+};
+
+/// Which points of a recording are no markers. Computed ones are known by their names (joint centres, axes'
+/// ends, angles: skeleton::find_model_outputs()), or by lying, in every frame that shows all three, at one
+/// share of the way between two markers that move against each other. None where no other marker is left:
+/// who selects such points alone asks for them. O(F M + M^3).
+[[nodiscard]] PointsApart find_points_apart(const data::Trajectories& markers);
+
 /// What to look for in a recording, and what to do about it.
 struct ScreeningRules {
   bool find_upsampling = true;                      ///< look for samples that the recorder made

@@ -8,13 +8,15 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/data/channels.h"
 #include "kinemark/stages/skeleton/topology/marker_sets.h"
-#include "kinemark/workflow/prepare/selection.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::workflow {
 namespace {

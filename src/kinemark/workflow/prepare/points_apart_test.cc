@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/random.h"
-#include "kinemark/workflow/prepare/selection.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::workflow {
 namespace {

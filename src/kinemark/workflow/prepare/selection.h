@@ -3,7 +3,6 @@
 // A part of a recording: some of its markers, some of its frames, other names.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -41,22 +40,5 @@ struct Selection {
 /// Code::bad_input, and the trial as it was: a name that is not there (with the nearest ones), a range
 /// without frames, no marker left, one name for two. O(samples).
 [[nodiscard]] Status take_selection(const Selection& selection, data::Trial& trial);
-
-/// Points of a recording that are no markers, as indices of its markers, rising.
-struct PointsApart {
-  std::vector<std::int64_t> computed;  ///< that a model made of markers, and middles of two of them
-  std::vector<std::int64_t> unnamed;   ///< that nobody named (data::is_unlabelled())
-
-  /// Both, rising.
-  [[nodiscard]] std::vector<std::int64_t> all() const;
-  /// "36 computed points (PELO, PELA, ...) and 2 without a name"; empty where there are none.
-  [[nodiscard]] std::string describe(const std::vector<std::string>& names) const;
-};
-
-/// Which points of a recording are no markers. Computed ones are known by their names (joint centres, axes'
-/// ends, angles: skeleton::find_model_outputs()), or by lying, in every frame that shows all three, at one
-/// share of the way between two markers that move against each other. None where no other marker is left:
-/// who selects such points alone asks for them. O(F M + M^3).
-[[nodiscard]] PointsApart find_points_apart(const data::Trajectories& markers);
 
 }  // namespace kinemark::workflow
