@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "kinemark/core/check.h"
@@ -110,7 +109,6 @@ struct Fit {
   double all_squares = 0.0;   ///< and roughness
   double determinants = 0.0;  ///< log det(A)
   double freedom = 0.0, steps = 0.0;
-  double frames = 0.0, seen = 0.0;
   VectorXd curve;  ///< where one stretch is all
 
   /// The noise variance profiled out, not above `largest`, and the given one at least.
@@ -138,7 +136,6 @@ Fit fit(const VectorXd& y, const VectorXd& weight, double ratio) {
     out.all_squares += squares_of(values, w, x, ratio);
     out.determinants += band.log_determinant();
     out.freedom += seen - 3.0, out.steps += static_cast<double>(length - 3);
-    out.frames += static_cast<double>(length), out.seen += seen;
     if (first.size() == 1) out.curve = std::move(x);
   }
   return out;
@@ -210,8 +207,6 @@ NearestCurve nearest_curve(const VectorXd& y, const VectorXd& weight, double fir
   constexpr int kLeast = 2, kMost = 30;  // ratios on either side
   constexpr double kSharpness =
       0.25;  // of the weights by C_p: half of Akaike's, as C_p has a scatter of its own
-  constexpr double kLeastLeft = 1e-6;  // of the samples, by which a curve is not determined
-  const bool noise_is_found = std::isinf(largest);
   check(y.size() == weight.size(), "need one weight for every sample");
   NearestCurve out{.step_variance = first, .spread = VectorXd::Zero(y.size())};
   if ((weight.array() > 0.0).count() < kFewestSamples) return out;
@@ -227,16 +222,10 @@ NearestCurve nearest_curve(const VectorXd& y, const VectorXd& weight, double fir
                  misfit = fit_at(i).misfit(std::exp(ratio_at(i)), variance);
     if (misfit < least_misfit) least_misfit = misfit, noise = variance;
   };
-  // Twice the trace of A^-1 W, from the slope of log det(A), but for twice the number of frames.
-  const auto traces = [&](int i) {
-    return (fit_at(i + 1).determinants - fit_at(i - 1).determinants) / kSpacing;
-  };
-  const auto left = [&](int i) {
-    return std::max(kLeastLeft * fit_at(i).seen, fit_at(i).seen - fit_at(i).frames - 0.5 * traces(i));
-  };
+  // C_p = squares / noise + 2 tr(A^-1 W), the trace from the slope of log det(A), but for the number of
+  // frames.
   const auto distance = [&](int i) {
-    if (!noise_is_found) return fit_at(i).squares / noise + traces(i);  // C_p
-    return fit_at(i).seen * std::log((fit_at(i).squares + 1e-300) / (left(i) * left(i)));
+    return fit_at(i).squares / noise + (fit_at(i + 1).determinants - fit_at(i - 1).determinants) / kSpacing;
   };
   int low = kMost - kLeast, high = kMost + kLeast;
   for (int i = low - 1; i <= high + 1; ++i) ask(i);
@@ -262,13 +251,6 @@ NearestCurve nearest_curve(const VectorXd& y, const VectorXd& weight, double fir
       out.spread.array() += likely * curve.array().square();
     }
   }
-  if (noise_is_found) {
-    int nearest = low;
-    for (int i = low + 1; i <= high; ++i)
-      if (distance(i) < distance(nearest)) nearest = i;
-    noise = fit_at(nearest).squares / left(nearest);
-  }
-  out.noise_variance = noise;
   out.step_variance = noise * std::pow(bandwidths / weights, 6);
   out.spread = (out.spread.array() / weights - (sum.array() / weights).square()).cwiseMax(0.0);
   return out;
@@ -302,94 +284,43 @@ void five_point_rates(const VectorXd& y, double rate_hz, VectorXd& rate, VectorX
   }
 }
 
-namespace {
-
-/// What smoothing needs of one coordinate.
-struct Samples {
-  VectorXd weight, values;  // about their mean: large offsets cost digits
-  double mean = 0.0, usual = 1.0;
-  Index seen = 0;
-
-  Samples(std::span<const double> y, std::span<const double> sd)
-      : weight(weights_of(sd, static_cast<Index>(y.size()))) {
-    const Eigen::Map<const VectorXd> given(y.data(), weight.size());
-    seen = (weight.array() > 0.0).count();
-    if (seen < kFewestSamples) return;
-    mean = weight.dot(given) / weight.sum();
-    values = given.array() - mean;
-    std::vector<double> all;
-    for (const double s : sd)
-      if (s >= 0.0) all.push_back(s);
-    if (all.empty()) return;
-    if (const double middle = math::upper_median(all); middle > 0.0) usual = middle;
-  }
-};
-
-SmoothedCoordinate unknown(std::span<const double> y) {
+SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd, double rate_hz,
+                                     double largest_noise_scale) {
   const auto F = static_cast<Index>(y.size());
+  check(sd.empty() || sd.size() == y.size(), "sd must be empty or as long as y");
   SmoothedCoordinate out;
   out.value = Eigen::Map<const VectorXd>(y.data(), F);
   out.rate.setZero(F);
   out.acceleration.setZero(F);
   out.covariance.setConstant(6, F, std::numeric_limits<double>::quiet_NaN());
-  return out;
-}
-
-/// The curve x of a ratio, with noise of a variance.
-SmoothedCoordinate smoothed(const Samples& samples, double ratio, double variance, double rate_hz,
-                            const VectorXd& x) {
-  const Index F = samples.weight.size();
-  SmoothedCoordinate out;
+  const VectorXd weight = weights_of(sd, F);
+  const auto seen = (weight.array() > 0.0).count();
+  if (seen < kFewestSamples) return out;
+  // About the mean: large offsets cost digits.
+  const double mean = weight.dot(out.value) / weight.sum();
+  const VectorXd values = out.value.array() - mean;
+  double usual = 1.0;
+  if (!sd.empty()) {
+    std::vector<double> all;
+    for (const double s : sd)
+      if (s >= 0.0) all.push_back(s);
+    if (const double middle = math::upper_median(all); middle > 0.0) usual = middle;
+  }
+  const double largest = std::pow(largest_noise_scale * usual, 2);
+  const double ratio = best_ratio(values, weight, largest);
+  const Band band(weight, ratio);
+  VectorXd x = weight.cwiseProduct(values);
+  band.solve_in_place(x);
+  const double variance =
+      std::min(largest, squares_of(values, weight, x, ratio) / static_cast<double>(seen - 3));
   out.known = true;
-  out.noise_scale = std::sqrt(variance) / samples.usual;
+  out.noise_scale = std::sqrt(variance) / usual;
   out.step_sd = std::sqrt(variance * ratio);
   VectorXd wide = VectorXd::Zero(F + 2);
-  wide.segment(1, F) = samples.weight;
+  wide.segment(1, F) = weight;
   fill_covariance(Band(wide, ratio).inverse_band(), variance, rate_hz, out.covariance);
   five_point_rates(x, rate_hz, out.rate, out.acceleration);
-  out.value = x.array() + samples.mean;
-  return out;
-}
-
-}  // namespace
-
-SmoothedCoordinate smooth_coordinate(std::span<const double> y, std::span<const double> sd, double rate_hz,
-                                     double largest_noise_scale) {
-  check(sd.empty() || sd.size() == y.size(), "sd must be empty or as long as y");
-  const Samples samples(y, sd);
-  if (samples.seen < kFewestSamples) return unknown(y);
-  const double largest = std::pow(largest_noise_scale * samples.usual, 2);
-  const double ratio = best_ratio(samples.values, samples.weight, largest);
-  const Band band(samples.weight, ratio);
-  VectorXd x = samples.weight.cwiseProduct(samples.values);
-  band.solve_in_place(x);
-  const double variance = std::min(
-      largest, squares_of(samples.values, samples.weight, x, ratio) / static_cast<double>(samples.seen - 3));
-  return smoothed(samples, ratio, variance, rate_hz, x);
-}
-
-SmoothedCoordinate smooth_for_rates(std::span<const double> y, std::span<const double> sd, double rate_hz) {
-  auto out = smooth_coordinate(y, sd, rate_hz);
-  if (!out.known) return out;
-  const Samples samples(y, sd);
-  const double likely = std::pow(out.noise_scale * samples.usual, 2);
-  const double first = likely > 0.0 ? out.step_sd * out.step_sd / likely : kLargestRatio;
-  const auto nearest =
-      nearest_curve(samples.values, samples.weight, first, std::numeric_limits<double>::infinity());
-  if (!(nearest.noise_variance > 0.0)) return out;
-  const double ratio =
-      std::clamp(nearest.step_variance / nearest.noise_variance, kSmallestRatio, kLargestRatio);
-  VectorXd x = samples.weight.cwiseProduct(samples.values);
-  Band(samples.weight, ratio).solve_in_place(x);
-  const auto other = smoothed(samples, ratio, nearest.noise_variance, rate_hz, x);
-  for (Index f = 0; f < x.size(); ++f) {
-    const Eigen::Vector3d apart(other.value[f] - out.value[f], other.rate[f] - out.rate[f],
-                                other.acceleration[f] - out.acceleration[f]);
-    if (other.covariance(3, f) > out.covariance(3, f)) out.covariance.col(f) = other.covariance.col(f);
-    Eigen::Matrix<double, 6, 1> more;
-    math::pack_symmetric3(apart * apart.transpose(), more.data());
-    out.covariance.col(f) += more;
-  }
+  out.value = x.array() + mean;
   return out;
 }
 

@@ -38,17 +38,9 @@ inline constexpr int kFewestSamples = 8;  ///< below it nothing is estimated
     std::span<const double> y, std::span<const double> sd, double rate_hz,
     double largest_noise_scale = std::numeric_limits<double>::infinity());
 
-/// The same with a covariance that holds for movements too whose spectrum is not that of white steps. The
-/// likeliest curve is then too smooth; one that predicts the samples best (nearest_curve(), of noise that is
-/// not known) is rougher, and its rates err by more. Values and rates are those of the first. The covariance
-/// is that of the second where its rate is known less well, and what the two differ by is added.
-[[nodiscard]] SmoothedCoordinate smooth_for_rates(std::span<const double> y, std::span<const double> sd,
-                                                  double rate_hz);
-
 /// What nearest_curve() finds.
 struct NearestCurve {
-  double step_variance = 0.0;   ///< of a third difference
-  double noise_variance = 1.0;  ///< over what the weights say
+  double step_variance = 0.0;  ///< of a third difference
   /// F, variance of the curve by what is not known of the step variance; 0 in recordings of more than 6000
   /// frames, where there is no doubt about it.
   Eigen::VectorXd spread;
@@ -63,8 +55,7 @@ struct NearestCurve {
 /// @param weight   as long as y, the inverse variance of each sample's noise; 0: not seen
 /// @param first    step variance from which the search begins; returned where fewer than 8 samples are seen
 /// @param largest  >= 1, how often as large the variance of noise may be; above 1 it is found by its
-///                 likelihood. Infinite: nothing is known of it, and generalised cross-validation (Craven &
-///                 Wahba 1979, Numer. Math. 31:377) takes the place of C_p
+/// likelihood
 [[nodiscard]] NearestCurve nearest_curve(const Eigen::VectorXd& y, const Eigen::VectorXd& weight,
                                          double first, double largest = 1.0);
 

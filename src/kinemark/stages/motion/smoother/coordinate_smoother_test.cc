@@ -190,40 +190,6 @@ TEST(CoordinateSmoother, TheNearestCurveOfAWalkIsHeldByItsBarsWhereTheLikeliestI
   EXPECT_LT(nearest.squares, likeliest.squares);
 }
 
-TEST(CoordinateSmoother, RatesOfAWalkAreHeldByTheirBarsAndStayAsTheyWere) {
-  constexpr double kNoise = 0.5;
-  constexpr int kDraws = 12;
-  double held = 0.0, likely = 0.0;
-  for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
-    const auto truth = movement(seed, kWalk), y = with_noise(truth, kNoise, seed);
-    const std::span<const double> samples(y.data(), kWalk);
-    const auto smooth = smooth_for_rates(samples, {}, kRate), plain = smooth_coordinate(samples, {}, kRate);
-    EXPECT_EQ(smooth.value, plain.value);
-    EXPECT_EQ(smooth.rate, plain.rate);
-    EXPECT_EQ(smooth.acceleration, plain.acceleration);
-    EXPECT_EQ(smooth.noise_scale, plain.noise_scale);
-    Eigen::VectorXd rate, acceleration;
-    five_point_rates(truth, kRate, rate, acceleration);
-    for (int f = 0; f < kWalk; ++f) {
-      const double off = std::abs(smooth.rate[f] - rate[f]);
-      held += off < 1.96 * std::sqrt(smooth.covariance(3, f));
-      likely += off < 1.96 * std::sqrt(plain.covariance(3, f));
-      EXPECT_GE(smooth.covariance(3, f), plain.covariance(3, f));
-    }
-  }
-  EXPECT_GT(held, 0.91 * kDraws * kWalk);
-  EXPECT_LT(held, 0.985 * kDraws * kWalk);
-  EXPECT_GT(held, likely + 0.02 * kDraws * kWalk) << "without it this movement shows nothing";
-}
-
-TEST(CoordinateSmoother, RatesOfExactAndOfFewSamplesAreThoseOfTheLikeliestCurve) {
-  const std::vector<double> few = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}, still(50, 0.7);
-  EXPECT_FALSE(smooth_for_rates(few, {}, kRate).known);
-  const auto smooth = smooth_for_rates(still, {}, kRate);
-  EXPECT_NEAR(smooth.rate[20], 0.0, 1e-9);
-  EXPECT_TRUE(smooth.covariance.allFinite());
-}
-
 TEST(CoordinateSmoother, ACurveOfAGivenStepIsTheDensePosterior) {
   constexpr double kNoise = 0.5, kStep = 1e-5;
   const auto y = with_noise(movement(3, kWalk), kNoise, 3);

@@ -89,7 +89,7 @@ Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& 
       if (!motion.q_sd.empty()) sd[at(f)] = motion.q_sd[i];
       if (!motion.determined.empty() && motion.determined[i] == 0) sd[at(f)] = kNaN;
     }
-    const auto smooth = smooth_for_rates(y, sd, motion.time.rate_hz);
+    const auto smooth = smooth_coordinate(y, sd, motion.time.rate_hz);
     errors.noise_scale[at(c)] = smooth.noise_scale;
     for (std::int64_t f = 0; f < F; ++f) {
       const auto i = motion.index(f, c);

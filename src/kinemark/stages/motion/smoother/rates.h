@@ -26,8 +26,7 @@ struct RateErrors {
 /// Estimate dq/dt, d2q/dt2 and their covariance from the coordinates alone.
 ///
 /// Every independent coordinate is smoothed by itself (coordinate_smoother.h), weighted by q_sd and left open
-/// where it is not determined; bandwidth and noise follow from its own likelihood, and the
-/// covariance holds for movements of another spectrum too (smooth_for_rates()). q stays as it is. qd and
+/// where it is not determined; bandwidth and noise follow from its own likelihood. q stays as it is. qd and
 /// qdd are filled only where they are empty. The angles of a free root are smoothed as angles: near the
 /// attitude where the middle one is 90 deg prefer the smoother on the whole body. Fails below 8 frames.
 [[nodiscard]] Result<RateErrors> estimate_rates(const model::Model& model, data::JointMotion& motion);
