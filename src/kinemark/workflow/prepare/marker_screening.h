@@ -42,9 +42,9 @@ struct PointsApart {
 };
 
 /// Which points of a recording are no markers. Computed ones are known by their names (joint centres, axes'
-/// ends, angles: skeleton::find_model_outputs()), or by lying, in every frame that shows all three, at one
-/// share of the way between two markers that move against each other. None where no other marker is left:
-/// who selects such points alone asks for them. O(F M + M^3).
+/// ends, angles: skeleton::find_model_outputs()), or by being, in every frame that shows all three, the
+/// middle of two markers that move against each other. None where no other marker is left: who selects such
+/// points alone asks for them. O(F M + M^3).
 [[nodiscard]] PointsApart find_points_apart(const data::Trajectories& markers);
 
 /// What to look for in a recording, and what to do about it.

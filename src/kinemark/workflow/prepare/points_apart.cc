@@ -5,10 +5,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "kinemark/core/counted.h"
@@ -32,43 +30,31 @@ struct Between {
   std::int64_t point, from, to;
 };
 
-/// How far along the way a point lies in one frame, or nothing where it is beside the way.
-std::optional<double> share_of_way(const data::Trajectories& markers, std::int64_t frame, const Between& b) {
-  const Eigen::Vector3d way = markers.x(frame, b.to) - markers.x(frame, b.from),
-                        part = markers.x(frame, b.point) - markers.x(frame, b.from);
-  const double length = way.norm();
-  if (!(length > kMoveAgainst_m)) return std::nullopt;
-  const double share = part.dot(way) / (length * length);
-  if (share < 0.01 || share > 0.99 || (part - share * way).norm() > kExact_m) return std::nullopt;
-  return share;
-}
-
-/// Whether the point lies at one share of a way that changes its length, in every `step`-th frame that shows
-/// all three.
-bool lies_between(const data::Trajectories& markers, const Between& b, std::int64_t step) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0, share = 0.0;
+/// Whether the point is the middle of a way that changes its length, in every `step`-th frame that shows all
+/// three.
+bool is_middle_of(const data::Trajectories& markers, const Between& b, std::int64_t step) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
   std::int64_t seen = 0;
   for (std::int64_t f = 0; f < markers.frames(); f += step) {
     if (!markers.present(f, b.point) || !markers.present(f, b.from) || !markers.present(f, b.to)) continue;
-    const auto here = share_of_way(markers, f, b);
-    if (!here) return false;
-    const double length = (markers.x(f, b.to) - markers.x(f, b.from)).norm();
-    if (seen++ == 0) share = *here;
-    if (std::abs(*here - share) * length > kExact_m) return false;
+    const Eigen::Vector3d from = markers.x(f, b.from), to = markers.x(f, b.to);
+    if ((markers.x(f, b.point) - 0.5 * (from + to)).norm() > kExact_m) return false;
+    const double length = (to - from).norm();
+    ++seen;
     least = std::min(least, length);
     most = std::max(most, length);
   }
   return step > 1 ? seen > 0 : seen >= kFewestFrames && most - least >= kMoveAgainst_m;
 }
 
-/// Whether a marker lies between two others of `real`.
+/// Whether a marker is the middle of two others of `real`.
 bool is_middle(const data::Trajectories& markers, std::int64_t point, const std::vector<std::int64_t>& real) {
   const auto step = std::max<std::int64_t>(2, markers.frames() / kTriedFirst);
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t k = i + 1; k < real.size(); ++k) {
       const Between b{.point = point, .from = real[i], .to = real[k]};
       if (b.from == point || b.to == point) continue;
-      if (lies_between(markers, b, step) && lies_between(markers, b, 1)) return true;
+      if (is_middle_of(markers, b, step) && is_middle_of(markers, b, 1)) return true;
     }
   return false;
 }
