@@ -15,6 +15,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/bar_limits.h"
 #include "kinemark/stages/motion/internal/normal_inverse.h"
 #include "kinemark/stages/motion/internal/problem.h"
 #include "kinemark/stages/motion/internal/profile_errors.h"
@@ -25,17 +26,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::int64_t kSampledFrames = 300;
-constexpr double kBlindRotation =
-    1.0 / 0.003;  // rad of error per m of marker error beyond which a coordinate is not determined
-constexpr double kBlindTranslation = 20.0;  // m per m
-constexpr double kLargestSd = 0.5;          // rad or m; beyond it a linear error bar is not valid
-constexpr double kVague = 0.03;             // rad or m; of what is known better a linear error bar is enough
-constexpr double kFloor = 1e-10;            // of the total weight: as in the solver
-constexpr double kLeastSd_m = 0.3e-3;       // of a marker
-constexpr double kLeastKept = 1e-9;         // share of a marker's noise that its residual keeps
-constexpr double kLeastSpread = 0.01;       // of the variances of markers, squared and relative
-constexpr double kBlindFloor = 1e-13;  // lower: even a small share of an undetermined direction must show
+using internal::kBlindFloor, internal::kBlindRotation, internal::kBlindTranslation, internal::kBarFloor;
+using internal::kLargestSd, internal::kSampledFrames, internal::kVague;
+
+constexpr double kLeastSd_m = 0.3e-3;  // of a marker
+constexpr double kLeastKept = 1e-9;    // share of a marker's noise that its residual keeps
+constexpr double kLeastSpread = 0.01;  // of the variances of markers, squared and relative
 
 /// One thread's view of one frame: pose, visible markers, inverse normal matrices.
 struct Frame {
@@ -72,7 +68,7 @@ struct Frame {
       for (const auto& task : problem.coordinate_tasks)
         H.noalias() += total * task.weight * E.row(task.coordinate).transpose() * E.row(task.coordinate);
     }
-    invert(H, kFloor * total, K);
+    invert(H, kBarFloor * total, K);
   }
 
   const internal::Problem& problem;

@@ -11,6 +11,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/bar_limits.h"
 #include "kinemark/stages/motion/internal/normal_inverse.h"
 #include "kinemark/stages/motion/internal/profile_errors.h"
 #include "kinemark/stages/motion/orientation/internal/far_points.h"
@@ -22,14 +23,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// As for markers alone (error_bars.cc).
-constexpr std::int64_t kSampledFrames = 300;
-constexpr double kBlindRotation = 1.0 / 0.003;
-constexpr double kBlindTranslation = 20.0;
-constexpr double kLargestSd = 0.5;
-constexpr double kVague = 0.03;
-constexpr double kFloor = 1e-10;
-constexpr double kBlindFloor = 1e-13;
 constexpr double kUnitLever = 2.0;  // m^2: three points 1 m off, on three axes, turn with a body so
 
 /// One frame: pose, markers seen, sensors present, normal matrices.
@@ -78,7 +71,7 @@ struct Frame {
     const double total = weight.sum();
     for (const auto& task : problem.coordinate_tasks)
       H.noalias() += total * task.weight * E.row(task.coordinate).transpose() * E.row(task.coordinate);
-    inverse.invert(H, C, kFloor * (total + present * turn_weight()), K);
+    inverse.invert(H, C, kBarFloor * (total + present * turn_weight()), K);
   }
 
   /// Angle between a body and what its sensor says, squared, rad^2.
