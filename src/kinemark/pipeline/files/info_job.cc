@@ -85,8 +85,11 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);
-  for (const auto m : workflow::find_points_apart(markers).computed)
-    facts.computed.push_back(markers.names[static_cast<std::size_t>(m)]);
+  const auto apart = workflow::find_points_apart(markers);
+  for (const auto m : apart.computed) facts.computed.push_back(markers.names[at(m)]);
+  std::vector<std::uint8_t> no_markers(markers.names.size(), 0);
+  for (const auto m : apart.all()) no_markers[at(m)] = 1;
+  facts.set = data::find_marker_set(markers.names, no_markers);
   out.facts = std::move(facts);
   if (job.find_exchanges)
     workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/marker_sets.h"
 #include "kinemark/io/recording/reader.h"
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/job_settings.h"
@@ -46,6 +47,7 @@ struct MarkerFileFacts {
   std::vector<std::string> labels;               ///< of the markers
   std::vector<std::string> computed;             ///< those of them that a model made of others, or middles
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
+  std::optional<data::FoundMarkerSet> set;       ///< that they are of; none: no set known here
   std::vector<ChannelFacts> channels;            ///< points that are no markers
   std::string up;        ///< "z, by the force plates": which way is up; empty: nothing says it
   std::string filtered;  ///< by what markers were smoothed, and whether the samples

@@ -107,6 +107,35 @@ TEST(RunInfo, ChannelsAreNoMarkers) {
   EXPECT_THAT(info_text(run_info(job).value()), HasSubstr("channels          LKneeAngles (angle, deg)\n"));
 }
 
+TEST(RunInfo, AMarkerSetIsNamedWithWhatIsMissing) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial;
+  std::vector<std::string> names;
+  for (const char* stem : {"ASI", "PSI", "THI", "KNE", "TIB", "ANK", "HEE", "TOE"})
+    for (const char* side : {"Ann:l_", "Ann:r_"}) names.push_back(std::string(side) + stem);
+  names.pop_back();
+  trial.markers = data::Trajectories::all_missing(names, {.rate_hz = 100.0, .frames = 2});
+  for (std::int64_t m = 0; m < trial.markers.markers(); ++m) {
+    trial.markers.x(0, m) = Eigen::Vector3d(0.1 * static_cast<double>(m), 0.2, 1.0);
+    trial.markers.state[trial.markers.index(0, m)] = data::SampleState::measured;
+  }
+  ASSERT_TRUE(io::write_markers(scratch / "set.csv", trial, false));
+  const auto facts = facts_of(scratch / "set.csv").value();
+  EXPECT_EQ(facts["marker_set"]["name"], "Plug-in Gait");
+  EXPECT_EQ(facts["marker_set"]["part"], "lower body");
+  EXPECT_EQ(facts["marker_set"]["markers"], 16);
+  EXPECT_EQ(facts["marker_set"]["missing"], nlohmann::ordered_json({"RTOE"}));
+  InfoJob job;
+  job.file = scratch / "set.csv";
+  EXPECT_THAT(info_text(run_info(job).value()),
+              HasSubstr("marker_set        Plug-in Gait, lower body: 15 of 16 markers, without RTOE\n"));
+  for (std::size_t m = 0; m < names.size(); ++m) trial.markers.names[m] = "M" + std::to_string(m);
+  ASSERT_TRUE(io::write_markers(scratch / "none.csv", trial, false));
+  EXPECT_FALSE(facts_of(scratch / "none.csv")->contains("marker_set"));
+  job.file = scratch / "none.csv";
+  EXPECT_THAT(info_text(run_info(job).value()), ::testing::Not(HasSubstr("marker_set")));
+}
+
 TEST(RunInfo, AnEmptyTableHasNoTimes) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(io::write_text(scratch / "none.sto",

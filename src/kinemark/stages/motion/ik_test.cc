@@ -351,6 +351,37 @@ std::string sentence(const data::Trajectories& markers, const IkOptions& options
   return result ? "" : result.error().message;
 }
 
+TEST(SolveIk, NamesThatDifferAreProposedAsAnOption) {
+  auto described = description();
+  described.markers[0].name = "R.Heel";
+  described.markers[1].name = "L.Heel";
+  const auto model = model::Model::compile(described).value();
+  auto markers = record(model, 5);
+  EXPECT_THAT(solve_ik(model, markers)->fit.warnings,
+              testing::Not(testing::Contains(HasSubstr(" of the model, not in the recording, "))));
+  markers.names[0] = "RHEE";
+  EXPECT_THAT(
+      solve_ik(model, markers)->fit.warnings,
+      testing::Contains("1 marker of the model, not in the recording, may be there under another name: "
+                        "--rename RHEE=R.Heel"));
+  markers.names[1] = "Left Heel";
+  EXPECT_THAT(
+      solve_ik(model, markers)->fit.warnings,
+      testing::Contains("2 markers of the model, not in the recording, may be there under other names: "
+                        "--rename 'RHEE=R.Heel,Left Heel=L.Heel'"));
+  // Of the other side, nothing.
+  markers.names[0] = "LHEE";
+  markers.names[1] = "T_one";
+  EXPECT_THAT(solve_ik(model, markers)->fit.warnings,
+              testing::Contains(HasSubstr("1 marker of the model, not in the recording, may be there under "
+                                          "another name: --rename LHEE=L.Heel")));
+  for (auto& name : markers.names) name += "_x";
+  markers.names[0] = "RHEE";
+  EXPECT_THAT(
+      solve_ik(model, markers).error().message,
+      testing::AllOf(HasSubstr("no marker in common"), testing::EndsWith("; likely: --rename RHEE=R.Heel")));
+}
+
 TEST(SolveIk, BadInputIsOneClearSentence) {
   const auto good = record(body(), 5);
   auto strangers = good;

@@ -11,6 +11,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/likely_pairs.h"
 #include "kinemark/stages/analysis/gait/feet_by_place.h"
 #include "kinemark/stages/analysis/gait/gait_names.h"
 
@@ -48,6 +49,11 @@ Result<std::array<std::int64_t, kRoles.size()>> given_markers(const std::vector<
 
 std::string_view lower(Side side) { return side == Side::left ? "left" : "right"; }
 
+/// " --gait-marker left_heel=NAME", as a shell takes it.
+std::string gait_option(std::string_view role, const std::string& name) {
+  return fmt::format(" --gait-marker {}", data::for_shell(fmt::format("{}={}", role, name)));
+}
+
 constexpr double kEnough = 0.8;     // of the frames of the set seen most: a better set is taken
 constexpr double kFewFrames = 0.1;  // of all: such a marker tells nothing
 constexpr std::int64_t kLeastFrames = 8;
@@ -67,11 +73,14 @@ class Finder {
     if (!foot(Side::left).complete() && !foot(Side::right).complete())
       return fail(
           Code::bad_input,
-          fmt::format("no marker of a foot is found: none has a usual name (LHEE, L.Heel; LANK; LTOE, L.MT2, "
-                      "...) and is seen{}, and the lowest markers are no two feet",
-                      never_seen_.empty() ? ""
-                                          : fmt::format(" ({} {} never seen)", join_names(never_seen_, 4),
-                                                        never_seen_.size() == 1 ? "is" : "are")));
+          fmt::format(
+              "no marker of a foot is found: none has a usual name (LHEE, L.Heel; LANK; LTOE, L.MT2, "
+              "...) and is seen{}, and the lowest markers are no two feet; there are {}: name those of the "
+              "feet with --gait-marker left_heel=NAME --gait-marker right_heel=NAME",
+              never_seen_.empty() ? ""
+                                  : fmt::format(" ({} {} never seen)", join_names(never_seen_, 4),
+                                                never_seen_.size() == 1 ? "is" : "are"),
+              join_names(markers_.names, 12)));
     for (const Side side : data::kBothSides) note_foot(side);
     find_pelvis();
     if (out_.pelvis.empty())
@@ -241,7 +250,18 @@ class Finder {
     };
     out_.notes.push_back(fmt::format(
         "no names of feet are known here: by their place, {} are taken as one foot and {} as the other{}",
-        pair(Side::left), pair(Side::right), out_.sides_known ? "" : "; no name tells which is left"));
+        pair(Side::left), pair(Side::right),
+        out_.sides_known ? "; to change that:" + options_taken() : "; no name tells which is left"));
+  }
+
+  // The markers that were taken, as options.
+  [[nodiscard]] std::string options_taken() {
+    std::string said;
+    for (const Side side : data::kBothSides) {
+      said += gait_option(fmt::format("{}_heel", lower(side)), name(foot(side).heel));
+      if (foot(side).points()) said += gait_option(fmt::format("{}_toe", lower(side)), name(foot(side).toe));
+    }
+    return said;
   }
 
   // Stretches longer than 0.25 s in which a marker is not seen: "LHEE is hidden from 1.20 to 2.00 s".

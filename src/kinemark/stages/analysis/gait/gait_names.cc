@@ -12,26 +12,28 @@ namespace {
 using data::Side;
 
 // Whole words, never parts of words: LLM is the left lateral malleolus, RLM the right one, LTHLP no heel.
-constexpr std::array<std::string_view, 9> kHeel{"hee", "heel", "fcc", "cal",      "calc",
-                                                "fhe", "sph",  "ca",  "calcaneus"};
-constexpr std::array<std::string_view, 45> kForefoot{
-    "toe",     "toetip",      "toe1",  "toe2",  "p1mt",       "mt1",  "mt2",    "met2",   "mth2",
-    "fm1",     "fm2",         "met",   "met1",  "metatarsal", "mt5",  "met5",   "fm5",    "p5mt",
-    "mth5",    "mth1",        "5meta", "meta5", "mth",        "tt2",  "bigtoe", "hal",    "hallux",
-    "fmt",     "mfh1",        "mfh5",  "fmh",   "fmh1",       "fmh5", "toelat", "toemed", "smalltoe",
-    "latfoot", "lateralfoot", "lat",   "cun",   "ft2",        "ft1",  "ft3",    "mfs",    "mfl"};
-constexpr std::array<std::string_view, 22> kAnkle{
-    "ank",   "ankle",  "mall",  "mal", "lm",  "lmal",       "llmal", "fal", "llm", "anklelat", "latmal",
-    "lmall", "mallat", "malll", "lak", "ajc", "ankleouter", "am",    "al",  "rlm", "tam",      "rmall"};
-constexpr std::array<std::string_view, 5> kFront{"asis", "asi", "ias", "fwt", "asislat"};
-constexpr std::array<std::string_view, 4> kBack{"psis", "psi", "ips", "bwt"};
+constexpr std::array<std::string_view, 10> kHeel{"hee", "heel", "fcc", "cal",       "calc",
+                                                 "fhe", "sph",  "ca",  "calcaneus", "calcstudy"};
+constexpr std::array<std::string_view, 47> kForefoot{
+    "toe",   "toetip", "toe1", "toe2",       "p1mt",   "mt1",      "mt2",       "met2",        "mth2", "fm1",
+    "fm2",   "met",    "met1", "metatarsal", "mt5",    "met5",     "fm5",       "p5mt",        "mth5", "mth1",
+    "5meta", "meta5",  "mth",  "tt2",        "bigtoe", "hal",      "hallux",    "fmt",         "mfh1", "mfh5",
+    "fmh",   "fmh1",   "fmh5", "toelat",     "toemed", "smalltoe", "latfoot",   "lateralfoot", "lat",  "cun",
+    "ft2",   "ft1",    "ft3",  "mfs",        "mfl",    "toestudy", "5metastudy"};
+constexpr std::array<std::string_view, 23> kAnkle{
+    "ank",        "ankle",    "mall",   "mal",   "lm",     "lmal",  "llmal",     "fal",
+    "llm",        "anklelat", "latmal", "lmall", "mallat", "malll", "lak",       "ajc",
+    "ankleouter", "am",       "al",     "rlm",   "tam",    "rmall", "anklestudy"};
+constexpr std::array<std::string_view, 6> kFront{"asis", "asi", "ias", "fwt", "asislat", "asisstudy"};
+constexpr std::array<std::string_view, 5> kBack{"psis", "psi", "ips", "bwt", "psisstudy"};
 constexpr std::array<std::string_view, 12> kSacrum{"sacr", "sacrum", "vsac",   "sac", "vsacral", "sacral",
                                                    "psis", "s2",     "sacrol", "mwt", "pelr",    "midhip"};
-constexpr std::array<std::string_view, 11> kKnee{
-    "kne", "knee", "lk", "kneelat", "lkne", "lfe", "latknee", "kneeouter", "lateralknee", "fle", "kjc"};
-constexpr std::array<std::string_view, 13> kOuterAnkle{"ank",    "ankle", "lm",        "lmal",     "llmal",
-                                                       "llm",    "fal",   "lmall",     "anklelat", "latmal",
-                                                       "mallat", "rlm",   "ankleouter"};
+constexpr std::array<std::string_view, 12> kKnee{"kne",         "knee", "lk",      "kneelat",
+                                                 "lkne",        "lfe",  "latknee", "kneeouter",
+                                                 "lateralknee", "fle",  "kjc",     "kneestudy"};
+constexpr std::array<std::string_view, 14> kOuterAnkle{"ank",    "ankle", "lm",         "lmal",      "llmal",
+                                                       "llm",    "fal",   "lmall",      "anklelat",  "latmal",
+                                                       "mallat", "rlm",   "ankleouter", "anklestudy"};
 // Single letters are the names of one marker set only: believed where both feet have them (gait_markers.cc).
 constexpr std::array<std::string_view, 1> kForefootLetter{"d"}, kAnkleLetter{"a"};
 

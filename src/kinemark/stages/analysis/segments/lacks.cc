@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/nearest_name.h"
+#include "kinemark/data/likely_pairs.h"
 
 namespace kinemark::analysis::internal {
 namespace {
@@ -56,6 +57,17 @@ std::string lack_sentence(const SegmentDefinition& d, const LackGroup& group,
                      fmt::join(parts, ", no "), group.alike ? "" : ", and each needs one of them or more");
 }
 
+// Markers that are lacked and that the recording probably has under other names, as an option.
+std::string likely_names(const SegmentDefinition& d, const std::vector<LackGroup>& groups,
+                         const std::vector<std::string>& markers) {
+  std::set<std::string> lacked;
+  for (const auto& group : groups)
+    for (const auto& name : group.lacks)
+      if (kind_and_name(d, name, markers).first == "marker") lacked.insert(name);
+  const std::vector<std::string> wanted(lacked.begin(), lacked.end());
+  return data::rename_option(data::find_likely_pairs(wanted, markers));
+}
+
 // Groups that lack something in common become one: who brings no markers of the trunk lacks arms and head
 // with them.
 void join_groups(std::vector<LackGroup>& groups) {
@@ -89,6 +101,8 @@ std::vector<std::string> lack_sentences(const SegmentDefinition& definition,
   join_groups(groups);
   std::vector<std::string> out;
   for (const auto& group : groups) out.push_back(lack_sentence(definition, group, markers));
+  if (const auto option = likely_names(definition, groups, markers); !option.empty())
+    out.push_back(fmt::format("Likely: {}", option));
   return out;
 }
 

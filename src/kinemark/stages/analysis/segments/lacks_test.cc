@@ -15,12 +15,13 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 
 std::vector<std::string> sentences(std::vector<std::set<std::string>> lacks,
-                                   const std::vector<std::string>& names) {
+                                   const std::vector<std::string>& names,
+                                   const std::vector<std::string>& markers = {"LASI", "LKNE"}) {
   SegmentDefinition definition;
   definition.parameters.push_back({.name = "Width"});
   SegmentGraph graph;
   graph.lacks = std::move(lacks);
-  return lack_sentences(definition, names, graph, {"LASI", "LKNE"});
+  return lack_sentences(definition, names, graph, markers);
 }
 
 TEST(Lacks, OutputsThatLackTheSameAreNamedTogether) {
@@ -35,6 +36,14 @@ TEST(Lacks, WhatSharesAMissingMarkerIsOneSentence) {
       ElementsAre("Not computed: head, neck, thorax; there is no marker 'C7', 'LBHD', and each needs one of "
                   "them or more.",
                   "Not computed: wrist; there is no marker 'LRAD', no value of 'Width'."));
+}
+
+TEST(Lacks, NamesThatDifferAreProposedAsAnOption) {
+  const auto said = sentences({{"LHEE", "RHEE"}}, {"foot"}, {"Left Heel", "R.Heel", "LKNE"});
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_EQ(said[1], "Likely: --rename 'Left Heel=LHEE,R.Heel=RHEE'");
+  EXPECT_THAT(sentences({{"LHEE"}}, {"foot"}, {"R.Heel"}), ::testing::SizeIs(1))
+      << "of the other side, nothing";
 }
 
 TEST(Lacks, NothingIsSaidWhereNothingIsMissingOrNothingIsNamed) {

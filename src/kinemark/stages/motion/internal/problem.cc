@@ -11,8 +11,10 @@
 #include <limits>
 #include <map>
 
+#include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/likely_pairs.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/workspace.h"
@@ -28,6 +30,18 @@ bool ever_seen(const data::Trajectories& markers, std::int64_t m) {
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     if (markers.present(f, m)) return true;
   return false;
+}
+
+/// Markers of the model that the recording probably has under other names.
+void note_likely_names(const std::vector<data::MarkerDescription>& described,
+                       const std::vector<std::string>& recorded, data::MarkerFit& fit) {
+  std::vector<std::string> names;
+  for (const auto& marker : described) names.push_back(marker.name);
+  const auto pairs = data::find_likely_pairs(names, recorded);
+  if (const auto option = data::rename_option(pairs); !option.empty())
+    fit.warnings.push_back(fmt::format("{} of the model, not in the recording, may be there under {}: {}",
+                                       counted(std::ssize(pairs), "marker"),
+                                       pairs.size() == 1 ? "another name" : "other names", option));
 }
 
 Status match_markers(const model::Model& model, const data::Trajectories& markers, const IkOptions& options,
@@ -82,9 +96,11 @@ Status match_markers(const model::Model& model, const data::Trajectories& marker
   if (reduced.markers.empty()) {
     std::vector<std::string> names;
     for (const auto& marker : described) names.push_back(marker.name);
-    return fail(Code::bad_input, fmt::format("no marker in common: the model has {}; the recording has {}",
-                                             list(names), list(markers.names)));
+    return fail(Code::bad_input,
+                fmt::format("no marker in common: the model has {}; the recording has {}{}", list(names),
+                            list(markers.names), data::rename_proposal(names, markers.names)));
   }
+  if (!model_only.empty()) note_likely_names(described, markers.names, fit);
   std::ranges::move(model_only, std::back_inserter(fit.excluded));
   for (std::size_t m = 0; m < used.size(); ++m)
     if (!used[m]) fit.excluded.push_back({markers.names[m], std::string(data::kNotInModel)});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/likely_pairs.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/model.h"
@@ -65,6 +66,12 @@ struct Scaler {
     return {};
   }
 
+  [[nodiscard]] std::vector<std::string> marker_names() const {
+    std::vector<std::string> names;
+    for (const auto& marker : model.markers) names.push_back(marker.name);
+    return names;
+  }
+
   Result<MeasuredPair> measure(const data::ScaleMeasurement& measurement, const data::MarkerPair& pair,
                                const Eigen::Matrix3Xd& positions) const {
     MeasuredPair out{.first = pair.first, .second = pair.second};
@@ -82,8 +89,9 @@ struct Scaler {
       if (recorded[i] < 0)
         return fail(
             Code::bad_input,
-            fmt::format("measurement '{}' needs marker '{}', which the recording does not have; it has {}",
-                        measurement.name, name, index.instead_of(name)));
+            fmt::format("measurement '{}' needs marker '{}', which the recording does not have; it has {}{}",
+                        measurement.name, name, index.instead_of(name),
+                        data::rename_proposal(marker_names(), recording->names)));
     }
     out.model_m = (positions.col(modelled[0]) - positions.col(modelled[1])).norm();
     if (out.model_m < 1e-6)

@@ -247,6 +247,9 @@ TEST(ScaleModel, says_what_is_wrong) {
   lacking.names[3] = "renamed";
   EXPECT_THAT(scale_model(model, &lacking, recipe).error().message,
               HasSubstr("needs marker 'THI', which the recording does not have"));
+  lacking.names[3] = "T.h.i";
+  EXPECT_THAT(scale_model(model, &lacking, recipe).error().message,
+              HasSubstr("; likely: --rename T.h.i=THI"));
   recipe.measurements[0].pairs.clear();
   EXPECT_THAT(message(&recording), HasSubstr("has no marker pair"));
   recipe.measurements[0] = thigh_measurement();
