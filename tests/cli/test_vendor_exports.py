@@ -3,7 +3,10 @@
 """Text exports of Qualisys, OptiTrack and Vicon go wherever other marker files go."""
 
 import csv
+import io
 import json
+import struct
+import zipfile
 
 from support import CommandTest, real_file
 
@@ -70,6 +73,29 @@ class VendorExports(CommandTest):
         rows = [",".join([str(f + 1), "0", *self.cells(f, 1000.0, "")]) for f in range(self.frames)]
         return "\n".join([*head, *rows]) + "\n"
 
+    def d_flow(self):
+        head = "\t".join(["TimeStamp", "FrameNumber", *(f"{name}.Pos{axis}" for name in self.names for axis in "XYZ"), "FP1.ForX"])
+        rows = ["\t".join([f"{f / 100:.6f}", str(f + 1), *self.cells(f, 1.0, "0.0"), "3"]) for f in range(self.frames)]
+        return "\n".join([head, *rows]) + "\n"
+
+    def npz(self, packing):
+        """An archive as numpy.savez or savez_compressed writes it, by Python's own zipfile."""
+        def npy(kind, shape, data):
+            header = repr({"descr": kind, "fortran_order": False, "shape": shape}).encode()
+            header += b" " * (-(len(header) + 11) % 64) + b"\n"
+            return b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header + data
+
+        longest = max(map(len, self.names))
+        names = b"".join(name.ljust(longest, "\0").encode("utf-32-le") for name in self.names)
+        x = [float(cell) for f in range(self.frames) for cell in self.cells(f, 1000.0, "nan")]
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w", packing) as archive:
+            archive.writestr("markers.npy", npy("<f8", (self.frames, len(self.names), 3), struct.pack(f"<{len(x)}d", *x)))
+            archive.writestr("names.npy", npy(f"<U{longest}", (len(self.names),), names))
+            archive.writestr("fs.npy", npy("<i8", (), struct.pack("<q", 100)))
+            archive.writestr("unit.npy", npy("<U2", (), "mm".encode("utf-32-le")))
+        return buffer.getvalue()
+
     def frames_alone(self, label):
         head = ",".join([label, *(f"{name}_{axis}" for name in self.names for axis in "xyz")])
         rows = [",".join([str(f), *self.cells(f, 1000.0, "")]) for f in range(self.frames)]
@@ -95,7 +121,14 @@ class VendorExports(CommandTest):
         self.refused(2, "the file stores its own rate", "info", "timed.csv", "--rate", "100", "--unit", "mm")
 
     def test_each_holds_what_the_c3d_holds(self):
-        for name, text in (("q.tsv", self.qtm()), ("m.csv", self.motive()), ("v.csv", self.vicon())):
+        for name, text in (
+            ("q.tsv", self.qtm()),
+            ("m.csv", self.motive()),
+            ("v.csv", self.vicon()),
+            ("d.txt", self.d_flow()),
+            ("n.npz", self.npz(zipfile.ZIP_STORED)),
+            ("c.npz", self.npz(zipfile.ZIP_DEFLATED)),
+        ):
             with self.subTest(name=name):
                 self.write(name, text)
                 facts = json.loads(self.good("info", name, "--json").out)

@@ -42,7 +42,7 @@ Result<Writer> writer_of(const std::filesystem::path& path) {
 }  // namespace
 
 bool begins_keypoints(std::string_view begin) {
-  if (begin.starts_with("scorer,")) return true;
+  if (begin.starts_with("scorer,") || begin.starts_with("track,frame_idx,")) return true;
   constexpr std::array<std::string_view, 6> kKeys = {"\"people\"",      "\"instance_info\"", "\"meta_info\"",
                                                      "\"annotations\"", "\"keypoints\"",     "\"images\""};
   return begins_json(begin) && std::ranges::any_of(kKeys, [&](std::string_view key) {

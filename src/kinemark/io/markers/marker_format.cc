@@ -12,6 +12,7 @@
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/io/matlab/mat.h"
+#include "kinemark/io/numpy/npz.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/text/marker_table.h"
@@ -162,6 +163,11 @@ constexpr std::array kFormats = {
                     WriteOptions o) { return write_mat(path, trial, {.force = o.force, .set = o.set}); },
         .kept = kOfMat,
         .precision = "double, m"},
+    MarkerFormat{.name = "NPZ",
+                 .extension = ".npz",
+                 .begins = is_npz,
+                 .read = [](const fs::path& path, ReadOptions o, Box) { return read_npz(path, o.unit); },
+                 .may_lack_unit = true},
     MarkerFormat{.name = "XDF",
                  .extension = ".xdf",
                  .begins = is_xdf,
@@ -193,6 +199,12 @@ constexpr std::array kFormats = {
                  .extension = ".csv",
                  .begins = begins_export<VendorExport::phasespace>,
                  .read = read_export<VendorExport::phasespace>},
+    MarkerFormat{.name = "D-Flow text",
+                 .extension = ".txt",
+                 .begins = begins_d_flow,
+                 .read = read_export<VendorExport::coordinates>,
+                 .may_lack_unit = true,
+                 .mostly_others = true},
     MarkerFormat{.name = "table of coordinates without times",
                  .extension = ".csv",
                  .begins = lacks_times,

@@ -45,7 +45,8 @@ struct KeypointsOptions {
 /// point over each of its columns, a line `coords` with x, y and, if known, likelihood; then a line for each
 /// frame, which begins with its number: 0, 1, 2, ... without a gap. A point is not seen where x and y are
 /// blank or NaN, or the likelihood is blank or too low. Anything else that makes no sense is Code::bad_input
-/// with the line; files of several individuals are Code::not_supported. docs/formats/keypoints.md
+/// with the line; files of several individuals of which none is chosen are Code::not_supported. What SLEAP
+/// writes as analysis CSV, a line for each animal in each frame, is read too. docs/formats/keypoints.md
 [[nodiscard]] Result<Keypoints> read_keypoints_csv(const std::filesystem::path& path,
                                                    const KeypointsOptions& options = {});
 /// The same from memory; `name` stands in messages. Memory is bounded by a multiple of the text.

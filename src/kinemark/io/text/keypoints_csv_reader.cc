@@ -13,6 +13,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
+#include "kinemark/io/text/internal/sleap_csv.h"
 #include "kinemark/io/text/keypoints_csv.h"
 #include "kinemark/io/text_input.h"
 
@@ -188,6 +189,11 @@ Status KeypointsOptions::check() const {
 Result<Keypoints> parse_keypoints_csv(std::string_view text, const std::string& name,
                                       const KeypointsOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
+  if (internal::begins_sleap_csv(text)) {
+    auto read = internal::parse_sleap_csv(text, options);
+    if (!read) return fail_at(name, read.error());
+    return read;
+  }
   Keypoints keypoints;
   KeypointsParser parser(options, keypoints);
   internal::Lines lines(text);

@@ -179,6 +179,10 @@ std::optional<VendorExport> vendor_export_of(std::string_view begin) {
   return std::nullopt;
 }
 
+bool begins_d_flow(std::string_view begin) {
+  return vendor_export_of(begin) == VendorExport::coordinates && internal::begins_d_flow(begin);
+}
+
 bool lacks_times(std::string_view begin) {
   return vendor_export_of(begin) == VendorExport::coordinates &&
          internal::begins_coordinates_without_times(begin);

@@ -27,6 +27,9 @@ enum class VendorExport : std::uint8_t {
 /// Whether a text begins as a table of coordinates that has no column of times: its rate must be given.
 [[nodiscard]] bool lacks_times(std::string_view begin);
 
+/// Whether a text begins as a table of coordinates that Motek's D-Flow recorded.
+[[nodiscard]] bool begins_d_flow(std::string_view begin);
+
 /// Read the markers of such an export, in metres.
 ///
 /// - QTM: lines of a keyword and its values up to MARKER_NAMES and TRAJECTORY_TYPES, then, where they were
@@ -51,7 +54,7 @@ enum class VendorExport : std::uint8_t {
 ///   frames in a row, or those that a column of frame numbers says. The unit of length is that of the labels,
 ///   of a line of units below them, or `unit`; without any it is the one of m, cm and mm that makes the
 ///   recording as large as a body, with a warning, and Code::bad_input where several do. Other columns are
-///   not read (warning).
+///   not read (warning). Those of D-Flow ("LASI.PosX") are in metres, and (0, 0, 0) in them is missing.
 ///
 /// Blank cells and what is no finite number are missing samples. Names that stand twice get a number. Frame
 /// numbers give first_frame; times come from the time column, else from frame numbers and the stated rate.

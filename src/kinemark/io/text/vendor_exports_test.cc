@@ -436,5 +436,36 @@ TEST(CoordinateTables, WhatElseStandsThereIsNamedOrRefused) {
     EXPECT_NE(vendor_export_of(other), VendorExport::coordinates) << other;
 }
 
+TEST(DFlow, MarkersAreMetresAndZerosAreNotSeen) {
+  const std::string text =
+      "TimeStamp\tFrameNumber\tLHEE.PosX\tLHEE.PosY\tLHEE.PosZ\tRHEE.PosX\tRHEE.PosY\tRHEE.PosZ\tFP1."
+      "CopX\tFP1."
+      "ForX\n"
+      "10.00\t100\t0.1\t1.2\t0.3\t0.4\t0.5\t0.6\t0\t3\n"
+      "10.01\t101\t0.2\t1.3\t0.4\t0.000000\t0.0\t0\t0\t3\n"
+      "10.02\t102\t0.3\t1.4\t0.5\t0.7\t0.8\t0.9\t0\t3\n";
+  EXPECT_TRUE(begins_d_flow(text));
+  const auto trial = parse_vendor_export(text, "walk.txt", VendorExport::coordinates);
+  ASSERT_TRUE(trial) << trial.error().message;
+  EXPECT_EQ(trial->format, "D-Flow");
+  EXPECT_EQ(trial->units_in_file, "m");
+  EXPECT_EQ(trial->first_frame, 100);
+  EXPECT_NEAR(trial->markers.time.rate_hz, 100.0, 1e-9);
+  EXPECT_NEAR(trial->markers.time.t0_s, 10.0, 1e-12);
+  EXPECT_THAT(trial->markers.names, ElementsAre("LHEE", "RHEE"));
+  EXPECT_EQ(trial->markers.x(1, 0), Eigen::Vector3d(0.2, 1.3, 0.4));
+  EXPECT_FALSE(trial->markers.present(1, 1));
+  EXPECT_TRUE(trial->markers.present(2, 1));
+  EXPECT_THAT(trial->warnings,
+              Contains(HasSubstr("2 of 10 columns are no coordinates of markers and are not read: "
+                                 "'FP1.CopX', 'FP1.ForX'")));
+}
+
+TEST(DFlow, IsKnownByItsLabelsAlone) {
+  EXPECT_FALSE(begins_d_flow("time\tLHEE_X\tLHEE_Y\tLHEE_Z\n"));
+  EXPECT_FALSE(begins_d_flow("TimeStamp\tFrameNumber\tFP1.CopX\tFP1.CopY\tFP1.CopZ\n"));
+  EXPECT_FALSE(begins_d_flow("time\t.PosX\t.PosY\t.PosZ\n")) << "no marker has this name";
+}
+
 }  // namespace
 }  // namespace kinemark::io

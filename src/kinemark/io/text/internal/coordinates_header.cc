@@ -23,10 +23,13 @@ constexpr std::size_t kNamed = 8;
 
 /// A label in its parts: "LASI_X (mm)" is of marker LASI, axis 0, in mm; "Time [s]" is "Time" in s.
 struct Label {
-  std::string name;  ///< of the marker, or the whole label
-  int axis = -1;     ///< 0, 1, 2 of x, y, z; negative: no coordinate
-  std::string unit;  ///< empty: none stated
+  std::string name;        ///< of the marker, or the whole label
+  int axis = -1;           ///< 0, 1, 2 of x, y, z; negative: no coordinate
+  std::string unit;        ///< empty: none stated
+  bool of_d_flow = false;  ///< "LASI.PosX"
 };
+
+constexpr std::string_view kDFlow = ".Pos";  // before the axis
 
 /// "Time [s]" as "Time" and "s".
 std::pair<std::string_view, std::string_view> split_unit(std::string_view text) {
@@ -44,6 +47,13 @@ Label label_of(std::string_view cell) {
   constexpr std::string_view kAxes = "xyz", kBetween = "_.: -";
   if (text.empty()) return out;
   const auto axis = kAxes.find(static_cast<char>(text.back() | 0x20));
+  const auto d_flow = text.size() > kDFlow.size() + 1 ? text.size() - kDFlow.size() - 1 : 0;
+  if (axis != std::string_view::npos && d_flow > 0 && text.substr(d_flow, kDFlow.size()) == kDFlow) {
+    out.axis = static_cast<int>(axis);
+    out.name = text.substr(0, d_flow);
+    out.of_d_flow = true;
+    return out;
+  }
   const bool parted = text.size() == 1 || kBetween.find(text[text.size() - 2]) != std::string_view::npos;
   if (axis == std::string_view::npos || !parted) return out;
   out.axis = static_cast<int>(axis);
@@ -209,6 +219,11 @@ bool begins_coordinates_without_times(std::string_view begin) {
   });
 }
 
+bool begins_d_flow(std::string_view begin) {
+  Lines lines(begin);
+  return std::ranges::any_of(read_labels(lines), &Label::of_d_flow);
+}
+
 Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, std::string_view unit,
                                               double rate_hz) {
   const auto labels = read_labels(lines);
@@ -258,6 +273,12 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
   for (std::size_t c = 0; c < below.size(); ++c)
     if (columns[c].kind == Kind::coordinate) stated.push_back(below[c]);
   if (stated.empty() && !unit.empty()) stated.emplace_back(unit);
+  if (std::ranges::any_of(labels, &Label::of_d_flow)) {
+    // D-Flow streams metres, and zeros of what it does not see.
+    trial.format = "D-Flow";
+    out.columns.zeros_are_missing = true;
+    if (stated.empty()) stated.emplace_back("m");
+  }
   out.is_unit_open = stated.empty();
   out.columns.units_per_metre = 1.0;
   for (const auto& word : stated) {

@@ -43,6 +43,8 @@ struct VendorHeader {
 /// Whether a text begins as one: x, y and z of a marker are the first columns that are neither time nor
 /// frame.
 [[nodiscard]] bool begins_coordinates(std::string_view begin);
+/// Whether it begins as one of Motek's D-Flow: labels such as "LASI.PosX".
+[[nodiscard]] bool begins_d_flow(std::string_view begin);
 /// Whether it begins as one that has no column of times.
 [[nodiscard]] bool begins_coordinates_without_times(std::string_view begin);
 
