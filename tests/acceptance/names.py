@@ -110,8 +110,8 @@ def thinned(names, chance):
     return kept
 
 
-def write_trc(path, names, places=None):
-    """Three frames of markers, in metres; scattered where no places are given."""
+def write_trc(path, names, positions=None):
+    """Three frames of markers, in metres; scattered where no positions are given."""
     chance = random.Random(len(names))
     frames = 3
     lines = [f"PathFileType\t4\t(X/Y/Z)\t{path.name}", "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"]
@@ -119,7 +119,7 @@ def write_trc(path, names, places=None):
     lines.append("Frame#\tTime\t" + "\t\t\t".join(names) + "\t\t")
     lines.append("\t\t" + "\t".join(f"X{i}\tY{i}\tZ{i}" for i in range(1, len(names) + 1)))
     lines.append("")
-    fixed = places or [[[chance.uniform(0.0, 1.8) for _ in "xyz"]] * frames for _ in names]
+    fixed = positions or [[[chance.uniform(0.0, 1.8) for _ in "xyz"]] * frames for _ in names]
     for f in range(frames):
         lines.append(f"{f + 1}\t{f / 100:.2f}\t" + "\t".join(f"{x:.6f}" for place in fixed for x in place[f]))
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -252,11 +252,11 @@ class Subject:
         read = run("convert", "subject/markers.c3d", "base.csv", "--force")
         if made.returncode != 0 or read.returncode != 0:
             raise RuntimeError(made.stderr + read.stderr)
-        self.places = {}
+        self.positions = {}
         with (HERE / "base.csv").open(newline="") as file:
             for line in csv.DictReader(file):
                 if line["x_m"]:
-                    self.places.setdefault(line["marker"], []).append([float(line[a]) for a in ("x_m", "y_m", "z_m")])
+                    self.positions.setdefault(line["marker"], []).append([float(line[a]) for a in ("x_m", "y_m", "z_m")])
         self.tree = ElementTree.parse(HERE / "subject" / "model.osim")
 
     def write_model(self, path, markers):
@@ -274,7 +274,7 @@ class Subject:
 
     def write_recording(self, path, markers):
         names = list(markers)
-        write_trc(path, names, [self.places[markers[name][2]][:3] for name in names])
+        write_trc(path, names, [self.positions[markers[name][2]][:3] for name in names])
 
 
 def proposed(text):

@@ -143,14 +143,12 @@ class Names {
     return std::ranges::count_if(kTelling, [&](auto name) { return plain_.contains(std::string(name)); }) > 1;
   }
 
-  /// The plain name with the side letter behind its stem exchanged.
+  /// The plain name with the side letter behind its stem exchanged; it has a letter there.
   static std::string mirrored(const std::string& name) {
     std::string plain = plain_marker_name(name);
-    for (auto c = plain.rbegin(); c != plain.rend(); ++c) {
-      if (*c >= '0' && *c <= '9') continue;
-      *c = *c == 'l' ? 'r' : 'l';
-      break;
-    }
+    const auto side =
+        std::ranges::find_if_not(plain.rbegin(), plain.rend(), [](char c) { return c >= '0' && c <= '9'; });
+    *side = *side == 'l' ? 'r' : 'l';
     return plain;
   }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemark/core/text.h"
+#include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
 #include "kinemark/io/markers/lost_parts.h"
@@ -72,6 +73,20 @@ Result<std::string> read_plain_begin(const std::filesystem::path& path) {
   return begin;
 }
 
+/// What a text is that no reader knows, and what would bring it in; empty: it is no text.
+std::string describe_text(std::string_view begin) {
+  constexpr std::size_t kShown = 60;
+  if (begin.find('\0') != std::string_view::npos) return {};
+  if (begin.find("Kinovea") < begin.find('\n'))
+    return ": it holds paths that Kinovea followed in the image of one camera, and no positions in space";
+  std::string line(begin.substr(0, begin.find_first_of("\r\n")));
+  std::ranges::replace(line, '\t', ' ');
+  return fmt::format(
+      ": its first line is '{}', and a table of coordinates has labels there such as time, LASI_X, LASI_Y, "
+      "LASI_Z",
+      printable(line, kShown));
+}
+
 /// As the reader of its format reads it; `box_m` around its samples where that reader knows it.
 Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const MarkerReadOptions& options,
                                   Eigen::AlignedBox3d& box_m) {
@@ -91,8 +106,9 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
     return fail(Code::bad_input,
                 fmt::format("{}: does not begin as a {} file does", path.string(), extension));
   if (format == nullptr)
-    return fail(Code::not_supported, fmt::format("{}: {} is not read as a marker file; supported are {}",
-                                                 path.string(), named(extension), names_of_read_formats()));
+    return fail(Code::not_supported,
+                fmt::format("{}: {} is not read as a marker file{}; supported are {}", path.string(),
+                            named(extension), describe_text(*begin), names_of_read_formats()));
   if (format->stores_rate && options.rate_hz != 0.0)
     return fail(Code::usage,
                 fmt::format("{}: the file stores its own rate; a rate (--rate) is given only for {}",

@@ -212,6 +212,9 @@ class Archive {
                     fmt::format("array '{}': a time is no number", printable(times_->name, 63)));
       auto clock = find_clock(times, is_rate(rate_) ? rate_ : 0.0);
       if (!clock) return fail_at(fmt::format("array '{}'", printable(times_->name, 63)), clock.error());
+      // 0.01, 0.02, ... is no exact step in binary.
+      const double round_hz = std::round(clock->rate_hz * 1e6) / 1e6;
+      if (std::abs(clock->rate_hz - round_hz) < 1e-9 * round_hz) clock->rate_hz = round_hz;
       return clock;
     }
     if (!is_rate(rate_)) return unfit(rate_ == 0.0 ? "no clock is found" : "the rate is none");

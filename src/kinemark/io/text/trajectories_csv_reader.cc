@@ -13,6 +13,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/number.h"
+#include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
@@ -64,6 +65,8 @@ constexpr std::array<std::string_view, kinds> kNames = {
 constexpr std::array kStates = {SampleState::missing,      SampleState::measured,  SampleState::interpolated,
                                 SampleState::model_filled, SampleState::upsampled, SampleState::rejected};
 
+constexpr std::size_t kShownColumns = 8;
+
 /// One line of the file.
 struct Sample {
   std::int64_t frame;
@@ -107,12 +110,18 @@ class Parser {
               "line 1: none of its {} columns is a position of a marker. Need a time and columns such as "
               "LASI_X, LASI_Y, LASI_Z, or a line a sample with frame, time_s, marker, x_m, y_m and z_m",
               columns_));
+    std::vector<std::string> absent;
     for (const Kind kind : {frame, time_s, marker, x, y, z})
-      if (!column_[kind])
-        return fail(Code::bad_input,
-                    fmt::format("line 1: column '{}' is absent; need frame, time_s, marker, x_m, y_m and z_m",
-                                kNames[kind]));
-    return {};
+      if (!column_[kind]) absent.push_back(fmt::format("'{}'", kNames[kind]));
+    if (absent.empty()) return {};
+    std::vector<std::string> labels;
+    for (const auto& cell : cells_) labels.push_back(excerpt(cell));
+    return fail(
+        Code::bad_input,
+        fmt::format("line 1: labels the columns {}; a table of one line a sample has frame, time_s, marker, "
+                    "x_m, y_m and z_m, of which {} {} absent: call the columns so",
+                    join_some(labels, kShownColumns), join_names(absent, absent.size()),
+                    absent.size() == 1 ? "is" : "are"));
   }
 
   Status row(std::string_view line, std::int64_t number) {

@@ -149,7 +149,11 @@ TEST(TrajectoriesCsv, BadFilesGetOneSentenceWithTheLine) {
     return trial.error().message;
   };
   EXPECT_THAT(message(""), HasSubstr("a.csv: is empty"));
-  EXPECT_THAT(message("frame,time_s,x_m,y_m,z_m\n"), HasSubstr("line 1: column 'marker' is absent"));
+  EXPECT_THAT(
+      message("frame,time_s,x_m,y_m,z_m\n"),
+      HasSubstr(
+          "line 1: labels the columns frame, time_s, x_m, y_m, z_m; a table of one line a sample has frame, "
+          "time_s, marker, x_m, y_m and z_m, of which 'marker' is absent: call the columns so"));
   EXPECT_THAT(
       message("time,acc_x,acc_y,acc_z\n"),
       HasSubstr("line 1: none of its 4 columns is a position of a marker. Need a time and columns such "
