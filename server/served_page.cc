@@ -108,7 +108,8 @@ std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root)
   for (const auto& [key, value] : json.items()) {
     if (key == "warnings" || key == "kind" || key == "file") continue;
     if (!value.is_array()) {
-      facts.push_back({{"name", title_of(key)}, {"value", value_text(value)}});
+      facts.push_back(
+          {{"name", title_of(key)}, {"value", value_text(value.is_object() ? value["said"] : value)}});
       continue;
     }
     if (value.empty()) continue;

@@ -81,6 +81,10 @@ TEST(FactsPage, NamesAreText) {
   pipeline::MarkerFileFacts facts{.format = "C3D",
                                   .software = "<b>&\"",
                                   .labels = {"</script><img src=x onerror=alert(1)>", "\xff\x1b[31m", ""}};
+  std::vector<std::string> legs;
+  for (const char* stem : {"ASI", "PSI", "THI", "KNE", "TIB", "ANK", "HEE", "TOE"})
+    for (const char* side : {"L", "R"}) legs.push_back(std::string(side) + stem);
+  facts.set = data::find_marker_set(legs);
   facts.channels.push_back({.name = "<i>", .kind = "angle", .unit = "deg", .rate_hz = 100.0, .missing = 2});
   pipeline::InfoOutcome info;
   info.file = "/secret/place/<u>.c3d";
@@ -99,6 +103,7 @@ TEST(FactsPage, NamesAreText) {
   };
   EXPECT_TRUE(holds("facts", {{"name", "rate, Hz"}, {"value", "not known"}})) << data["facts"];
   EXPECT_TRUE(holds("facts", {{"name", "software"}, {"value", "<b>&\""}})) << data["facts"];
+  EXPECT_THAT(data["facts"].dump(), HasSubstr("\"Plug-in Gait, lower body: all of its 16 markers\""));
   EXPECT_THAT(data["lists"].dump(), HasSubstr("</script><img src=x onerror=alert(1)>"));
   EXPECT_THAT(data["lists"].dump(), HasSubstr("<i>, angle, deg, rate, Hz 100.0, missing 2"));
 }

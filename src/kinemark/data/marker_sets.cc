@@ -16,7 +16,7 @@
 namespace kinemark::data {
 namespace {
 
-constexpr double kLeastOfSet = 0.7, kLeastOfRecording = 0.5;
+constexpr double kLeastOfSet = 0.7, kLeastOfRecording = 0.6;
 constexpr std::int64_t kFewest = 7, kFewestTelling = 2;
 constexpr std::size_t kMissingShown = 12;
 

@@ -106,11 +106,11 @@ TEST(MarkerSets, OtherNamesAreOfNoSet) {
   EXPECT_EQ(title_of(both("L", "R", "ASI PSI", "C7 T10 CLAV STRN")), "none");
 }
 
-TEST(MarkerSets, HalfOfTheMarkersMustBeOfIt) {
+TEST(MarkerSets, MostOfTheMarkersMustBeOfIt) {
   Names names = both("L", "R", kLegs);
-  for (int i = 0; i < 15; ++i) names.push_back("extra" + std::to_string(i));
+  for (int i = 0; i < 10; ++i) names.push_back("extra" + std::to_string(i));
   EXPECT_EQ(title_of(names), "Plug-in Gait, lower body");
-  for (int i = 15; i < 30; ++i) names.push_back("extra" + std::to_string(i));
+  for (int i = 10; i < 20; ++i) names.push_back("extra" + std::to_string(i));
   EXPECT_EQ(title_of(names), "none");
   // Points that a model computed explain nothing and need no explanation.
   std::vector<std::uint8_t> apart(names.size(), 0);

@@ -125,6 +125,7 @@ TEST(RunInfo, AMarkerSetIsNamedWithWhatIsMissing) {
   EXPECT_EQ(facts["marker_set"]["part"], "lower body");
   EXPECT_EQ(facts["marker_set"]["markers"], 16);
   EXPECT_EQ(facts["marker_set"]["missing"], nlohmann::ordered_json({"RTOE"}));
+  EXPECT_EQ(facts["marker_set"]["said"], "Plug-in Gait, lower body: 15 of 16 markers, without RTOE");
   InfoJob job;
   job.file = scratch / "set.csv";
   EXPECT_THAT(info_text(run_info(job).value()),

@@ -107,7 +107,8 @@ void add(const MarkerFileFacts& facts, Json& to) {
     to["marker_set"] = {{"name", facts.set->set->name},
                         {"part", facts.set->set->part},
                         {"markers", facts.set->markers},
-                        {"missing", facts.set->missing}};
+                        {"missing", facts.set->missing},
+                        {"said", facts.set->describe()}};
   to["channels"] = Json::array();
   for (const ChannelFacts& channel : facts.channels)
     to["channels"].push_back({{"name", channel.name},
@@ -224,9 +225,8 @@ std::string info_text(const InfoOutcome& outcome) {
     if (key == "warnings") {
       for (const auto& warning : outcome.warnings)
         text += fmt::format("warning           {}\n", printable_sentence(warning));
-    } else if (key == "marker_set") {
-      const auto& facts = std::get<MarkerFileFacts>(outcome.facts);
-      text += fmt::format("{:<17} {}\n", key, printable_sentence(facts.set->describe()));
+    } else if (value.is_object()) {
+      text += fmt::format("{:<17} {}\n", key, printable_sentence(value["said"].get<std::string>()));
     } else if (value.is_array()) {
       text += fmt::format("{:<17} {}\n", key, value.empty() ? "none" : in_lines(value));
     } else {
