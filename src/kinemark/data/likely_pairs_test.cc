@@ -7,7 +7,6 @@
 namespace kinemark::data {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 using Names = std::vector<std::string>;

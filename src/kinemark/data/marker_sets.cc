@@ -17,6 +17,8 @@ namespace kinemark::data {
 namespace {
 
 constexpr double kLeastOfSet = 0.7, kLeastOfRecording = 0.6;
+constexpr double kNearlyWhole = 0.9,
+                 kLeastBesideOthers = 0.3;  // a whole set among markers of another purpose
 constexpr std::int64_t kFewest = 7, kFewestTelling = 2;
 constexpr std::size_t kMissingShown = 12;
 
@@ -316,7 +318,8 @@ Judged judge(const KnownMarkerSet& set, const Recorded& recorded) {
   const std::int64_t there = out.found.markers - std::ssize(out.found.missing);
   const double of_set = static_cast<double>(there) / static_cast<double>(out.found.markers);
   const double of_recording = recorded.share_explained(keys);
-  if (there >= kFewest && of_set >= kLeastOfSet && of_recording >= kLeastOfRecording)
+  const double least = of_set >= kNearlyWhole ? kLeastBesideOthers : kLeastOfRecording;
+  if (there >= kFewest && of_set >= kLeastOfSet && of_recording >= least)
     out.nearness = 2.0 * of_set * of_recording / (of_set + of_recording);
   return out;
 }

@@ -44,7 +44,7 @@ struct FoundMarkerSet {
 
 /// The set of which a recording has most, whatever its prefixes, case, separators and ways to write a side.
 /// Nothing where less than 70 % of the markers of a set are there, or less than 60 % of the recording's
-/// markers are of it, or two sets are equally near. O(names x sets).
+/// markers are of it (30 % where 90 % of the set is there), or two sets are equally near. O(names x sets).
 ///
 /// @param names  of all markers
 /// @param apart  not zero: a point that a model computed, or without a name, which no set has to explain; as

@@ -108,9 +108,15 @@ TEST(MarkerSets, OtherNamesAreOfNoSet) {
 
 TEST(MarkerSets, MostOfTheMarkersMustBeOfIt) {
   Names names = both("L", "R", kLegs);
-  for (int i = 0; i < 10; ++i) names.push_back("extra" + std::to_string(i));
-  EXPECT_EQ(title_of(names), "Plug-in Gait, lower body");
-  for (int i = 10; i < 20; ++i) names.push_back("extra" + std::to_string(i));
+  for (int i = 0; i < 20; ++i) names.push_back("extra" + std::to_string(i));
+  EXPECT_EQ(title_of(names), "Plug-in Gait, lower body") << "a whole set among others";
+  Names part = names;
+  std::erase(part, "LTHI");
+  std::erase(part, "RTHI");
+  EXPECT_EQ(title_of(part), "none");
+  part.resize(14 + 9);
+  EXPECT_EQ(title_of(part), "Plug-in Gait, lower body");
+  for (int i = 20; i < 60; ++i) names.push_back("extra" + std::to_string(i));
   EXPECT_EQ(title_of(names), "none");
   // Points that a model computed explain nothing and need no explanation.
   std::vector<std::uint8_t> apart(names.size(), 0);

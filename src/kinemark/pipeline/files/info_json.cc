@@ -51,7 +51,7 @@ std::string parameter_text(const Json& parameter) {
 std::string sensor_text(const Json& sensor) {
   std::string out = printable(sensor["name"].get<std::string>(), kNameLetters) + " (";
   const Json& first = sensor["first_w_x_y_z"];
-  for (std::size_t k = 0; k < first.size(); ++k) out += fmt::format("{:.3g} ", first[k].get<double>());
+  for (const auto& part : first) out += fmt::format("{:.3g} ", part.get<double>());
   return out + fmt::format("{}, {} missing)", first.empty() ? "none" : "first",
                            sensor["missing"].get<std::int64_t>());
 }
