@@ -16,10 +16,11 @@ namespace kinemark::pipeline {
 /// events, software, labels (of markers), computed (those of them that a model made of others), unlabelled
 /// (those that nobody named), marker_set (name, part, markers, missing, and said: all of it in words; absent
 /// where the names are of no set known here), channels (points that are no markers: name, kind, unit,
-/// rate_hz, missing frames). Tables: rows, columns, first_time_s, last_time_s (null without rows), in_degrees,
-/// labels. Models: name, bodies, joints, coordinates, markers, couplings, point_constraints, mass_kg, labels
-/// (of coordinates), body_names. Recordings: end, bytes, messages, channels, metadata, and of counts also
-/// frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (observations), cameras, labels.
+/// rate_hz, missing frames). Tables: rows, columns, first_time_s, last_time_s (null without rows),
+/// in_degrees, labels. Models: name, bodies, joints, coordinates, markers, couplings, point_constraints,
+/// mass_kg, labels (of coordinates), body_names. Recordings: end, bytes, messages, channels, metadata, and of
+/// counts also frames, rate_hz, first_time_s, rig, dark_slot, saturated, occluded, lost (observations),
+/// cameras, labels.
 [[nodiscard]] nlohmann::ordered_json info_json(const InfoOutcome& outcome);
 
 /// The same for people, one fact a line.
