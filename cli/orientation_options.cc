@@ -131,10 +131,13 @@ int run_orientation_command(const CommonOptions& common, OrientationArguments& a
   auto& job = a.job;
   job.model = markers.model;
   job.output = markers.output.empty() ? motion_beside({job.orientations}) : markers.output;
+  job.report = markers.report;
+  job.geometry = markers.geometry;
   if (job.up.empty()) job.up = markers.axes.up;
   if (auto s = apply(a, job); !s) return report_error(s.error());
   auto& options = job.options;
   options.limits = markers.options.limits;
+  options.judge_samples = markers.drops_doubtful(options.judge_samples);
   options.error_bars = markers.options.error_bars;
   if (std::isfinite(markers.selection.first_time_s)) options.first_time_s = markers.selection.first_time_s;
   if (std::isfinite(markers.selection.last_time_s)) options.last_time_s = markers.selection.last_time_s;

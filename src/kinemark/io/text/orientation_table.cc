@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -45,6 +46,7 @@ Result<data::Orientations> orientations_of(const data::Table& table) {
                 [](const std::string& warning) { return warning.starts_with("header gives no rate"); });
   out.time = clock->time;
   out.quaternion.assign(at(kNumbers * out.frames() * sensors), kNaN);
+  std::vector<std::int64_t> zeros(at(sensors));
   for (std::int64_t r = 0; r < table.rows(); ++r) {
     const auto f = clock->frame.empty() ? r : clock->frame[at(r)];
     for (std::int64_t s = 0; s < sensors; ++s) {
@@ -55,6 +57,7 @@ Result<data::Orientations> orientations_of(const data::Table& table) {
         squares += q[at(k)] * q[at(k)];
       }
       const double length = std::sqrt(squares);
+      if (length == 0.0) ++zeros[at(s)];
       if (!(length > 0.0)) continue;
       if (!(std::abs(length - 1.0) < kLengthTolerance))
         return fail(Code::bad_input, fmt::format("row {}, '{}': a quaternion of length {:.3g}; expected 1",
@@ -63,6 +66,10 @@ Result<data::Orientations> orientations_of(const data::Table& table) {
         out.quaternion[at(kNumbers * (f * sensors + s) + k)] = q[at(k)] / length;
     }
   }
+  for (std::int64_t s = 0; s < sensors; ++s)
+    if (zeros[at(s)] > 0)
+      out.warnings.push_back(fmt::format("sensor '{}': quaternions of zeros in {} rows, taken as missing",
+                                         out.names[at(s)], zeros[at(s)]));
   if (auto s = out.validate(); !s) return std::unexpected(s.error());
   return out;
 }

@@ -12,8 +12,8 @@
 namespace kinemark::io {
 
 /// Read such a table: a column a sensor, cells "w,x,y,z", which take the sensor's axes to those of its world.
-/// Quaternions are made unit; one that is 0 or not a number is missing. Times are settled as those of a TRC;
-/// a gap in them is frames without orientations.
+/// Quaternions are made unit; one that is 0 (a warning says so) or not a number is missing. Times are settled
+/// as those of a TRC; a gap in them is frames without orientations.
 ///
 /// Code::bad_input where the table holds no orientations, or a quaternion whose length is off 1 by a tenth;
 /// else as read_table().
