@@ -106,8 +106,7 @@ void add_orientation_options(CLI::App& command, OrientationArguments& a) {
   };
   add("--orientations", a.job.orientations,
       "Orientations of inertial sensors, in place of markers or beside them: .sto of quaternions as "
-      "OpenSense "
-      "has it, or .c3d with rotations as of Theia");
+      "OpenSense has it, .c3d with rotations as of Theia, rigid bodies of QTM (.tsv) or Motive (.csv)");
   add("--calibration", a.job.pose,
       "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, as "
       "frames of the model say (OpenSense), else as markers say, else as in the first frame that has all of "

@@ -205,3 +205,22 @@ class OrientationsTest(CommandTest):
         self.assertEqual([sensor["name"] for sensor in facts["sensors"]], [f"{body}_imu" for body in BODIES])
         self.assertEqual(facts["missing"], 0)
         self.refused(3, ["DataType=Quaternion", "--orientations"], "convert", self.sensors / "walk.sto", "walk.mot")
+
+    def test_orientations_are_converted_and_taken_in_each_form(self):
+        self.good("convert", self.sensors / "walk.sto", "walk.csv")
+        self.good("convert", self.sensors / "pose.sto", "pose.csv", "--orientations")
+        self.good("convert", "walk.csv", "back.sto", "--orientations")
+        header = (self.folder / "walk.csv").read_text().splitlines()[0].split(",")
+        self.assertEqual(header[:5], ["time", "pelvis_imu_w", "pelvis_imu_x", "pelvis_imu_y", "pelvis_imu_z"])
+        common = ("ik", "-m", self.model, "--up", "z", "-o")
+        self.good(*common, "a.mot", "--orientations", self.sensors / "walk.sto", "--calibration", self.sensors / "pose.sto")
+        self.good(*common, "b.mot", "--orientations", "walk.csv", "--calibration", "pose.csv")
+        self.good(*common, "c.mot", "--orientations", "back.sto", "--calibration", "pose.csv")
+        one = columns_of(self.folder / "a.mot")
+        for name in ("b.mot", "c.mot"):
+            other = columns_of(self.folder / name)
+            self.assertLess(max(abs(x - y) for label in one for x, y in zip(one[label], other[label])), 1e-6)
+        self.refused(3, ["holds no orientations; they come as .sto", "ROTATION", "Motive"], "convert", self.trc, "o.sto", "--orientations")
+        self.refused(2, ["orientations are written as .sto"], "convert", "walk.csv", "o.trc", "--orientations")
+        self.refused(2, ["orientations are written as they are"], "convert", "walk.csv", "o.sto", "--orientations", "--select", "p*")
+        self.refused(3, ["holds no orientations; they come as .sto"], *common, "d.mot", "--orientations", self.trc)

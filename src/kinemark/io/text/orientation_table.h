@@ -22,6 +22,12 @@ namespace kinemark::io {
 /// Whether a .mot or .sto says that it holds orientations. Fails where its beginning is no table's.
 [[nodiscard]] Result<bool> holds_orientations(const std::filesystem::path& path);
 
+/// Write orientations by the ending: .sto as OpenSense has them, .csv as read_orientation_csv() reads them.
+/// Numbers are the shortest that read back exactly. What is missing is NaN, in .csv blank. Code::usage for
+/// other endings, Code::bad_input for names with a tab, comma, quote or line end, Code::io as OutputFile.
+[[nodiscard]] Status write_orientations(const std::filesystem::path& path, const data::Orientations& what,
+                                        bool force = false);
+
 /// read_orientations() from memory; `name` stands for the file in messages.
 [[nodiscard]] Result<data::Orientations> parse_orientations(std::string_view text, std::string_view name);
 

@@ -14,10 +14,9 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
-#include "kinemark/io/c3d/rotations.h"
 #include "kinemark/io/input/file_hash.h"
+#include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/osim/offset_frames.h"
-#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/workflow/prepare/turn.h"
 
@@ -35,7 +34,7 @@ constexpr double kMostDrift_rad = 5.0 / kDegPerRad;  // quiet standing sways by 
 Result<data::Orientations> read_one(const char* role, const std::filesystem::path& path,
                                     std::vector<data::InputFile>& inputs,
                                     std::vector<std::string>& warnings) {
-  auto sensors = ending_of(path) == ".c3d" ? io::read_c3d_rotations(path) : io::read_orientations(path);
+  auto sensors = io::read_orientation_file(path);
   if (!sensors) return sensors;
   for (const auto& warning : sensors->warnings)
     warnings.push_back(fmt::format("{}: {}", path.filename().string(), warning));
