@@ -71,8 +71,9 @@ std::string cell(const Row& row, std::size_t column) {
 std::optional<Layout> layout_of_labels(const Row& labels) {
   Layout out;
   for (std::size_t c = 0; c < labels.size(); ++c) {
-    const std::string label = labels[c], lower = internal::lower(label);
-    const auto part = label.empty() ? std::string_view::npos : kParts.find(lower.back());
+    const std::string& label = labels[c];
+    const std::string lower = internal::lower(label);
+    const auto part = lower.empty() ? std::string_view::npos : kParts.find(lower.back());
     if (lower == "time" && out.time == kNone)
       out.time = c;
     else if (label.size() > 2 && label[label.size() - 2] == '_' && part != std::string_view::npos)
@@ -91,7 +92,8 @@ Layout layout_of_motive(const internal::MotiveRows& rows) {
   out.frame = 0;
   if (internal::lower(cell(rows.axis, 1)).starts_with("time")) out.time = 1;
   for (std::size_t c = 1; c < rows.axis.size(); ++c) {
-    const auto part = kParts.find(internal::lower(rows.axis[c]));
+    const std::string axis = internal::lower(rows.axis[c]);
+    const auto part = axis.size() == 1 ? kParts.find(axis) : std::string_view::npos;
     if (is_solved(cell(rows.type, c)) && cell(rows.component, c) == "Rotation" &&
         part != std::string_view::npos)
       out.add(name_of_bytes(cell(rows.name, c)), part, c);

@@ -73,8 +73,7 @@ TEST(OrientationCsv, WithoutTimesMotiveCountsFrames) {
 }
 
 TEST(OrientationCsv, SaysWhatIsWrongInMotive) {
-  EXPECT_THAT(message(with(with(kMotive, ",W,X,Y,Z,,", ",,X,Y,Z,,"), "Y,Z,W\n", "Y,Z,W\n")),
-              HasSubstr("export them as quaternions"));
+  EXPECT_THAT(message(with(kMotive, ",W,X,Y,Z,,", ",,X,Y,Z,,")), HasSubstr("export them as quaternions"));
   std::string markers = kMotive;
   while (markers.find("Rigid Body") != std::string::npos) markers = with(markers, "Rigid Body", "Other");
   while (markers.find(",Bone") != std::string::npos) markers = with(markers, ",Bone", ",Thing");
