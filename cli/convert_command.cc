@@ -69,6 +69,7 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Markers: 'kinemark help --formats' lists what is read, what is written, and what each format keeps. "
       "Tables: .mot, .sto; .mat is written; a recording becomes a .mot or .sto of the forces of its plates. "
+      "Orientations: .sto, .csv. "
       "Models: .osim, in their own version from 2.0 on, older ones as "
       "4.0; .urdf, and "
       "for MuJoCo .xml or .mjcf, are written.\n"
@@ -88,6 +89,10 @@ void add_convert(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--resample", job.resample_hz, "Write a marker file at this frame rate, Hz");
   command->add_option("-m,--model", job.model,
                       "Model (.osim) that a table of coordinates is of, which then becomes a .bvh or .glb");
+  command->add_flag(
+      "--orientations", job.orientations,
+      "Write the orientations that the file holds (C3D of Theia and Visual3D, rigid bodies of QTM "
+      "and Motive): .sto of OpenSense, for ik, or .csv");
   command->add_flag("--ndx-pose", job.ndx_pose,
                     "In an .nwb also a PoseEstimation of ndx-pose, which pynwb then needs to read the file");
   add_recording_options(*command, job, pipeline::Doubtful::keep);

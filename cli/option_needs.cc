@@ -54,8 +54,8 @@ constexpr std::array kNeeds = {
     Need{"ik", "rig images image-noise min-likelihood person jobs keep-going loss loss-scale estimator",
          "orientations", kNotGiven, "markers alone"},
     Need{"ik",
-         "rate unit edits select drop rename frames rotate doubtful forces geometry weight noise max-rms "
-         "max-offset setup tasks report coordinate-weight locations torques",
+         "rate unit edits select drop rename frames rotate forces weight noise max-rms "
+         "max-offset setup tasks coordinate-weight locations torques",
          "orientations", kNotGiven, "markers", "markers"},
     Need{"measure,gait,emg,segments,dynamics,analyze", "level", "refits", kNotZero, "intervals"},
     Need{"dynamics", "level refits", "no-error-bars", kNotGiven, "intervals"},

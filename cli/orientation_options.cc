@@ -106,8 +106,7 @@ void add_orientation_options(CLI::App& command, OrientationArguments& a) {
   };
   add("--orientations", a.job.orientations,
       "Orientations of inertial sensors, in place of markers or beside them: .sto of quaternions as "
-      "OpenSense "
-      "has it, or .c3d with rotations as of Theia");
+      "OpenSense has it, .c3d with rotations as of Theia, rigid bodies of QTM (.tsv) or Motive (.csv)");
   add("--calibration", a.job.pose,
       "The same sensors in the model's default pose, .sto: how they stand on the bodies; when absent, as "
       "frames of the model say (OpenSense), else as markers say, else as in the first frame that has all of "
@@ -131,10 +130,13 @@ int run_orientation_command(const CommonOptions& common, OrientationArguments& a
   auto& job = a.job;
   job.model = markers.model;
   job.output = markers.output.empty() ? motion_beside({job.orientations}) : markers.output;
+  job.report = markers.report;
+  job.geometry = markers.geometry;
   if (job.up.empty()) job.up = markers.axes.up;
   if (auto s = apply(a, job); !s) return report_error(s.error());
   auto& options = job.options;
   options.limits = markers.options.limits;
+  options.judge_samples = markers.drops_doubtful(options.judge_samples);
   options.error_bars = markers.options.error_bars;
   if (std::isfinite(markers.selection.first_time_s)) options.first_time_s = markers.selection.first_time_s;
   if (std::isfinite(markers.selection.last_time_s)) options.last_time_s = markers.selection.last_time_s;

@@ -39,7 +39,7 @@ TRIED = {
     "validate": (["legs.trc"], {}),
     "convert": (["legs.trc", "o.csv"],
                 {**RECORDING, **SEVERAL, "--skeleton": "absent.asf", "--merge": None, "--resample": 60, "--model": "absent.osim",
-                 "--ndx-pose": None, "--to": "trc"}),
+                 "--ndx-pose": None, "--orientations": None, "--to": "trc"}),
     "clean": (["legs.trc", "o.csv"],
               {**RECORDING, **SEVERAL, "--gaps": "linear", "--max-gap": 0.011, "--max-gap-sd": 0.01, "--filter": "gcv", "--order": 4,
                "--cutoff": 7, "--cutoff-rule": "challis", "--uncorrected-cutoff": None, "--noise": 9, "--upsampled": "missing",

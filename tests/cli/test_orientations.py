@@ -126,9 +126,58 @@ class OrientationsTest(CommandTest):
         self.assertAlmostEqual(json.loads((self.folder / "q_report.json").read_text())["noise_sd_deg"], 3 * math.sqrt(1.05), places=6)
         self.solve("--force", "--max-orientation-rms", 0.1, status=1)
 
+    def test_a_turned_sample_is_left_out_or_kept(self):
+        lines = (self.sensors / "walk.sto").read_text().splitlines()
+        first = next(i for i, line in enumerate(lines) if line.startswith("time"))
+        column = lines[first].split("\t").index("tibia_r_imu")
+        for row in (20, 21):
+            cells = lines[first + 1 + row].split("\t")
+            turned = product(tuple(float(v) for v in cells[column].split(",")), turn((0.6, 0.8, 0), 45))
+            lines[first + 1 + row] = "\t".join((*cells[:column], ",".join(f"{v:.9f}" for v in turned), *cells[column + 1 :]))
+        turned = self.write("turned.sto", "\n".join(lines) + "\n")
+        alone = ("ik", "--model", self.model, "--orientations", turned, "--calibration", self.sensors / "pose.sto", "--force", "-o", "q.mot")
+        for words, member in (((*alone, "--up", "z"), ()), ((*alone, "-t", self.trc, "--sensors-up", "z"), ("orientations",))):
+            said = "sensor 'tibia_r_imu' is turned by up to"
+            ran = self.good(*words)
+            self.assertRegex(ran.err, said + r" 4\d deg against the samples before and after: 2 samples left out, at 0\.20 to 0\.21 s")
+            report = json.loads((self.folder / "q_report.json").read_text())
+            for key in member:
+                report = report[key]
+            self.assertEqual([(r["sensor"], r["in"], r["first_frame"], r["last_frame"]) for r in report["rejected"]], [("tibia_r_imu", "recording", 20, 21)])
+            errors = columns_of(self.folder / "q_orientation_errors.sto")["tibia_r_imu"]
+            self.assertEqual([i for i, error in enumerate(errors) if math.isnan(error)], [20, 21])
+            kept = self.good(*words, "--doubtful", "keep")
+            self.assertNotIn(said, kept.err)
+
+    def test_a_page_of_sensors_alone_and_beside_markers(self):
+        def page(name):
+            text = (self.folder / name).read_text()
+            return json.loads(re.search(r'<script type="application/json" id="kinemark-data">(.*?)</script>', text, re.DOTALL)[1])
+
+        self.solve("--report", "q.html")
+        alone = page("q.html")
+        self.assertEqual([row["name"] for row in alone["sensors"]["rows"]], [f"{body}_imu" for body in BODIES])
+        self.assertEqual(alone["summary"]["markers"], [])
+        self.assertFalse([f["subject"] for f in alone["summary"]["findings"] if f["subject"].startswith("pelvis_t")], "positions are not asked of sensors")
+        self.assertIn("subtalar_angle_r is never determined: no sensor fixes it.", [f["text"] for f in alone["summary"]["findings"]])
+        self.assertIn("tibia_r_imu", alone["scene"]["names"])
+        self.assertIn("femur_r", alone["scene"]["bodies"]["names"])
+        locked = {c["name"] for c in alone["summary"]["coordinates"] if c["locked"]}
+        self.assertIn("pelvis_tx", locked)
+        self.assertNotIn("knee_angle_r", locked)
+        self.assertFalse([f["text"] for f in alone["summary"]["findings"] if "marker" in f["text"]])
+        self.refused(2, ["page", ".html"], "ik", "-m", self.model, "--orientations", self.sensors / "walk.sto", "-o", "r.mot", "--report", "r.txt")
+        self.good("ik", "-m", self.model, "-t", self.trc, "--orientations", self.sensors / "walk.sto", "--sensors-up", "z", "-o", "m.mot", "--report", "m.html")
+        beside = page("m.html")
+        self.assertEqual(len(beside["sensors"]["rows"]), len(BODIES))
+        self.assertEqual(len(beside["series"]["sensor_error_deg"]), len(BODIES))
+        self.assertTrue(beside["summary"]["markers"])
+        self.good("ik", "-m", self.model, "-t", self.trc, "-o", "n.mot", "--report", "n.html")
+        self.assertIsNone(page("n.html")["sensors"])
+
     def test_what_is_not_for_sensors_is_refused(self):
         words = ("ik", "-m", self.model, "--orientations", self.sensors / "walk.sto", "-o", "q.mot")
-        for option in (["--noise", 2], ["--torques"], ["--report", "r.html"], ["--frames", "1-9"]):
+        for option in (["--noise", 2], ["--torques"], ["--locations"], ["--frames", "1-9"]):
             self.refused(2, [option[0], "is for markers; --orientations is given too"], *words, *option)
         for option in (["--estimator", "smoother"], ["--loss", "huber"]):
             self.refused(2, [option[0], "is for markers alone; --orientations is given too"], *words, *option)
@@ -156,3 +205,22 @@ class OrientationsTest(CommandTest):
         self.assertEqual([sensor["name"] for sensor in facts["sensors"]], [f"{body}_imu" for body in BODIES])
         self.assertEqual(facts["missing"], 0)
         self.refused(3, ["DataType=Quaternion", "--orientations"], "convert", self.sensors / "walk.sto", "walk.mot")
+
+    def test_orientations_are_converted_and_taken_in_each_form(self):
+        self.good("convert", self.sensors / "walk.sto", "walk.csv")
+        self.good("convert", self.sensors / "pose.sto", "pose.csv", "--orientations")
+        self.good("convert", "walk.csv", "back.sto", "--orientations")
+        header = (self.folder / "walk.csv").read_text().splitlines()[0].split(",")
+        self.assertEqual(header[:5], ["time", "pelvis_imu_w", "pelvis_imu_x", "pelvis_imu_y", "pelvis_imu_z"])
+        common = ("ik", "-m", self.model, "--up", "z", "-o")
+        self.good(*common, "a.mot", "--orientations", self.sensors / "walk.sto", "--calibration", self.sensors / "pose.sto")
+        self.good(*common, "b.mot", "--orientations", "walk.csv", "--calibration", "pose.csv")
+        self.good(*common, "c.mot", "--orientations", "back.sto", "--calibration", "pose.csv")
+        one = columns_of(self.folder / "a.mot")
+        for name in ("b.mot", "c.mot"):
+            other = columns_of(self.folder / name)
+            self.assertLess(max(abs(x - y) for label in one for x, y in zip(one[label], other[label])), 1e-6)
+        self.refused(3, ["holds no orientations; they come as .sto", "ROTATION", "Motive"], "convert", self.trc, "o.sto", "--orientations")
+        self.refused(2, ["orientations are written as .sto"], "convert", "walk.csv", "o.trc", "--orientations")
+        self.refused(2, ["orientations are written as they are"], "convert", "walk.csv", "o.sto", "--orientations", "--select", "p*")
+        self.refused(3, ["holds no orientations; they come as .sto"], *common, "d.mot", "--orientations", self.trc)

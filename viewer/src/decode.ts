@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { IkPage, IkSummary, PackedCodes, PackedCurve } from "./page_types.ts";
+import type { IkPage, IkSensors, IkSummary, PackedCodes, PackedCurve } from "./page_types.ts";
 import { decodeBytes, decodeFloats, stepOf } from "./curves.ts";
 
 /** One coordinate on the points of the plots, deg or m; NaN where it is not determined. */
@@ -11,6 +11,18 @@ export interface CoordinateSeries {
   undetermined: Uint8Array | null;
   /** What the values are rounded to; null, or not there: they are not. */
   step?: number | null;
+}
+
+/** Inertial sensors on the points of the plots. */
+export interface SensorCurves {
+  facts: IkSensors;
+  /** One per sensor, deg; NaN where it is not used. */
+  errorDeg: Float32Array[];
+  /** What these are rounded to, in the same order. */
+  stepDeg: (number | null)[];
+  rmsDeg: Float32Array;
+  /** One per sensor: 0 measured, 2 missing, 3 rejected. */
+  gaps: Uint8Array[];
 }
 
 /** A solved trial, ready to draw. */
@@ -31,10 +43,15 @@ export interface Trial {
   gaps: (Uint8Array | null)[];
   /** 0 converged, 1 not all determined, 2 not converged, 3 no markers. */
   status: Uint8Array;
+  /** In place of markers or beside them; null: none. */
+  sensors: SensorCurves | null;
 }
 
+/** What fixes the coordinates, in words. */
+export const seenBy = (trial: Trial): string => (trial.sensors !== null && trial.summary.markers.length === 0 ? "sensors" : "visible markers");
+
 /** The series must have been inflated, see inflateAll(). */
-export function decode({ summary, series }: IkPage): Trial {
+export function decode({ summary, series, sensors = null }: IkPage): Trial {
   if (summary.schema !== "kinemark.ik_report" || summary.schema_version !== 2) {
     throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   }
@@ -57,5 +74,15 @@ export function decode({ summary, series }: IkPage): Trial {
     markerErrorStepMm: series.marker_error_mm.map(stepOf),
     gaps: series.gaps.map((g) => (g === null ? null : bytes(g))),
     status: bytes(series.status),
+    sensors:
+      sensors === null || series.sensor_rms_deg === undefined
+        ? null
+        : {
+            facts: sensors,
+            errorDeg: (series.sensor_error_deg ?? []).map(floats),
+            stepDeg: (series.sensor_error_deg ?? []).map(stepOf),
+            rmsDeg: floats(series.sensor_rms_deg),
+            gaps: (series.sensor_gaps ?? []).map(bytes),
+          },
   };
 }

@@ -10,7 +10,32 @@ export interface IkPage {
   /** What `Q_report.json` holds. */ summary: IkSummary;
   /** Curves of the plots. */ series: IkSeries;
   /** Coordinates over cycles; null: no events mark two strikes of a foot. */ cycles: EncodedCycles | null;
-  /** Space; null: positions are not known, or not in the model's axes. */ scene: PackedScene | null;
+  /** Space; null: positions are not known, or not in the model's axes. Without markers its points are sensors, in the middle of their bodies. */ scene: PackedScene | null;
+  /** Inertial sensors, in place of markers or beside them; null: none. */ sensors?: IkSensors | null;
+}
+
+/** Inertial sensors that the angles follow. */
+export interface IkSensors {
+  /** Turn of the sensors' world about the vertical, deg. */ heading_deg: number | null;
+  /** Its standard deviation, deg; 0: given. */ heading_sd_deg: number | null;
+  /** What it follows from: `motion`, `markers`, `facing axis`, or `model`: none is needed. */ heading_from: string;
+  /** Largest turn of a sensor within the pose that places it, deg. */ pose_drift_deg: number | null;
+  /** Standard deviation of an orientation about each axis, deg; null: not known. */ noise_sd_deg: number | null;
+  /** RMS angle between sensors and model, deg. */ rms_deg: number | null;
+  /** Largest of these angles, deg. */ max_deg: number | null;
+  /** One per sensor used. */ rows: SensorSummary[];
+}
+
+/** One inertial sensor. */
+export interface SensorSummary {
+  /** In the recording. */ name: string;
+  /** Of the model, that carries it. */ body: string;
+  /** What says how it stands there: `pose`, `model` or `markers`. */ placed_by: string;
+  /** Frames with an orientation that was used. */ seen_frames: number;
+  /** Samples that were left out. */ rejected_samples: number;
+  /** RMS angle between measured and model, deg. */ rms_deg: number | null;
+  /** Largest such angle, deg. */ max_deg: number | null;
+  /** When that was, s. */ max_time_s: number | null;
 }
 
 /** `Q_report.json`; a page holds the same, without the set. */
@@ -134,6 +159,9 @@ export interface IkSeries {
   /** One per used marker, in the order of the summary; missing where it is not seen. */ marker_error_mm: PackedCurve[];
   /** One per marker of the summary: 0 measured, 1 filled, 2 missing, 3 rejected; null: not known. */ gaps: (PackedCodes | null)[];
   /** 0 converged, 1 underdetermined, 2 not converged, 3 no markers. */ status: PackedCodes;
+  /** One per sensor, in the order of `sensors`; absent without any. Missing where it is not used. */ sensor_error_deg?: PackedCurve[];
+  /** RMS over the sensors used; absent without any. */ sensor_rms_deg?: PackedCurve;
+  /** One per sensor: 0 measured, 2 missing, 3 rejected; absent without any. */ sensor_gaps?: PackedCodes[];
 }
 
 /** A coordinate, deg or m; missing where it is not determined. */

@@ -14,6 +14,8 @@ export class View {
   coordinate = 0;
   /** Index of the chosen marker, or -1. */
   marker = -1;
+  /** Index of the chosen inertial sensor, or -1. */
+  sensor = -1;
   /** The time that is to be edited, or null. */
   stretch: TimeRange | null = null;
   /** Whether a stretch can be chosen. */
@@ -32,7 +34,7 @@ export class View {
   }
 
   /** Change any fields; the plots hear of it once per animation frame. */
-  set(change: Partial<Pick<View, "range" | "pointer" | "focus" | "coordinate" | "marker" | "stretch">>): void {
+  set(change: Partial<Pick<View, "range" | "pointer" | "focus" | "coordinate" | "marker" | "sensor" | "stretch">>): void {
     if (change.range !== undefined) change.range = clampRange(change.range, this.whole);
     Object.assign(this, change);
     if (this.#scheduled) return;

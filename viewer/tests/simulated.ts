@@ -116,3 +116,35 @@ export function simulated(frames = 400): IkPage {
     scene: null,
   };
 }
+
+/** The same angles beside two inertial sensors, or from them alone: the shank has no sample in frames 200 to 259, its largest angle in frame 100. */
+export function simulatedSensors(alone: boolean, frames = 400): IkPage {
+  const page = simulated(frames);
+  const hidden = (f: number): boolean => f >= 200 && f < 260;
+  const series = (value: (f: number) => number): PackedCurve => packedCurve(Array.from({ length: frames }, (_, f) => value(f)));
+  const codes = (value: (f: number) => number): PackedCodes => packedCodes(Array.from({ length: frames }, (_, f) => value(f)));
+  page.sensors = {
+    heading_deg: 30,
+    heading_sd_deg: 0.5,
+    heading_from: "motion",
+    pose_drift_deg: 0.75,
+    noise_sd_deg: null,
+    rms_deg: 3.6,
+    max_deg: 12,
+    rows: [
+      { name: `trunk ${hostile}`, body: "trunk", placed_by: "pose", seen_frames: frames, rejected_samples: 0, rms_deg: 3, max_deg: 3, max_time_s: 0 },
+      { name: "shank_imu", body: "shank", placed_by: alone ? "pose" : "markers", seen_frames: frames - 60, rejected_samples: 1, rms_deg: 4, max_deg: 12, max_time_s: 1 },
+    ],
+  };
+  page.series.sensor_error_deg = [series(() => 3), series((f) => (hidden(f) ? NaN : f === 100 ? 12 : 4))];
+  page.series.sensor_rms_deg = series((f) => (f === 100 ? 8.7 : 3.5));
+  page.series.sensor_gaps = [codes(() => 0), codes((f) => (f === 201 ? 3 : hidden(f) ? 2 : 0))];
+  if (!alone) return page;
+  page.summary.markers = [];
+  page.summary.worst_frames = [];
+  page.summary.rms_error_mm = page.summary.max_error_mm = null;
+  page.series.marker_error_mm = [];
+  page.series.gaps = [];
+  page.series.rms_error_mm = series(() => NaN);
+  return page;
+}

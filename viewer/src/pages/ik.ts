@@ -10,6 +10,7 @@ import { findingGroups, groupFindings } from "../sections/finding_groups.ts";
 import { gaps } from "../sections/gaps.ts";
 import { header } from "../sections/header.ts";
 import { markers } from "../sections/markers.ts";
+import { sensors } from "../sections/sensors.ts";
 import { space } from "../sections/space.ts";
 import { settings } from "../sections/settings.ts";
 import { timeBar } from "../sections/time_bar.ts";
@@ -23,10 +24,26 @@ export async function ikPage(data: IkPage): Promise<Content> {
   const { summary } = trial;
   const view = new View(wholeOf(summary));
   const scene = data.scene ? await unpackScene(data.scene, summary) : null;
+  const alone = trial.sensors !== null && summary.markers.length === 0;
   const others = { legend: "on the model; the tie is the error", switch: "Model" };
-  const inSpace = scene === null ? [] : [space(scene, view, { trial: summary.trial, others })];
+  const lead = "The model as the sensors turn it, each sensor in the middle of its body. Where the body stands is not known: positions stay at their defaults.";
+  const inSpace = scene === null ? [] : [space(scene, view, alone ? { trial: summary.trial, others: null, lead } : { trial: summary.trial, others })];
   const forces = scene !== null && scene.forces.length > 0 ? [ground(scene, view)] : [];
-  const plots = [angles(trial, view), ...inSpace, compare(trial, view, null, data.cycles ?? null), ...forces, markers(trial, view), gaps(trial, view)];
+  const rows = trial.sensors?.facts.rows ?? [];
+  // Without markers the points in space are the sensors.
+  const pick = (sensor: number): void => {
+    if (alone && scene !== null) view.set({ marker: scene.names.indexOf(rows[sensor]?.name ?? "") });
+  };
+  const misses = trial.sensors === null ? [] : [sensors(trial, trial.sensors, view, pick)];
+  if (alone && scene !== null) {
+    let picked = view.marker;
+    view.onChange(() => {
+      if (view.marker === picked) return;
+      picked = view.marker;
+      view.set({ sensor: rows.findIndex((r) => r.name === scene.names[picked]) });
+    });
+  }
+  const plots = [angles(trial, view), ...inSpace, compare(trial, view, null, data.cycles ?? null), ...forces, ...(alone ? [] : [markers(trial, view)]), ...misses, gaps(trial, view)];
   const jump = (finding: Finding, time: number): void => {
     const coordinate = summary.coordinates.findIndex((c) => c.name === finding.subject);
     if (finding.about === "coordinate" && coordinate >= 0) view.set({ coordinate });
@@ -34,15 +51,16 @@ export async function ikPage(data: IkPage): Promise<Content> {
   };
   return {
     skip: ["angles", "Skip to the joint angles"],
-    header: header(summary),
+    header: header(summary, trial.sensors?.facts ?? null),
     bar: timeBar(view, [
       ["attention", "Attention"],
       ["angles", "Joint angles"],
       ...(scene === null ? [] : [["space", "Space"] as const]),
       ["compare", "Side by side"],
-      ["markers", "Markers"],
+      ...(alone ? [] : [["markers", "Markers"] as const]),
+      ...(trial.sensors === null ? [] : [["sensors", "Sensors"] as const]),
       ["gaps", "Gaps"],
-      ["worst", "Worst frames"],
+      ...(alone ? [] : [["worst", "Worst frames"] as const]),
       ["settings", "Settings"],
     ]),
     sections: [
@@ -53,7 +71,7 @@ export async function ikPage(data: IkPage): Promise<Content> {
         summary.gates,
       ),
       ...plots.map((p) => p.node),
-      worstFrames(summary, view),
+      ...(alone ? [] : [worstFrames(summary, view)]),
       settings(summary, [["Method", summary.method]], summary.solve_s),
     ],
     start: () => plots[0]!.start(),

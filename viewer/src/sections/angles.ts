@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 import { band, stretches } from "../band.ts";
-import type { Trial } from "../decode.ts";
+import { seenBy, type Trial } from "../decode.ts";
 import { framesOfPair } from "../curves.ts";
 import { nearest } from "../downsample.ts";
 import { el, section } from "../dom.ts";
@@ -79,7 +79,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
       const sd = series.sd?.[at] ?? NaN;
       const frame = Math.min(at * trial.frameStep, frames - 1);
       const text = !Number.isFinite(value)
-        ? "not determined: the visible markers do not fix it here"
+        ? `not determined: the ${seenBy(trial)} do not fix it here`
         : `${number(value, decimals)} ${c.unit}` + (Number.isFinite(sd) ? ` ± ${number(sd, decimals)} ${c.unit} (1 SD)` : c.locked ? " (held fixed)" : " (SD not known)");
       readout.replaceChildren(
         `${seconds(trial.time[at]!)}, frame ${trial.frameStep > 1 ? "≈ " : ""}${number((trial.summary.first_frame ?? 0) + frame)}: `,
@@ -145,7 +145,7 @@ export function angles(trial: Trial, view: View): { node: HTMLElement; start: ()
     "angles",
     "Joint angles",
     "The line is the estimate, the band is ±2 standard deviations: where the noise is as estimated, about 95 % of the true values lie inside. " +
-      "Striped spans are not determined: the visible markers do not fix the coordinate there, so no value is drawn.",
+      `Striped spans are not determined: the ${seenBy(trial)} do not fix the coordinate there, so no value is drawn.`,
     thinned(trial),
     el(
       "div",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { Trial } from "../decode.ts";
+import { seenBy, type Trial } from "../decode.ts";
 import { el, section } from "../dom.ts";
 import { GapMap, type MapKind, type MapRow } from "../plots/gap_map.ts";
 import { palette } from "../theme.ts";
@@ -35,14 +35,27 @@ export function gaps(trial: Trial, view: View): { node: HTMLElement; start: () =
       return Number.isFinite(error) ? `, error ${error.toFixed(1)} mm` : "";
     },
   }));
+  for (const [i, row] of (trial.sensors?.facts.rows ?? []).entries()) {
+    rows.push({
+      name: row.name,
+      kind: gapKind,
+      codes: trial.sensors!.gaps[i] ?? null,
+      marker: -1,
+      remark: (point) => {
+        const miss = trial.sensors!.errorDeg[i]?.[point] ?? NaN;
+        return Number.isFinite(miss) ? `, ${miss.toFixed(1)} deg off` : "";
+      },
+    });
+  }
   rows.unshift({ name: "Fit", kind: statusKind, codes: trial.status, marker: -1 });
+  const of = trial.sensors === null ? "each marker's" : trial.summary.markers.length === 0 ? "each sensor's" : "each marker's and each sensor's";
   const map = new GapMap(box, trial.time, view, rows);
   const thinned = trial.frameStep === 1 ? "" : " A spot that stands for several frames shows the worst of them.";
   const node = section(
     "gaps",
     "Gaps",
-    `Where each marker's samples come from. The strip on top is the fit of each frame.${thinned}`,
-    el("div", { class: "legends" }, el("span", {}, "Markers"), legend(gapKind), el("span", {}, "Fit"), legend(statusKind)),
+    `Where ${of} samples come from. The strip on top is the fit of each frame.${thinned}`,
+    el("div", { class: "legends" }, el("span", {}, seenBy(trial) === "sensors" ? "Sensors" : "Markers"), legend(gapKind), el("span", {}, "Fit"), legend(statusKind)),
     map.readout,
     box,
   );

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { Finding, IkSummary } from "../page_types.ts";
+import type { Finding, IkSensors, IkSummary } from "../page_types.ts";
 import { el } from "../dom.ts";
 import { duration, number, percent, plural } from "../format.ts";
 
@@ -51,12 +51,14 @@ export function medianOf(values: readonly (number | null | undefined)[]): number
 }
 
 /** Trial, model, verdict, and the numbers that people look for first. */
-export function header(summary: IkSummary): HTMLElement {
+export function header(summary: IkSummary, sensors: IkSensors | null = null): HTMLElement {
   const used = summary.markers.filter((m) => m.used).length;
   const asked = summary.coordinates.filter((c) => !c.locked).length;
   const locked = summary.coordinates.length - asked;
   const realTime = summary.frames_per_s === null ? null : summary.frames_per_s / summary.rate_hz;
   const sd = medianOf(summary.coordinates.filter((c) => !c.locked && c.unit === "deg").map((c) => c.median_sd));
+  const besides = sensors === null ? "" : `, ${plural(sensors.rows.length, "sensor")} besides`;
+  const alone = sensors !== null && summary.markers.length === 0;
   const solved = summary.status_frames.converged + summary.status_frames.underdetermined;
   return el(
     "header",
@@ -76,13 +78,17 @@ export function header(summary: IkSummary): HTMLElement {
         "frames converged",
         solved === summary.frames ? "every frame" : `all but ${number(summary.frames - solved)}`,
       ),
-      tile(`${used} of ${summary.markers.length}`, "markers used", used === summary.markers.length ? "none left out" : `${summary.markers.length - used} left out`),
+      alone
+        ? tile(number(sensors.rows.length), "sensors used", `heading ${number(sensors.heading_deg, 1)} deg${sensors.heading_sd_deg ? ` ± ${number(sensors.heading_sd_deg, 1)}` : ""}`)
+        : tile(`${used} of ${summary.markers.length}`, "markers used", `${used === summary.markers.length ? "none left out" : `${summary.markers.length - used} left out`}${besides}`),
       tile(
         percent(summary.determined_fraction),
         "determined",
         `of ${plural(asked, "coordinate")}${locked > 0 ? `, ${locked} held fixed` : ""}`,
       ),
-      tile(`${number(summary.rms_error_mm, 1)} mm`, "RMS marker error", `largest ${number(summary.max_error_mm, 1)} mm`),
+      alone
+        ? tile(`${number(sensors.rms_deg, 2)} deg`, "RMS of sensors to model", `largest ${number(sensors.max_deg, 1)} deg`)
+        : tile(`${number(summary.rms_error_mm, 1)} mm`, "RMS marker error", `largest ${number(summary.max_error_mm, 1)} mm`),
       tile(
         sd === null ? "–" : `${number(sd, 2)} deg`,
         "median SD of an angle",

@@ -6,7 +6,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { simulatedClean } from "../simulated_clean.ts";
-import { simulated } from "../simulated.ts";
+import { simulated, simulatedSensors } from "../simulated.ts";
 import { simulatedMarkers, simulatedScene } from "../simulated_markers.ts";
 import { simulatedResults } from "../simulated_results.ts";
 import { judgeLooks } from "./looks.ts";
@@ -24,6 +24,7 @@ const files =
     ? given
     : [
         page("ik.html", { ...simulated(), scene: simulatedScene() }),
+        page("sensors.html", simulatedSensors(true)),
         page("clean.html", simulatedClean()),
         page("markers.html", simulatedMarkers()),
         ...Object.entries(simulatedResults()).map(([kind, data]) => page(`${kind}.html`, data)),

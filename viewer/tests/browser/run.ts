@@ -7,7 +7,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { dataOf, problemsOf } from "../../schema/problems.ts";
-import { hostile, simulated } from "../simulated.ts";
+import { hostile, simulated, simulatedSensors } from "../simulated.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { ink, opaqueInColumn, open, settle, type Check } from "./browser.ts";
 import { simulatedMarkers, simulatedScene, simulatedWalk } from "../simulated_markers.ts";
@@ -209,6 +209,14 @@ async function run(file: string, checks: Record<string, Check>, webGl = true): P
   return failed;
 }
 
+const ofSensors: Record<string, Check> = {
+  "a sensor that is chosen stands beside all of them": async ({ page }) => {
+    await page.locator("#sensors tbody tr", { hasText: "shank_imu" }).last().click();
+    await page.waitForFunction(() => document.querySelector("#sensor-readout")?.textContent?.includes("shank_imu"));
+    if ((await page.locator("#markers").count()) > 0) throw new Error("there are no markers, and a section of them");
+  },
+};
+
 const given = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "kinemark-page-"));
 let failed = 0;
@@ -221,6 +229,7 @@ if (given.length === 0) {
     return file;
   };
   failed += await run(page("ik.html", { ...simulated(), scene: simulatedScene() }), { ...comparesInSpace("Model", "on the model; the tie is the error"), ...ofSimulated, ...always });
+  failed += await run(page("sensors.html", simulatedSensors(true)), ofSensors);
   failed += await run(page("bodies.html", { ...simulated(), scene: { ...simulatedScene(), bodies: simulatedBodies(400) } }), showsMeshes);
   const second = page("second.html", simulatedPair(1));
   failed += await run(page("pair.html", simulatedPair()), ofPair(second));

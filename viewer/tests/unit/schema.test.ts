@@ -7,7 +7,7 @@ import { describe, expect, it } from "vitest";
 import { files, type Part } from "../../schema/files.ts";
 import { made } from "../../schema/made.ts";
 import { dataOf, problemsOf, typeFor } from "../../schema/problems.ts";
-import { simulated } from "../simulated.ts";
+import { simulated, simulatedSensors } from "../simulated.ts";
 import { simulatedPair } from "../browser/features.ts";
 import { simulatedClean } from "../simulated_clean.ts";
 import { simulatedMarkers, simulatedScene, simulatedWalk } from "../simulated_markers.ts";
@@ -28,6 +28,8 @@ const editing = {
 };
 const pages: Record<string, unknown> = {
   IkPage: simulated(),
+  "IkPage of sensors alone": simulatedSensors(true),
+  "IkPage of sensors and markers": simulatedSensors(false),
   "IkPage with a scene": { ...simulated(), scene: { ...simulatedScene(), bodies: simulatedBodies(400) } },
   "IkPage with torques": simulatedPair(),
   CleanPage: simulatedClean(),

@@ -16,6 +16,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/io/c3d/number_format.h"
+#include "kinemark/math/rotation_fit.h"
 
 namespace kinemark::io {
 namespace {
@@ -39,7 +40,8 @@ Result<Place> find_place(const C3dReader& reader, std::size_t size) {
     return fail(Code::bad_input, "has no ROTATION group, no orientations of segments");
   Place out{.labels = parameters.texts("ROTATION", "LABELS"),
             .time = {.rate_hz = layout.rate_hz,
-                     .t0_s = 0.0,
+                     .t0_s = static_cast<double>(std::max<std::int64_t>(0, layout.first_frame - 1)) /
+                             layout.rate_hz,
                      .frames = layout.frames,
                      .first_number = layout.first_frame}};
   const auto used = static_cast<std::size_t>(
@@ -77,7 +79,7 @@ Result<std::array<double, 4>> quaternion_of(const std::byte* bytes, Processor pr
       r.determinant() < 0.0)
     return fail(Code::bad_input,
                 "the matrix is no rotation: its columns are not of length 1 and at right angles");
-  const Eigen::Quaterniond q = Eigen::Quaterniond(r).normalized();
+  const Eigen::Quaterniond q(math::fit_rotation(r).rotation);  // the nearest rotation
   return std::array{q.w(), q.x(), q.y(), q.z()};
 }
 

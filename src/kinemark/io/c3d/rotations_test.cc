@@ -29,6 +29,7 @@ struct RotationFile {
   std::size_t cut = 0;   // bytes that are missing at the end
   bool has_group = true;
   Processor processor = Processor::intel;
+  int first = 1;  // number of the first frame
 
   [[nodiscard]] std::vector<std::byte> bytes() const {
     C3dParameters parameters;
@@ -54,8 +55,8 @@ struct RotationFile {
     section.resize(2 * kC3dBlock);
     const auto head = encode_header({.parameter_block = 2,
                                      .points = 0,
-                                     .first_frame = 1,
-                                     .last_frame = 2,
+                                     .first_frame = first,
+                                     .last_frame = first + 1,
                                      .scale = -1.0F,
                                      .data_block = 4,
                                      .rate_hz = 50.0F},
@@ -113,6 +114,12 @@ TEST(C3dRotations, SeveralAFrame) {
   const auto read = file.read().value();
   EXPECT_EQ(read.frames(), 6);
   EXPECT_EQ(read.time.rate_hz, 150.0);
+}
+
+TEST(C3dRotations, HaveTheClockOfTheMarkers) {
+  RotationFile file;
+  file.first = 51;
+  EXPECT_NEAR(file.read().value().time.t0_s, 1.0, 1e-12) << "frame 51 at 50 Hz, the first frame being at 0";
 }
 
 TEST(C3dRotations, SayWhatIsWrong) {

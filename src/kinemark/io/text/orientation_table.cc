@@ -4,75 +4,37 @@
 
 #include <fmt/core.h>
 
-#include <array>
-#include <cmath>
 #include <string>
+#include <utility>
 
-#include "kinemark/core/index.h"
-#include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/internal/any_table.h"
+#include "kinemark/io/text/internal/quaternion_rows.h"
 #include "kinemark/io/text/internal/table_header.h"
-#include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text_input.h"
 
 namespace kinemark::io {
 namespace {
 
-constexpr std::int64_t kNumbers = 4;      // of a quaternion
-constexpr double kLengthTolerance = 0.1;  // files round to a few digits; more is no rotation
-
-Result<data::Orientations> orientations_of(const data::Table& table) {
-  data::Orientations out;
-  out.warnings = table.warnings;
-  const auto sensors = static_cast<std::int64_t>(table.columns.size()) / kNumbers;
-  if (sensors == 0 || table.rows() == 0)
-    return fail(Code::bad_input, "holds no orientation; expected a column of quaternions for each sensor");
-  for (std::int64_t s = 0; s < sensors; ++s) {
-    const auto& column = table.columns[at(kNumbers * s)];
-    out.names.push_back(column.substr(0, column.size() - 2));  // "_1"
+Result<data::Orientations> orientations_of(data::Table table) {
+  internal::QuaternionRows rows;
+  for (std::size_t c = 0; c + 3 < table.columns.size(); c += 4) {
+    const auto& column = table.columns[c];
+    rows.names.push_back(column.substr(0, column.size() - 2));  // "_1"
   }
-  const auto place = [](std::size_t row) { return fmt::format("row {}", row + 1); };
-  const auto clock = internal::even_clock({.time_s = table.time_s,
-                                           .resolution_s = 0.0,
-                                           .stated = {},
-                                           .most_frames = 2 * table.rows() + 1'000'000 / sensors,
-                                           .place = place},
-                                          out.warnings);
-  if (!clock) return std::unexpected(clock.error());
-  // Such a table need not state a rate.
-  std::erase_if(out.warnings,
-                [](const std::string& warning) { return warning.starts_with("header gives no rate"); });
-  out.time = clock->time;
-  out.quaternion.assign(at(kNumbers * out.frames() * sensors), kNaN);
-  for (std::int64_t r = 0; r < table.rows(); ++r) {
-    const auto f = clock->frame.empty() ? r : clock->frame[at(r)];
-    for (std::int64_t s = 0; s < sensors; ++s) {
-      std::array<double, 4> q{};
-      double squares = 0.0;
-      for (std::int64_t k = 0; k < kNumbers; ++k) {
-        q[at(k)] = table(r, kNumbers * s + k);
-        squares += q[at(k)] * q[at(k)];
-      }
-      const double length = std::sqrt(squares);
-      if (!(length > 0.0)) continue;
-      if (!(std::abs(length - 1.0) < kLengthTolerance))
-        return fail(Code::bad_input, fmt::format("row {}, '{}': a quaternion of length {:.3g}; expected 1",
-                                                 r + 1, out.names[at(s)], length));
-      for (std::int64_t k = 0; k < kNumbers; ++k)
-        out.quaternion[at(kNumbers * (f * sensors + s) + k)] = q[at(k)] / length;
-    }
-  }
-  if (auto s = out.validate(); !s) return std::unexpected(s.error());
-  return out;
+  rows.time_s.assign(table.time_s.begin(), table.time_s.end());
+  rows.values = std::move(table.values);
+  rows.warnings = std::move(table.warnings);
+  rows.place = [](std::size_t row) { return fmt::format("row {}", row + 1); };
+  return internal::settle_quaternions(std::move(rows));
 }
 
 }  // namespace
 
 Result<data::Orientations> parse_orientations(std::string_view text, std::string_view name) {
-  const auto table = internal::parse_table(text, name, true);
+  auto table = internal::parse_table(text, name, true);
   if (!table) return std::unexpected(table.error());
-  auto out = orientations_of(*table);
+  auto out = orientations_of(std::move(*table));
   if (!out) return fail_at(name, out.error());
   return out;
 }

@@ -28,12 +28,22 @@ TEST(OrientationTable, IsOfOpenSense) {
   EXPECT_THAT(read.names, ElementsAre("pelvis_imu", "tibia_r_imu"));
   EXPECT_EQ(read.time.rate_hz, 100.0);
   EXPECT_EQ(read.frames(), 3);
-  EXPECT_THAT(read.warnings, IsEmpty());
+  EXPECT_THAT(read.warnings,
+              ElementsAre("sensor 'pelvis_imu': quaternions of zeros in 1 rows, taken as missing"));
   EXPECT_FALSE(read.present(1, 0));
   EXPECT_FALSE(read.present(2, 0)) << "a quaternion of length 0 is none";
   EXPECT_TRUE((read.rotation(0, 1) * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12))
       << "made unit";
   EXPECT_TRUE(read.rotation(1, 1).isApprox(Eigen::Vector3d(1, -1, -1).asDiagonal().toDenseMatrix()));
+}
+
+TEST(OrientationTable, MissingCellsAreNoQuaternionsOfZeros) {
+  const auto read =
+      parse_orientations(kSensorHeader + "0.00\t1,0,0,0\t1,0,0,0\n0.01\tnan,nan,nan,nan\t-1,0,0,0\n", "q.sto")
+          .value();
+  EXPECT_THAT(read.warnings, IsEmpty());
+  EXPECT_FALSE(read.present(1, 0));
+  EXPECT_TRUE(read.rotation(1, 1).isApprox(Eigen::Matrix3d::Identity())) << "a change of sign is no turn";
 }
 
 TEST(OrientationTable, AGapInTimeIsFramesWithout) {

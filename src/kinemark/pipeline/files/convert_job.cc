@@ -16,11 +16,13 @@
 #include "kinemark/io/animation/glb.h"
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/matlab/mat.h"
 #include "kinemark/io/osim/external_loads.h"
 #include "kinemark/io/osim/osim_document.h"
 #include "kinemark/io/osim/osim_writer.h"
 #include "kinemark/io/robot/robot_file.h"
+#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/merge_trials.h"
 #include "kinemark/pipeline/files/model_motion.h"
@@ -201,6 +203,43 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
   return notes;
 }
 
+/// Whether orientations are to be written: of a table that holds nothing else, without being asked.
+bool is_of_orientations(const ConvertJob& job) {
+  const auto to = ending_of(job.out);
+  return job.orientations || (kind_of(ending_of(job.in)) == Kind::table && (to == ".sto" || to == ".csv") &&
+                              io::has_orientations(job.in));
+}
+
+/// Orientations go into formats that have them; what is for markers and models is refused.
+Status check_orientations(const ConvertJob& job) {
+  const auto to = ending_of(job.out);
+  if (to != ".sto" && to != ".csv")
+    return fail(Code::usage, fmt::format("{}: orientations are written as .sto (OpenSense, for 'kinemark ik "
+                                         "--orientations') or .csv",
+                                         job.out.string()));
+  if (!job.RecordingOptions::empty() || !job.merged.empty() || job.resample_hz || !job.model.empty() ||
+      !job.skeleton.empty() || job.ndx_pose)
+    return fail(
+        Code::usage,
+        fmt::format("{}: orientations are written as they are; --rate, --select, --merge, --model and "
+                    "the other options of markers and models are not for them",
+                    job.out.string()));
+  return {};
+}
+
+Result<ConvertOutcome> convert_orientations(const ConvertJob& job) {
+  if (auto s = check_orientations(job); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, {job.out}, {job.in}); !s) return std::unexpected(s.error());
+  auto sensors = io::read_orientation_file(job.in);
+  if (!sensors) return std::unexpected(sensors.error());
+  if (auto s = io::write_orientations(job.out, *sensors, job.force); !s)
+    return fail_at(job.out.string(), s.error());
+  ConvertOutcome out;
+  out.warnings = std::move(sensors->warnings);
+  out.written = {job.out};
+  return out;
+}
+
 constexpr double kContact_n = 20.0;  ///< of OpenSim's users; a plate that bears less is empty
 
 /// Forces of the plates of a recording, as OpenSim reads them.
@@ -224,9 +263,12 @@ Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
   if (!recording) return std::unexpected(recording.error());
   if (!recording->plates_fault.empty()) return fail(Code::bad_input, recording->plates_fault);
   if (!recording->plates)
-    return fail(Code::bad_input, fmt::format("{}: has no force plates, whose forces a {} could hold; joint "
-                                             "angles are made by kinemark ik",
-                                             job.in.string(), ending_of(job.out)));
+    return fail(Code::bad_input,
+                fmt::format("{}: has no force plates, whose forces a {} could hold; {}", job.in.string(),
+                            ending_of(job.out),
+                            io::has_orientations(job.in) ? "the orientations that it has are written with "
+                                                           "--orientations"
+                                                         : "joint angles are made by kinemark ik"));
   if (auto s = io::write_table(job.out, io::table_of_forces(*recording->plates), {.force = job.force}); !s)
     return std::unexpected(s.error());
   auto notes = std::move(recording->trial.warnings);
@@ -281,6 +323,7 @@ Status check_each_once(const ConvertJob& job) {
 }  // namespace
 
 Result<ConvertOutcome> run_convert(const ConvertJob& job) {
+  if (is_of_orientations(job)) return convert_orientations(job);
   if (auto s = check_kinds(job); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
   if (!job.RecordingOptions::empty() && kind_of_input(job) != Kind::markers)

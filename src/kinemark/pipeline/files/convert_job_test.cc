@@ -6,6 +6,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/testing/shared_folder.h"
@@ -132,6 +133,42 @@ TEST_F(ConvertFile, OnlyAModelBecomesARobotAndNoRobotIsRead) {
   ASSERT_FALSE(back);
   EXPECT_EQ(back.error().code, Code::usage);
   EXPECT_FALSE(std::filesystem::exists(at("no.urdf")) || std::filesystem::exists(at("back.urdf")));
+}
+
+TEST_F(ConvertFile, OrientationsGoWhereTheyAreAskedFor) {
+  const std::string text =
+      "NO_OF_FRAMES\t2\nNO_OF_BODIES\t1\nFREQUENCY\t100\nDATA_INCLUDED\t6D\nBODY_NAMES\tstick\n"
+      "100\t200\t300\t0\t0\t0\t0.3\t0\t1\t0\t-1\t0\t0\t0\t0\t1\n"
+      "0.000\t0.000\t0.000\t0\t0\t0\t-1\t0\t0\t0\t0\t0\t0\t0\t0\t0\n";
+  ASSERT_TRUE(io::write_text(at("bodies.tsv"), text, true));
+  ConvertJob job;
+  job.in = at("bodies.tsv");
+  job.out = at("bodies.sto");
+  job.force = true;
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("are written with --orientations"));
+  job.orientations = true;
+  ASSERT_TRUE(run_convert(job)) << run_convert(job).error().message;
+  const auto turned = io::read_orientation_file(at("bodies.sto")).value();
+  EXPECT_THAT(turned.names, ElementsAre("stick"));
+  ASSERT_EQ(turned.frames(), 2);
+  EXPECT_TRUE((turned.rotation(0, 0) * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+  EXPECT_FALSE(turned.present(1, 0));
+  // A table of them holds nothing else.
+  ASSERT_TRUE(convert(at("bodies.sto"), at("again.csv"), true));
+  EXPECT_EQ(io::read_orientation_file(at("again.csv")).value().frames(), 2);
+
+  job.out = at("bodies.trc");
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("written as .sto (OpenSense, for 'kinemark ik"));
+  job.out = at("other.sto");
+  job.rate_hz = 50.0;
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("orientations are written as they are"));
+  job.rate_hz = 0.0;
+  job.in = at("in/markers.c3d");
+  EXPECT_THAT(run_convert(job).error().message, HasSubstr("ROTATION"));
+  job.in = at("in/model.osim");
+  EXPECT_EQ(run_convert(job).error().code, Code::not_supported);
+  job.in = job.out = at("bodies.sto");
+  EXPECT_EQ(run_convert(job).error().code, Code::usage) << "onto itself";
 }
 
 TEST_F(ConvertFile, DifferentKindsAreAMisuse) {

@@ -11,12 +11,12 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/filtering.h"
+#include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/recording/markers_recording.h"
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
-#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -55,9 +55,40 @@ std::string describe_up(const InfoJob& job, const data::Trial& trial) {
   return vertical ? fmt::format("{}, by {}", workflow::name_of_direction(vertical->up), vertical->from) : "";
 }
 
+OrientationFacts facts_of(const data::Orientations& sensors) {
+  OrientationFacts facts{.frames = sensors.frames(),
+                         .rate_hz = sensors.time.rate_hz,
+                         .first_time_s = sensors.time.t0_s,
+                         .last_time_s = sensors.time.time_s(std::max<std::int64_t>(0, sensors.frames() - 1))};
+  for (std::int64_t s = 0; s < sensors.size(); ++s) {
+    SensorFacts one{.name = sensors.names[at(s)]};
+    for (std::int64_t f = 0; f < facts.frames; ++f) {
+      if (!sensors.present(f, s)) {
+        ++one.missing;
+      } else if (!one.first) {
+        one.first.emplace();
+        std::copy_n(sensors.quaternion.data() + 4 * (f * sensors.size() + s), 4, one.first->begin());
+      }
+    }
+    facts.missing += one.missing;
+    facts.sensors.push_back(std::move(one));
+  }
+  return facts;
+}
+
+Status describe_orientations(const InfoJob& job, InfoOutcome& out) {
+  auto sensors = io::read_orientation_file(job.file);
+  if (!sensors) return std::unexpected(sensors.error());
+  out.facts = facts_of(*sensors);
+  out.warnings = std::move(sensors->warnings);
+  return {};
+}
+
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   auto recording =
       open_recording({.path = job.file, .rate = io::RateRule::or_unknown, .force = job.force}, job);
+  const bool turned = io::has_orientations(job.file);
+  if (!recording && turned && job.RecordingOptions::empty() && describe_orientations(job, out)) return {};
   if (!recording) return std::unexpected(recording.error());
   auto& trial = recording->trial;
   out.warnings = trial.warnings;
@@ -90,6 +121,11 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   std::vector<std::uint8_t> no_markers(markers.names.size(), 0);
   for (const auto m : apart.all()) no_markers[at(m)] = 1;
   facts.set = data::find_marker_set(markers.names, no_markers);
+  if (turned) {
+    const auto sensors = io::read_orientation_file(job.file);
+    if (sensors) facts.orientations = facts_of(*sensors);
+    if (!sensors) out.warnings.push_back(sensors.error().message);
+  }
   out.facts = std::move(facts);
   if (job.find_exchanges)
     workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);
@@ -102,34 +138,8 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
-Status describe_orientations(const InfoJob& job, InfoOutcome& out) {
-  auto sensors = io::read_orientations(job.file);
-  if (!sensors) return std::unexpected(sensors.error());
-  OrientationFacts facts{.frames = sensors->frames(),
-                         .rate_hz = sensors->time.rate_hz,
-                         .first_time_s = sensors->time.t0_s,
-                         .last_time_s = sensors->time.time_s(sensors->frames() - 1)};
-  for (std::int64_t s = 0; s < sensors->size(); ++s) {
-    SensorFacts one{.name = sensors->names[at(s)]};
-    for (std::int64_t f = 0; f < facts.frames; ++f) {
-      if (!sensors->present(f, s)) {
-        ++one.missing;
-      } else if (!one.first) {
-        one.first.emplace();
-        std::copy_n(sensors->quaternion.data() + 4 * (f * sensors->size() + s), 4, one.first->begin());
-      }
-    }
-    facts.missing += one.missing;
-    facts.sensors.push_back(std::move(one));
-  }
-  out.facts = std::move(facts);
-  out.warnings = std::move(sensors->warnings);
-  return {};
-}
-
 Status describe_table(const InfoJob& job, InfoOutcome& out) {
-  const auto turned = io::holds_orientations(job.file);
-  if (turned && *turned) return describe_orientations(job, out);
+  if (io::has_orientations(job.file)) return describe_orientations(job, out);
   auto table = io::read_table(job.file);
   if (!table) return std::unexpected(table.error());
   TableFacts facts{

@@ -34,6 +34,21 @@ struct ChannelFacts {
   std::int64_t missing = 0;      ///< frames without a value
 };
 
+/// Of one inertial sensor, segment or rigid body.
+struct SensorFacts {
+  std::string name;                            ///< as the file says
+  std::int64_t missing = 0;                    ///< frames without an orientation
+  std::optional<std::array<double, 4>> first;  ///< its first orientation, w x y z; none: it has none
+};
+
+/// Of orientations, in a file of their own or beside markers.
+struct OrientationFacts {
+  std::int64_t frames = 0;                                      ///< F
+  double rate_hz = 0.0, first_time_s = 0.0, last_time_s = 0.0;  ///< of its clock
+  std::int64_t missing = 0;                                     ///< sensor frames
+  std::vector<SensorFacts> sensors;                             ///< in the order of the file
+};
+
 /// Of a marker file (.c3d, .trc, .nwb, .csv, .v3d).
 struct MarkerFileFacts {
   std::string format, units, software;           ///< as data::Trial has them
@@ -49,8 +64,9 @@ struct MarkerFileFacts {
   std::vector<std::string> unlabelled;           ///< those of them that nobody named
   std::optional<data::FoundMarkerSet> set;       ///< that they are of; none: no set known here
   std::vector<ChannelFacts> channels;            ///< points that are no markers
-  std::string up;        ///< "z, by the force plates": which way is up; empty: nothing says it
-  std::string filtered;  ///< by what markers were smoothed, and whether the samples
+  std::string up;  ///< "z, by the force plates": which way is up; empty: nothing says it
+  std::optional<OrientationFacts> orientations;  ///< that the file holds besides; none: it has none
+  std::string filtered;                          ///< by what markers were smoothed, and whether the samples
                          ///< from before are there; empty: the file tells of no filter
 };
 
@@ -60,21 +76,6 @@ struct TableFacts {
   std::optional<double> first_time_s, last_time_s;  ///< none: no rows
   bool in_degrees = false;                          ///< as the file says
   std::vector<std::string> labels;                  ///< columns without the time
-};
-
-/// Of one inertial sensor.
-struct SensorFacts {
-  std::string name;                            ///< as the file says
-  std::int64_t missing = 0;                    ///< frames without an orientation
-  std::optional<std::array<double, 4>> first;  ///< its first orientation, w x y z; none: it has none
-};
-
-/// Of a table of orientations (.sto with DataType=Quaternion).
-struct OrientationFacts {
-  std::int64_t frames = 0;                                      ///< F
-  double rate_hz = 0.0, first_time_s = 0.0, last_time_s = 0.0;  ///< of its clock
-  std::int64_t missing = 0;                                     ///< sensor frames
-  std::vector<SensorFacts> sensors;                             ///< in the order of the file
 };
 
 /// Of a body model (.osim).

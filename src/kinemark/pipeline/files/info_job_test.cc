@@ -55,6 +55,37 @@ TEST(RunInfo, MarkersTablesAndModels) {
   EXPECT_NEAR(model["mass_kg"].get<double>(), 75.0, 25.0);
 }
 
+TEST(RunInfo, OrientationsBesideMarkersOrAloneInOtherFormats) {
+  const testing_support::ScratchFolder scratch;
+  const auto bodies = scratch / "bodies.tsv", motive = scratch / "bodies.csv";
+  ASSERT_TRUE(io::write_text(
+      bodies,
+      "NO_OF_FRAMES\t2\nNO_OF_BODIES\t1\nFREQUENCY\t100\nDATA_INCLUDED\t6D\nBODY_NAMES\tstick\n"
+      "100\t200\t300\t0\t0\t0\t0.3\t0\t1\t0\t-1\t0\t0\t0\t0\t1\n"
+      "0.000\t0.000\t0.000\t0\t0\t0\t-1\t0\t0\t0\t0\t0\t0\t0\t0\t0\n",
+      true));
+  const auto besides = facts_of(bodies).value();
+  EXPECT_EQ(besides["kind"], "markers") << "origins are points";
+  EXPECT_EQ(besides["orientation_rate_hz"], 100.0);
+  EXPECT_EQ(besides["orientation_frames"], 2);
+  EXPECT_EQ(besides["orientation_missing"], 1);
+  ASSERT_EQ(besides["orientations"].size(), 1U);
+  EXPECT_EQ(besides["orientations"][0]["name"], "stick");
+  ASSERT_TRUE(
+      io::write_text(motive,
+                     "Format Version,1.23,Export Frame Rate,100,Length Units,Meters\n\n"
+                     ",Type,Rigid Body,Rigid Body,Rigid Body,Rigid Body\n,Name,stick,stick,stick,stick\n"
+                     ",ID,1,1,1,1\n,,Rotation,Rotation,Rotation,Rotation\n"
+                     "Frame,Time (Seconds),X,Y,Z,W\n0,0,0,0,0,1\n1,0.01,,,,\n2,0.02,0,0,0,1\n",
+                     true));
+  const auto alone = facts_of(motive).value();
+  EXPECT_EQ(alone["kind"], "orientations");
+  EXPECT_EQ(alone["missing"], 1);
+  EXPECT_EQ(alone["sensors"][0]["name"], "stick");
+  testing::simulate_into(scratch / "in");
+  EXPECT_FALSE(facts_of(scratch / "in/markers.c3d").value().contains("orientations"));
+}
+
 TEST(RunInfo, OrientationsAreSensorsAndNoTable) {
   const testing_support::ScratchFolder scratch;
   const auto file = scratch / "walk.sto";

@@ -85,6 +85,25 @@ std::string in_lines(const Json& names) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
+Json sensors_json(const OrientationFacts& facts) {
+  auto sensors = Json::array();
+  for (const auto& sensor : facts.sensors)
+    sensors.push_back({{"name", sensor.name},
+                       {"first_w_x_y_z", sensor.first ? Json(*sensor.first) : Json::array()},
+                       {"missing", sensor.missing}});
+  return sensors;
+}
+
+/// Beside markers.
+void add_besides(const OrientationFacts& facts, Json& to) {
+  to["orientation_frames"] = facts.frames;
+  to["orientation_rate_hz"] = facts.rate_hz;
+  to["orientation_first_time_s"] = facts.first_time_s;
+  to["orientation_last_time_s"] = facts.last_time_s;
+  to["orientation_missing"] = facts.missing;
+  to["orientations"] = sensors_json(facts);
+}
+
 void add(const MarkerFileFacts& facts, Json& to) {
   to["kind"] = "markers";
   to["format"] = facts.format;
@@ -116,6 +135,7 @@ void add(const MarkerFileFacts& facts, Json& to) {
                               {"unit", channel.unit},
                               {"rate_hz", channel.rate_hz},
                               {"missing", channel.missing}});
+  if (facts.orientations) add_besides(*facts.orientations, to);
   if (!facts.up.empty()) to["up"] = facts.up;
   if (!facts.filtered.empty()) to["filtered"] = facts.filtered;
 }
@@ -137,11 +157,7 @@ void add(const OrientationFacts& facts, Json& to) {
   to["first_time_s"] = facts.first_time_s;
   to["last_time_s"] = facts.last_time_s;
   to["missing"] = facts.missing;
-  to["sensors"] = Json::array();
-  for (const auto& sensor : facts.sensors)
-    to["sensors"].push_back({{"name", sensor.name},
-                             {"first_w_x_y_z", sensor.first ? Json(*sensor.first) : Json::array()},
-                             {"missing", sensor.missing}});
+  to["sensors"] = sensors_json(facts);
 }
 
 void add(const ModelFacts& facts, Json& to) {

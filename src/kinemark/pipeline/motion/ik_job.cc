@@ -65,6 +65,7 @@ Status check_sensors(IkJob& job) {
     return fail(Code::usage, "the smoother cannot use orientations; give --estimator least-squares");
   if (sensors.options.facing && sensors.pose.empty())
     return fail(Code::usage, "--heading is for sensors that a pose places; give it, --calibration");
+  job.sensors.options.judge_samples = job.drops_doubtful(job.sensors.options.judge_samples);
   return internal::check_up(job.sensors, "--sensors-up");
 }
 
@@ -179,8 +180,10 @@ Result<IkOutcome> run_ik(IkJob job) {
                                [&model, &motion] { return marker_locations_table(model, motion); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
+      std::optional<report::ReportSensors> sensors;
+      if (sensor_fit) sensors = internal::page_sensors(motion.time, *sensor_fit, solved->sensor_error_rad);
       return internal::motion_page(job, model, outcome.summary, motion, &solved->markers,
-                                   inputs->recording.trial);
+                                   inputs->recording.trial, sensors ? &*sensors : nullptr);
     }));
   if (auto s = internal::write(job, *staging, files, "inverse kinematics", motion, outcome); !s)
     return std::unexpected(s.error());

@@ -16,13 +16,14 @@ namespace kinemark::pipeline::internal {
 
 std::string motion_page(const MotionJob& job, const model::Model& model, const report::IkSummary& summary,
                         const data::JointMotion& motion, const data::Trajectories* markers,
-                        const data::Trial& recording) {
+                        const data::Trial& recording, const report::ReportSensors* sensors) {
   const auto bodies =
       body_positions(model, motion, read_model_meshes(job.model, model.description(), job.geometry));
   return report::report_html({.summary = summary,
                               .motion = &motion,
                               .markers = markers,
                               .up = workflow::up_of(model),
+                              .sensors = sensors,
                               .bodies = &bodies,
                               .cycles = cycle_overlays(recording.events, recording.markers.time, motion)});
 }

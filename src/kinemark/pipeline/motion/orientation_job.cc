@@ -19,7 +19,9 @@
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/files/staging.h"
+#include "kinemark/pipeline/motion/internal/sensor_page.h"
 #include "kinemark/pipeline/motion/internal/sensor_run.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/inputs_json.h"
 
 namespace kinemark::pipeline {
@@ -31,6 +33,8 @@ Status check(const OrientationJob& job) {
   if (job.model.empty()) return fail(Code::usage, "no model; give --model");
   if (job.orientations.empty()) return fail(Code::usage, "no orientations; give --orientations");
   if (job.output.empty()) return fail(Code::usage, "no output; give --output");
+  if (auto s = check_ending(job.report, {".html"}, "a page is"); !s) return s;
+  if (auto s = check_geometry(job.geometry); !s) return s;
   return check_ending(job.output, {".mot", ".sto"}, "joint angles are");
 }
 
@@ -63,9 +67,15 @@ std::string set_of(const OrientationJob& job, const OrientationOutcome& outcome)
   return digest.hex();
 }
 
-Status write(const OrientationJob& job, Staging& staging, OrientationOutcome& outcome) {
+Status write(const OrientationJob& job, Staging& staging, const model::Model& model,
+             OrientationOutcome& outcome) {
   const auto& result = outcome.result;
   std::vector<ResultFile> files;
+  if (!job.report.empty()) {
+    auto page = internal::sensor_page(job, model, outcome);
+    if (!page) return std::unexpected(page.error());
+    files.push_back(text_file(job.report, [html = std::move(*page)] { return html; }));
+  }
   files.push_back(table_file(job.output, [&] { return coordinates_table(result.motion); }));
   if (job.options.error_bars)
     files.push_back(
@@ -109,6 +119,7 @@ Result<OrientationOutcome> run_orientations(OrientationJob job) {
   if (job.options.error_bars) targets.push_back(beside(job.output, "_sd.sto"));
   for (const char* suffix : {"_orientation_errors.sto", "_report.json"})
     targets.push_back(beside(job.output, suffix));
+  if (!job.report.empty()) targets.push_back(job.report);
   auto staging = Staging::create(targets, job, {job.model, job.orientations, job.pose});
   if (!staging) return std::unexpected(staging.error());
 
@@ -125,7 +136,7 @@ Result<OrientationOutcome> run_orientations(OrientationJob job) {
   auto remarks = internal::sensor_remarks(outcome.result.fit, job, job.options.error_bars, false);
   std::ranges::move(remarks.warnings, std::back_inserter(outcome.warnings));
   outcome.gates = std::move(remarks.gates);
-  if (auto s = write(job, *staging, outcome); !s) return std::unexpected(s.error());
+  if (auto s = write(job, *staging, *model, outcome); !s) return std::unexpected(s.error());
   return outcome;
 }
 

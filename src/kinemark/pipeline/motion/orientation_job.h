@@ -20,8 +20,10 @@ namespace kinemark::pipeline {
 /// Q_report.json.
 /// Without a pose, and without frames of the model, the first whole frame is one.
 struct OrientationJob : JobSettings, SensorSettings {
-  std::filesystem::path model;   ///< .osim; it needs no markers
-  std::filesystem::path output;  ///< Q.mot
+  std::filesystem::path model;                  ///< .osim; it needs no markers
+  std::filesystem::path output;                 ///< Q.mot
+  std::filesystem::path report;                 ///< page to write as well; empty: none
+  std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes, for the page
 };
 
 /// What it did.

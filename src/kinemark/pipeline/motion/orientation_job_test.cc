@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -21,6 +22,7 @@
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -106,7 +108,42 @@ TEST_F(RunOrientations, WritesAnglesThatTheSensorsTookPartIn) {
     EXPECT_THAT(warning, Not(HasSubstr("a sensor turns within the pose that places the sensors by")));
     EXPECT_THAT(warning, Not(HasSubstr("give a recording of that pose, --calibration")));
     EXPECT_THAT(warning, Not(HasSubstr("give one in which the subject stands still")));
+    EXPECT_THAT(warning, Not(HasSubstr("deg against the samples before and after: ")));
   }
+}
+
+TEST_F(RunOrientations, SamplesThatAreTurnedAreNamedAndLeftOutUnlessTheyAreKept) {
+  auto recording = sensors(false);
+  const auto line_of = [&recording](const std::string& time) { return recording.find("\n" + time + "\t"); };
+  for (const char* time : {"0.3", "0.31"}) {  // the first sensor alone
+    const auto begin = recording.find('\t', line_of(time)) + 1;
+    recording.replace(begin, recording.find('\t', begin) - begin, "0.5,-0.5,0.5,0.5");
+  }
+  ASSERT_TRUE(io::write_text(at("turned.sto"), recording, true));
+  auto with = job();
+  with.orientations = at("turned.sto");
+  const auto outcome = run_orientations(with);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  const auto name = outcome->result.fit.sensors[0].name;
+  EXPECT_THAT(outcome->warnings, Contains(AllOf(HasSubstr("sensor '" + name + "' is turned by up to"),
+                                                HasSubstr("deg against the samples before and after: 2 "
+                                                          "samples left out, at 0.30 to 0.31 s"))));
+  const auto json = orientation_json(*outcome);
+  EXPECT_EQ(json["rejected_samples"], 2);
+  ASSERT_EQ(json["rejected"].size(), 1U);
+  EXPECT_EQ(json["rejected"][0]["sensor"], name);
+  EXPECT_EQ(json["rejected"][0]["in"], "recording");
+  const auto errors = io::read_table(at("Q_orientation_errors.sto")).value();
+  EXPECT_TRUE(std::isnan(errors(30, 0)));
+  EXPECT_FALSE(std::isnan(errors(29, 0)));
+
+  with.options.judge_samples = false;
+  const auto kept = run_orientations(with);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(orientation_json(*kept)["rejected_samples"], 0);
+  EXPECT_GT(kept->result.fit.max_rad, 0.3);
+  for (const auto& warning : kept->warnings)
+    EXPECT_THAT(warning, Not(HasSubstr("deg against the samples before and after: ")));
 }
 
 TEST_F(RunOrientations, SensorsThatNoBodyCarriesAreNamed) {

@@ -64,17 +64,18 @@ std::string held_from(const data::JointMotion& motion) {
 }
 
 /// Why a coordinate is not determined in so many frames, where that is known.
+/// @param seen  what could have fixed it: "visible marker"
 std::string why_not_determined(const data::JointMotion& motion, std::size_t c, std::int64_t frames,
-                               bool always) {
+                               bool always, std::string_view seen) {
   if (motion.open_frames.empty()) return ".";
   const std::int64_t open = motion.open_frames[c];
   const char* limit = motion.is_rotation[c] ? "0.5 rad" : "0.5 m";
   if (open >= frames)
-    return always ? ": no visible marker fixes it." : ": the visible markers do not fix it there.";
-  const auto loosely =
-      fmt::format("the visible markers fix it no better than to {}, or two poses fit them", limit);
+    return always ? fmt::format(": no {} fixes it.", seen)
+                  : fmt::format(": the {}s do not fix it there.", seen);
+  const auto loosely = fmt::format("the {}s fix it no better than to {}, or two poses fit them", seen, limit);
   if (open == 0) return fmt::format(": {}{}.", loosely, always ? "" : " there");
-  return fmt::format(": in {} of them no visible marker fixes it, in the others {}.", open, loosely);
+  return fmt::format(": in {} of them no {} fixes it, in the others {}.", open, seen, loosely);
 }
 
 /// One line for each reason, with all markers that have it, in the order in which they come.
@@ -106,6 +107,7 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
     out.push_back({Verdict::attention, "gate", "",
                    fmt::format("The run ended with exit status {}.", s.run.exit_status), kNaN});
 
+  const std::string_view seen = s.run.by_sensors ? "sensor" : "visible marker";
   const auto frames_with = [&](FrameStatus status) {
     return s.status_frames[static_cast<std::size_t>(status)];
   };
@@ -116,7 +118,8 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
                    first_time_s(motion, FrameStatus::not_converged)});
   if (const auto n = frames_with(FrameStatus::no_markers); n > 0)
     out.push_back({Verdict::attention, "frames", "",
-                   fmt::format("{} had no marker{}", describe_frames(n, motion.frames()), held_from(motion)),
+                   fmt::format("{} had no {}{}", describe_frames(n, motion.frames()),
+                               s.run.by_sensors ? "sensor" : "marker", held_from(motion)),
                    first_time_s(motion, FrameStatus::no_markers)});
 
   for (std::size_t j = 0; j < s.coordinates.size(); ++j) {
@@ -126,14 +129,15 @@ std::vector<Notice> find_notices(const IkSummary& s, const data::JointMotion& mo
     if (c.determined_frames == 0)
       out.push_back({Verdict::attention, "coordinate", c.name,
                      fmt::format("{} is never determined{}", c.name,
-                                 why_not_determined(motion, j, motion.frames(), true)),
+                                 why_not_determined(motion, j, motion.frames(), true, seen)),
                      from_s});
     else
-      out.push_back({Verdict::good, "coordinate", c.name,
-                     fmt::format("{} is not determined in {}{}", c.name,
-                                 describe_frames(motion.frames() - c.determined_frames, motion.frames()),
-                                 why_not_determined(motion, j, motion.frames() - c.determined_frames, false)),
-                     from_s});
+      out.push_back(
+          {Verdict::good, "coordinate", c.name,
+           fmt::format("{} is not determined in {}{}", c.name,
+                       describe_frames(motion.frames() - c.determined_frames, motion.frames()),
+                       why_not_determined(motion, j, motion.frames() - c.determined_frames, false, seen)),
+           from_s});
   }
   for (const CoordinateSummary& c : s.coordinates)
     if (c.at_limit_frames > 0)

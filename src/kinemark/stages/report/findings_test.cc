@@ -169,12 +169,29 @@ TEST(Findings, WhatMarkersFixIsSaidOnlyWhereItIsKnown) {
   EXPECT_THAT(findings_of(m).at(0).text, Not(HasSubstr("the visible markers fix it no better than to")));
   m.open_frames = {0, 0};
   EXPECT_THAT(findings_of(m).at(0).text, Not(HasSubstr("no visible marker fixes it")));
+  EXPECT_THAT(findings_of(m).at(0).text, Not(HasSubstr("fixes it, in the others")));
   EXPECT_THAT(findings_of(m).at(0).text,
               HasSubstr("the visible markers fix it no better than to 0.5 rad, or"));
   m.open_frames = {0, 4};
   EXPECT_THAT(findings_of(m).at(0).text, HasSubstr("in 4 of them no visible marker fixes it, in the others"));
   m.is_rotation = {true, false};
   EXPECT_THAT(findings_of(m).at(0).text, HasSubstr("fix it no better than to 0.5 m, or two poses fit them"));
+}
+
+TEST(Findings, WhatSensorsAloneFixIsSaidOfSensors) {
+  data::JointMotion m = good_motion();
+  m.markers.clear();
+  m.marker_error.clear();
+  for (int f = 0; f < 10; ++f) m.determined[m.index(f, 1)] = 0;
+  m.status[9] = FrameStatus::no_markers;
+  m.open_frames = {0, 10};
+  const auto found = findings_of(m, {.by_sensors = true});
+  ASSERT_THAT(found, SizeIs(2));
+  EXPECT_THAT(found[0].text, HasSubstr("1 of 10 frames (10 %) had no sensor"));
+  EXPECT_EQ(found[1].text, "knee is never determined: no sensor fixes it.");
+  m.open_frames = {0, 0};
+  EXPECT_THAT(findings_of(m, {.by_sensors = true}).at(1).text,
+              HasSubstr("the sensors fix it no better than to 0.5 rad"));
 }
 
 TEST(Findings, OfSomeFramesWhatMarkersFixIsSaidOfThose) {

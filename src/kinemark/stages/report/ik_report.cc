@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
 #include "kinemark/stages/report/internal/curve_block.h"
 #include "kinemark/stages/report/internal/ik_scene.h"
 #include "kinemark/stages/report/internal/page.h"
 #include "kinemark/stages/report/internal/plot_points.h"
+#include "kinemark/stages/report/internal/sensor_part.h"
 
 namespace kinemark::report {
 
@@ -71,9 +73,9 @@ struct Curve {
 };
 
 struct Curves {
-  std::vector<Curve> coordinates, torques, errors;
-  Curve rms;
-  std::vector<std::vector<std::uint8_t>> gaps;
+  std::vector<Curve> coordinates, torques, errors, sensors;
+  Curve rms, sensor_rms;
+  std::vector<std::vector<std::uint8_t>> gaps, sensor_gaps;
   std::vector<std::uint8_t> status;
 };
 
@@ -180,6 +182,27 @@ std::vector<std::vector<std::uint8_t>> gap_rows(const IkReport& report, const Pl
   return out;
 }
 
+/// Angles between sensors and model, and a row of the gap map per sensor.
+void gather_sensors(const ReportSensors& sensors, const PlotPoints& points, Column& column, Curves& out) {
+  const auto F = static_cast<std::int64_t>(column.values.size());
+  const auto add = [&](Curve& curve, const auto& value) {
+    for (std::int64_t f = 0; f < F; ++f) column.values[at(f)] = value(f);
+    curve = {.value = points.extremes(column.values),
+             .sd = {},
+             .undetermined = {},
+             .usual_step = internal::kUsualStep_deg};
+  };
+  const auto S = std::ssize(sensors.rows);
+  for (std::int64_t s = 0; s < S; ++s) {
+    add(out.sensors.emplace_back(),
+        [&](std::int64_t f) { return internal::sensor_error_deg(sensors, f, s); });
+    for (std::int64_t f = 0; f < F; ++f)
+      column.codes[at(f)] = static_cast<std::uint8_t>(gap_code(sensors.state[at(f * S + s)]));
+    out.sensor_gaps.push_back(points.worst(column.codes));
+  }
+  add(out.sensor_rms, [&](std::int64_t f) { return internal::sensor_rms_deg(sensors, f); });
+}
+
 Curves gather(const IkReport& report, const PlotPoints& points) {
   const JointMotion& motion = *report.motion;
   Column column(motion.frames());
@@ -191,6 +214,7 @@ Curves gather(const IkReport& report, const PlotPoints& points) {
   out.rms = rms_curve(motion, points, column);
   out.errors = error_curves(motion, points, column);
   out.gaps = gap_rows(report, points, column);
+  if (report.sensors != nullptr) gather_sensors(*report.sensors, points, column, out);
   std::ranges::fill(column.codes, std::uint8_t{0});
   std::ranges::transform(motion.status, column.codes.begin(), status_rank);
   out.status = points.worst(column.codes);
@@ -224,14 +248,22 @@ Json pack_curves(const Curves& curves, std::int64_t frame_step, const PlotPoints
                           : Json{{"value", pack_value(c, thinned)}, {"sd", pack_deviation(c, thinned)}});
   for (const Curve& c : curves.errors) errors.push_back(pack_value(c, thinned));
   for (const auto& codes : curves.gaps) gaps.push_back(pack_worst(codes, thinned));
-  return {{"frame_step", frame_step * thinned.step()},
-          {"points", thinned.size()},
-          {"coordinates", std::move(coordinates)},
-          {"torques", std::move(torques)},
-          {"rms_error_mm", pack_value(curves.rms, thinned)},
-          {"marker_error_mm", std::move(errors)},
-          {"gaps", std::move(gaps)},
-          {"status", internal::pack_codes(thinned.worst(curves.status))}};
+  Json sensors = Json::array(), sensor_gaps = Json::array();
+  for (const Curve& c : curves.sensors) sensors.push_back(pack_value(c, thinned));
+  for (const auto& codes : curves.sensor_gaps) sensor_gaps.push_back(pack_worst(codes, thinned));
+  Json out = {{"frame_step", frame_step * thinned.step()},
+              {"points", thinned.size()},
+              {"coordinates", std::move(coordinates)},
+              {"torques", std::move(torques)},
+              {"rms_error_mm", pack_value(curves.rms, thinned)},
+              {"marker_error_mm", std::move(errors)},
+              {"gaps", std::move(gaps)},
+              {"status", internal::pack_codes(thinned.worst(curves.status))}};
+  if (curves.sensors.empty()) return out;
+  out["sensor_error_deg"] = std::move(sensors);
+  out["sensor_rms_deg"] = pack_value(curves.sensor_rms, thinned);
+  out["sensor_gaps"] = std::move(sensor_gaps);
+  return out;
 }
 
 }  // namespace
@@ -246,6 +278,10 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
         "a report needs the summary of its own joint motion");
   check(report.markers == nullptr || report.markers->time == motion.time,
         "a report needs markers and joint motion of the same frames");
+  check(report.sensors == nullptr ||
+            (report.sensors->error_rad.size() == at(motion.frames()) * report.sensors->rows.size() &&
+             report.sensors->state.size() == report.sensors->error_rad.size()),
+        "a report needs an angle and a state of each sensor in each frame");
 
   // Half of the room is for the curves, the other for the space view.
   const PlotPoints points(motion.frames(), options.max_points);
@@ -256,7 +292,9 @@ nlohmann::ordered_json report_json(const IkReport& report, const ReportOptions& 
   return {{"summary", summary_json(report.summary)},
           {"series", std::move(series)},
           {"cycles", cycles_json(report.cycles)},
-          {"scene", internal::ik_scene_json(report, options.max_data_bytes / 2)}};
+          {"scene", internal::ik_scene_json(report, options.max_data_bytes / 2)},
+          {"sensors",
+           report.sensors == nullptr ? Json(nullptr) : internal::sensors_json(*report.sensors, motion.time)}};
 }
 
 std::string report_html(const IkReport& report, const ReportOptions& options) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/array.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/report/cycle_overlay.h"
@@ -17,6 +19,26 @@
 #include "kinemark/stages/report/scene.h"
 
 namespace kinemark::report {
+
+/// One inertial sensor that took part.
+struct SensorRow {
+  std::string name;                   ///< in the recording
+  std::string body;                   ///< of the model, that carries it
+  std::string placed_by;              ///< what says how it stands there: "pose", "model" or "markers"
+  std::int64_t rejected_samples = 0;  ///< left out, of the frames solved
+};
+
+/// Inertial sensors that a motion follows: S sensors on its F frames.
+struct ReportSensors {
+  std::vector<SensorRow> rows;           ///< S
+  Array<double> error_rad;               ///< F x S, angle between measured and model; NaN: not used
+  std::vector<data::SampleState> state;  ///< F x S
+  double heading_rad = 0.0;              ///< of the sensors' world about the vertical
+  double heading_sd_rad = 0.0;           ///< 0: given
+  std::string heading_from;              ///< what it follows from: "motion", "facing axis", ...
+  double pose_drift_rad = 0.0;           ///< largest turn of a sensor within the pose that places it
+  double noise_sd_rad = kNaN;            ///< of an orientation about each axis; NaN: not known
+};
 
 /// What the page shows. The arrays are borrowed and must outlive the calls.
 struct IkReport {
@@ -26,12 +48,14 @@ struct IkReport {
       nullptr;  ///< states for the gap map; nullptr: seen or not, from the errors
   /// Positions of `markers` are in the model's axes, so that the space view can show both.
   bool in_model_axes = true;
-  std::optional<Eigen::Vector3d> up;    ///< against the model's gravity, length 1; none: the page finds it
-  const SceneBodies* bodies = nullptr;  ///< of the model in this motion; nullptr: not known
-  std::vector<CycleOverlay> cycles;     ///< of its coordinates; empty: no events mark any
+  std::optional<Eigen::Vector3d> up;       ///< against the model's gravity, length 1; none: the page finds it
+  const ReportSensors* sensors = nullptr;  ///< in place of markers or beside them; nullptr: none
+  const SceneBodies* bodies = nullptr;     ///< of the model in this motion; nullptr: not known
+  std::vector<CycleOverlay> cycles;        ///< of its coordinates; empty: no events mark any
 };
 
-/// The data that the page draws: `{"summary": summary_json(), "series": {...}}`.
+/// The data that the page draws: `{"summary": summary_json(), "series": {...}}`. Without markers space shows
+/// the bodies and, in the middle of each that carries one, its sensor.
 ///
 /// Series are little-endian float32 (deg or m, mm) or uint8 in base64. A recording with more frames than
 /// points is thinned so that the smallest and largest value and the largest standard deviation of each

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/stages/report/internal/sensor_part.h"
 #include "kinemark/stages/report/scene.h"
 
 namespace kinemark::report::internal {
@@ -12,8 +13,27 @@ namespace kinemark::report::internal {
 using data::JointMotion;
 using data::Trajectories;
 
+namespace {
+
+/// Without markers: bodies, and the sensors on them.
+nlohmann::ordered_json sensor_scene_json(const IkReport& report, const SceneOptions& options) {
+  const auto points = sensor_points(*report.sensors, *report.bodies, report.motion->time);
+  return scene_json({.markers = &points,
+                     .bodies = report.bodies,
+                     .up = report.up,
+                     .up_from = report.up ? "the model's gravity" : ""},
+                    options);
+}
+
+}  // namespace
+
 nlohmann::ordered_json ik_scene_json(const IkReport& report, std::int64_t max_bytes) {
   const JointMotion& motion = *report.motion;
+  SceneOptions options;
+  options.max_bytes = std::min(options.max_bytes, max_bytes);
+  options.max_bytes_long = std::min(options.max_bytes_long, max_bytes);
+  if (report.sensors != nullptr && report.bodies != nullptr && motion.markers.empty())
+    return sensor_scene_json(report, options);
   if (report.markers == nullptr || !report.in_model_axes || motion.markers.empty() ||
       motion.marker_error.empty())
     return nullptr;
@@ -32,9 +52,6 @@ nlohmann::ordered_json ik_scene_json(const IkReport& report, std::int64_t max_by
       for (std::size_t k = 0; k < 3; ++k)
         model[3 * i + k] = used.x_in_world[3 * i + k] - motion.marker_error[3 * i + k];
     }
-  SceneOptions options;
-  options.max_bytes = std::min(options.max_bytes, max_bytes);
-  options.max_bytes_long = std::min(options.max_bytes_long, max_bytes);
   return scene_json({.markers = &used,
                      .model = &model,
                      .bodies = report.bodies,

@@ -46,6 +46,7 @@ struct IkRun {
   std::vector<CoordinateLimits> limits;         ///< of the coordinates that have any
   double mass_kg = kNaN;                        ///< of the model's bodies together; NaN: not known
   std::vector<std::string> warnings;            ///< one sentence each
+  bool by_sensors = false;                      ///< orientations alone fix the motion; not kept in the JSON
 };
 
 /// One coordinate over the recording.

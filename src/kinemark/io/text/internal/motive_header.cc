@@ -23,15 +23,9 @@ namespace {
 using Kind = MarkerColumns::Kind;
 using Row = std::vector<std::string>;
 
-constexpr int kMostHeaderRows = 12;
+constexpr int kMostMotiveRows = 12;
 
 std::string cell(const Row& row, std::size_t i) { return i < row.size() ? row[i] : std::string(); }
-
-/// The rows above the numbers.
-struct HeaderRows {
-  Row type, name, component, axis;
-  std::int64_t name_line = 0;
-};
 
 Status bad(std::int64_t line, std::string_view what) {
   return fail(Code::bad_input, fmt::format("line {}: {}", line, what));
@@ -51,11 +45,11 @@ bool holds(const Row& row, std::initializer_list<std::string_view> words) {
 }
 
 /// Up to the row that begins with "Frame".
-Result<HeaderRows> read_rows(Lines& lines) {
-  HeaderRows out;
+Result<MotiveRows> read_rows(Lines& lines) {
+  MotiveRows out;
   bool name_is_next = false;
   std::string_view line;
-  for (int i = 0; i < kMostHeaderRows && lines.next(line); ++i) {
+  for (int i = 0; i < kMostMotiveRows && lines.next(line); ++i) {
     auto row = split(line, lines.number());
     if (!row) return std::unexpected(row.error());
     const bool named = cell(*row, 0) == "Name" || cell(*row, 1) == "Name";
@@ -113,7 +107,7 @@ Status read_keys(const Row& row, std::int64_t line, MarkerColumns& columns, data
 }
 
 /// What each column is; a marker's three columns share type and name.
-void lay_out(const HeaderRows& rows, MarkerColumns& columns, data::Trial& trial) {
+void lay_out(const MotiveRows& rows, MarkerColumns& columns, data::Trial& trial) {
   std::map<std::string, int> unread;
   std::map<std::string, std::int32_t> open;  // markers of which an axis is still to come
   std::vector<int> seen;
@@ -150,14 +144,18 @@ void lay_out(const HeaderRows& rows, MarkerColumns& columns, data::Trial& trial)
 
 }  // namespace
 
-Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial) {
-  VendorHeader out;
+Result<MotiveRows> parse_motive_rows(Lines& lines, MarkerColumns& columns, data::Trial& trial) {
   std::string_view line;
   if (!lines.next(line)) return fail(Code::bad_input, "the file is empty; expected a CSV file of Motive");
   const auto keys = split(line, lines.number());
   if (!keys) return std::unexpected(keys.error());
-  if (auto s = read_keys(*keys, lines.number(), out.columns, trial); !s) return std::unexpected(s.error());
-  const auto rows = read_rows(lines);
+  if (auto s = read_keys(*keys, lines.number(), columns, trial); !s) return std::unexpected(s.error());
+  return read_rows(lines);
+}
+
+Result<VendorHeader> parse_motive_header(Lines& lines, data::Trial& trial) {
+  VendorHeader out;
+  const auto rows = parse_motive_rows(lines, out.columns, trial);
   if (!rows) return std::unexpected(rows.error());
   if (rows->name.empty())
     return fail(Code::bad_input, fmt::format("line {}: the rows above it hold no names", lines.number()));

@@ -36,6 +36,16 @@ struct VendorHeader {
 [[nodiscard]] Result<VendorHeader> parse_vicon_header(Lines& lines, data::Trial& trial);
 [[nodiscard]] Result<VendorHeader> parse_phasespace_header(Lines& lines, data::Trial& trial);
 
+/// The rows above the numbers of a Motive file, a cell a column.
+struct MotiveRows {
+  std::vector<std::string> type, name, component, axis;
+  std::int64_t name_line = 0;
+};
+
+/// Line 1, whose rates and unit go into `columns` and `trial`, and the rows up to the one that begins with
+/// Frame.
+[[nodiscard]] Result<MotiveRows> parse_motive_rows(Lines& lines, MarkerColumns& columns, data::Trial& trial);
+
 /// A table of coordinates; `unit` is the one that the user gives, or empty, and `rate_hz` that of a table
 /// without times, or 0.
 [[nodiscard]] Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial,

@@ -11,6 +11,7 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/motion/motion_job.h"
+#include "kinemark/stages/report/ik_report.h"
 #include "kinemark/stages/report/ik_summary.h"
 
 namespace kinemark::pipeline::internal {
@@ -19,8 +20,10 @@ namespace kinemark::pipeline::internal {
 /// the cycles that the recording's events mark.
 /// @param markers    on the motion's clock; nullptr: not known
 /// @param recording  what was solved
+/// @param sensors    beside the markers; nullptr: none
 [[nodiscard]] std::string motion_page(const MotionJob& job, const model::Model& model,
                                       const report::IkSummary& summary, const data::JointMotion& motion,
-                                      const data::Trajectories* markers, const data::Trial& recording);
+                                      const data::Trajectories* markers, const data::Trial& recording,
+                                      const report::ReportSensors* sensors = nullptr);
 
 }  // namespace kinemark::pipeline::internal

@@ -8,15 +8,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
-#include "kinemark/io/c3d/rotations.h"
 #include "kinemark/io/input/file_hash.h"
+#include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/osim/offset_frames.h"
-#include "kinemark/io/text/orientation_table.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/workflow/prepare/turn.h"
 
@@ -34,7 +34,7 @@ constexpr double kMostDrift_rad = 5.0 / kDegPerRad;  // quiet standing sways by 
 Result<data::Orientations> read_one(const char* role, const std::filesystem::path& path,
                                     std::vector<data::InputFile>& inputs,
                                     std::vector<std::string>& warnings) {
-  auto sensors = ending_of(path) == ".c3d" ? io::read_c3d_rotations(path) : io::read_orientations(path);
+  auto sensors = io::read_orientation_file(path);
   if (!sensors) return sensors;
   for (const auto& warning : sensors->warnings)
     warnings.push_back(fmt::format("{}: {}", path.filename().string(), warning));
@@ -73,6 +73,37 @@ const char* name_of(HeadingSource source) {
 const char* name_of(SensorPlacement placement) {
   constexpr std::array kNames{"pose", "model", "markers"};
   return kNames[static_cast<std::size_t>(placement)];
+}
+
+/// "0.52 s", "0.52 to 0.58 s"
+std::string span_text(const motion::RejectedOrientations& span) {
+  return span.first_frame == span.last_frame ? fmt::format("{:.2f} s", span.first_s)
+                                             : fmt::format("{:.2f} to {:.2f} s", span.first_s, span.last_s);
+}
+
+/// A sentence for each sensor of which samples were left out, in the recording or in the pose.
+std::vector<std::string> rejected_sentences(const OrientationFit& fit) {
+  std::vector<std::string> out;
+  for (const auto& sensor : fit.sensors)
+    for (const bool in_pose : {false, true}) {
+      std::vector<std::string> spans;
+      std::int64_t samples = 0;
+      double largest = 0.0;
+      for (const auto& span : fit.rejected) {
+        if (span.sensor != sensor.name || span.in_pose != in_pose) continue;
+        spans.push_back(span_text(span));
+        samples += span.samples();
+        largest = std::max(largest, span.angle_rad);
+      }
+      if (spans.empty()) continue;
+      out.push_back(
+          fmt::format("sensor '{}'{} is turned by up to {:.0f} deg against the samples before and after: {} "
+                      "left out, at {}",
+                      sensor.name, in_pose ? ", in the pose," : "", kDegPerRad * largest,
+                      samples == 1 ? std::string("1 sample") : fmt::format("{} samples", samples),
+                      join_some(spans, kNamed)));
+    }
+  return out;
 }
 
 std::int64_t count_placed(const OrientationFit& fit, SensorPlacement by) {
@@ -120,6 +151,7 @@ workflow::Remarks sensor_remarks(const OrientationFit& fit, const SensorSettings
         fmt::format("markers do not determine the bodies of these sensors, which are not used; --calibration "
                     "would say how they stand there: {}",
                     join_some(fit.unplaced, kNamed)));
+  std::ranges::move(rejected_sentences(fit), std::back_inserter(out.warnings));
   if (error_bars && std::isnan(fit.noise_sd_rad))
     out.warnings.emplace_back(
         "the sensors measure no more than is solved for, so that their noise does not show and the angles "
@@ -173,6 +205,7 @@ std::vector<std::pair<std::string, std::string>> sensor_facts(const OrientationF
            ? std::string("not known")
            : fmt::format("{:.2f} deg about each axis, {}", kDegPerRad * fit.noise_sd_rad,
                          settings.options.noise_sd_rad > 0.0 ? "given" : "estimated from the residuals")},
+      {"turned samples of sensors", settings.options.judge_samples ? "left out" : "kept"},
       {"angle between sensors and model", fmt::format("{:.2f} deg RMS, {:.1f} deg at most",
                                                       kDegPerRad * fit.rms_rad, kDegPerRad * fit.max_rad)}};
 }
@@ -188,6 +221,35 @@ data::Table orientation_errors_table(const TimeBase& time, const OrientationFit&
   return table;
 }
 
+report::ReportSensors page_sensors(const TimeBase& time, const OrientationFit& fit,
+                                   const Array<double>& error_rad) {
+  report::ReportSensors out{.rows = {},
+                            .error_rad = error_rad,
+                            .state = {},
+                            .heading_rad = fit.heading_rad,
+                            .heading_sd_rad = fit.heading_sd_rad,
+                            .heading_from = name_of(fit.heading_source),
+                            .pose_drift_rad = fit.pose_drift_rad,
+                            .noise_sd_rad = fit.noise_sd_rad};
+  for (const double error : error_rad)
+    out.state.push_back(std::isnan(error) ? data::SampleState::missing : data::SampleState::measured);
+  const auto S = fit.sensors.size();
+  for (std::size_t s = 0; s < S; ++s) {
+    const auto& sensor = fit.sensors[s];
+    auto& row = out.rows.emplace_back(
+        report::SensorRow{.name = sensor.name, .body = sensor.body, .placed_by = name_of(sensor.placed_by)});
+    for (const auto& span : fit.rejected) {
+      if (span.in_pose || span.sensor != sensor.name) continue;
+      row.rejected_samples += span.samples();
+      const double slack = 0.5 / time.rate_hz;
+      for (std::int64_t f = 0; f < time.frames; ++f)
+        if (time.time_s(f) > span.first_s - slack && time.time_s(f) < span.last_s + slack)
+          out.state[at(f) * S + s] = data::SampleState::rejected;
+    }
+  }
+  return out;
+}
+
 Json sensors_json(const OrientationFit& fit) {
   auto sensors = Json::array();
   for (const auto& sensor : fit.sensors) {
@@ -200,7 +262,21 @@ Json sensors_json(const OrientationFit& fit) {
                        {"placed_by", name_of(sensor.placed_by)},
                        {"body_from_sensor", {q.w(), q.x(), q.y(), q.z()}}});
   }
+  auto rejected = Json::array();
+  std::int64_t samples = 0;
+  for (const auto& span : fit.rejected) {
+    samples += span.in_pose ? 0 : span.samples();
+    rejected.push_back({{"sensor", span.sensor},
+                        {"in", span.in_pose ? "pose" : "recording"},
+                        {"first_frame", span.first_frame},
+                        {"last_frame", span.last_frame},
+                        {"first_time_s", span.first_s},
+                        {"last_time_s", span.last_s},
+                        {"turned_deg", degrees(span.angle_rad)}});
+  }
   return {{"sensors", sensors},
+          {"rejected_samples", samples},
+          {"rejected", rejected},
           {"heading",
            {{"deg", degrees(fit.heading_rad)},
             {"sd_deg", degrees(fit.heading_sd_rad)},

@@ -12,6 +12,7 @@
 #include "kinemark/data/run_record.h"
 #include "kinemark/data/table.h"
 #include "kinemark/pipeline/motion/sensor_settings.h"
+#include "kinemark/stages/report/ik_report.h"
 #include "kinemark/workflow/motion/ik.h"
 #include "kinemark/workflow/remarks.h"
 
@@ -28,7 +29,7 @@ namespace kinemark::pipeline::internal {
                                                           std::vector<data::InputFile>& inputs,
                                                           std::vector<std::string>& warnings);
 
-/// Sensors left out, noise that is not known; gates on the RMS angle and on the pose.
+/// Sensors and samples left out, noise that is not known; gates on the RMS angle and on the pose.
 /// @param beside_markers  only then may a recording have no pose at all
 [[nodiscard]] workflow::Remarks sensor_remarks(const motion::OrientationFit& fit,
                                                const SensorSettings& settings, bool error_bars,
@@ -42,7 +43,11 @@ namespace kinemark::pipeline::internal {
 [[nodiscard]] data::Table orientation_errors_table(const TimeBase& time, const motion::OrientationFit& fit,
                                                    const Array<double>& error_rad);
 
-/// "sensors", "heading" and the numbers of the fit, in degrees.
+/// "sensors", what was left out of them, "heading" and the numbers of the fit, in degrees.
 [[nodiscard]] nlohmann::ordered_json sensors_json(const motion::OrientationFit& fit);
+
+/// What a page shows of the sensors. @param error_rad  F x S
+[[nodiscard]] report::ReportSensors page_sensors(const TimeBase& time, const motion::OrientationFit& fit,
+                                                 const Array<double>& error_rad);
 
 }  // namespace kinemark::pipeline::internal

@@ -23,6 +23,7 @@
 #include "kinemark/stages/motion/orientation/internal/placed_sensors.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_clock.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_errors.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_samples.h"
 #include "kinemark/stages/motion/orientation/orientation_ik.h"
 
 namespace kinemark::motion {
@@ -283,6 +284,14 @@ Result<MixedResult> solve_mixed(const model::Model& model, const data::Trajector
   if (auto s = recording.validate(); !s) return std::unexpected(s.error());
   if (pose != nullptr)
     if (auto s = pose->validate(); !s) return std::unexpected(s.error());
+  if (options.judge_samples) {
+    const auto judged = internal::judge_sensors(recording, pose);
+    auto as_given = options;
+    as_given.judge_samples = false;
+    auto found = solve_mixed(model, markers, judged.recording, judged.pose_or_null(), ik, as_given, progress);
+    if (found) judged.account(found->ik.motion.time, found->fit);
+    return found;
+  }
   const auto start = std::chrono::steady_clock::now();
   MixedResult out;
   IkOptions with_bars = ik;

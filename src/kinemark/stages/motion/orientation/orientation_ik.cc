@@ -15,6 +15,7 @@
 #include "kinemark/stages/motion/orientation/internal/heading.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_errors.h"
 #include "kinemark/stages/motion/orientation/internal/sensor_placement.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_samples.h"
 #include "kinemark/stages/motion/orientation/internal/turning_model.h"
 
 namespace kinemark::motion {
@@ -82,8 +83,12 @@ double noise_in_residuals(const data::ModelDescription& model, const data::Joint
 }
 
 /// Coordinates that only move stay at their defaults; a frame is underdetermined where one that turns is.
-void keep_lengths(const model::Model& model, data::JointMotion& motion) {
+/// @return  their names
+std::vector<std::string> keep_lengths(const model::Model& model, data::JointMotion& motion) {
   const auto turns = internal::turning_coordinates(model.description());
+  std::vector<std::string> at_default;
+  for (std::size_t c = 0; c < turns.size(); ++c)
+    if (!turns[c]) at_default.push_back(motion.coordinates[c]);
   const bool has_bars = !motion.determined.empty();
   for (std::int64_t f = 0; f < motion.frames(); ++f) {
     bool open = false;
@@ -102,6 +107,7 @@ void keep_lengths(const model::Model& model, data::JointMotion& motion) {
     auto& status = motion.status[at(f)];
     if (status == data::FrameStatus::underdetermined && !open) status = data::FrameStatus::converged;
   }
+  return at_default;
 }
 
 /// What the heading does not know adds to what the sensors do not.
@@ -143,6 +149,14 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   if (auto s = recording.validate(); !s) return std::unexpected(s.error());
   if (pose != nullptr)
     if (auto s = pose->validate(); !s) return std::unexpected(s.error());
+  if (options.judge_samples) {
+    const auto judged = internal::judge_sensors(recording, pose);
+    auto as_given = options;
+    as_given.judge_samples = false;
+    auto found = solve_orientations(model, judged.recording, judged.pose_or_null(), as_given, progress);
+    if (found) judged.account(found->motion.time, found->fit);
+    return found;
+  }
   const auto start = std::chrono::steady_clock::now();
   const auto frames = frames_within(recording, options);
   if (!frames) return std::unexpected(frames.error());
@@ -219,7 +233,7 @@ Result<OrientationResult> solve_orientations(const model::Model& model, const da
   out.motion.markers.clear();
   out.motion.marker_error.clear();
   out.motion.marker_state.clear();
-  keep_lengths(model, out.motion);
+  fit.at_default = keep_lengths(model, out.motion);
   out.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

@@ -48,6 +48,7 @@ struct OrientationOptions {
   Eigen::Vector3d up_in_world = Eigen::Vector3d::Zero();  ///< of the sensors' world; 0: as the model's
   std::optional<FacingAxis> facing;  ///< gives the heading; none: it is estimated from the motion
   double noise_sd_rad = 0.0;         ///< of an orientation about each axis; 0: estimated from the residuals
+  bool judge_samples = true;         ///< leave out samples of single sensors that are turned
   bool limits = true;                ///< clamped coordinates stay in their range
   bool error_bars = true;            ///< compute q_sd and determined
   double first_time_s = -1e300;      ///< solve only frames in [first_time_s, last_time_s]
@@ -86,6 +87,18 @@ enum class HeadingSource : std::uint8_t {
   markers,  ///< estimated: sensors turn as the markers of their bodies
 };
 
+/// Samples of one sensor that were left out: turned against those before and after.
+struct RejectedOrientations {
+  std::string sensor;                            ///< in the recording
+  bool in_pose = false;                          ///< of the recording of the pose
+  std::int64_t first_frame = 0, last_frame = 0;  ///< as that recording counts frames, both ends included
+  double first_s = 0.0, last_s = 0.0;            ///< on its clock
+  double angle_rad = 0.0;                        ///< largest turn
+
+  /// How many samples.
+  [[nodiscard]] std::int64_t samples() const { return last_frame - first_frame + 1; }
+};
+
 /// How orientations and a model fit.
 struct OrientationFit {
   std::int64_t first_frame = 0;         ///< index in the recording of the motion's frame 0
@@ -93,7 +106,8 @@ struct OrientationFit {
   std::vector<std::string> left_out;    ///< sensors that no body carries
   std::vector<std::string> never_seen;  ///< sensors on bodies that no solved frame has
   std::vector<std::string>
-      unplaced;                 ///< on bodies, but nothing says how they stand there; beside markers only
+      unplaced;  ///< on bodies, but nothing says how they stand there; beside markers only
+  std::vector<RejectedOrientations> rejected;  ///< samples left out, of the sensors used
   double pose_drift_rad = 0.0;  ///< largest turn of a sensor within the pose, or the recording's first 0.5 s
   double heading_rad = 0.0;     ///< turn about the model's vertical of the sensors' world
   double heading_sd_rad = 0.0;  ///< one standard deviation; 0 where it is given
@@ -101,6 +115,7 @@ struct OrientationFit {
   double noise_sd_rad = kNaN;  ///< of an orientation about each axis; NaN: neither given nor in the residuals
   double rms_rad = kNaN;       ///< angle between measured and model, all sensors and frames
   double max_rad = 0.0;        ///< largest such angle
+  std::vector<std::string> at_default;  ///< coordinates that turn nothing; without markers
 };
 
 /// What solve_orientations() found.
@@ -120,7 +135,8 @@ struct OrientationResult {
 /// squared angle where it is small; it is solved exactly as that of markers by a model without lengths, whose
 /// sensors are three points at the tips of their axes. Error bars hold the noise of the orientations (given,
 /// or pooled over sensors from the residuals) and of the heading. A pose that is not the model's default adds
-/// the same angles to all frames, which no residual shows.
+/// the same angles to all frames, which no residual shows. Samples of a sensor that is turned against the
+/// frames beside, for up to ten of them, are left out first.
 /// @param pose  sensors in the default pose, all frames are averaged; null: the first frame in which the
 ///              recording has all of its sensors
 ///

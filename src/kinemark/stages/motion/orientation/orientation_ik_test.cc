@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,6 +47,7 @@ TEST(OrientationIk, FindsAnglesAndHeadingOfExactSensors) {
 TEST(OrientationIk, LengthsStayAtTheirDefaultsAndAreNotDetermined) {
   const auto s = session(0.0, 1.0 * kDegree, 2, 20);
   const auto found = solve_orientations(s.model, s.recording, &s.pose, kUpright).value();
+  EXPECT_THAT(found.fit.at_default, ElementsAre("tx", "ty", "tz"));
   for (const char* name : {"tx", "ty", "tz"}) {
     const auto i = found.motion.index(7, found.motion.find(name));
     EXPECT_EQ(found.motion.q[i], 0.0);
@@ -80,6 +82,46 @@ TEST(OrientationIk, ErrorBarsHoldTheTruth) {
   EXPECT_LT(share(within), 0.75);
   EXPECT_GT(share(within_two), 0.90);
   EXPECT_LT(share(within_two), 0.98);
+}
+
+TEST(OrientationIk, TurnedSamplesAreLeftOutAndOtherFramesKeepTheirAngles) {
+  const auto good = session(0.7, 1.0 * kDegree, 5);
+  auto bad = good;
+  const auto spoil = [&bad](std::int64_t f, std::int64_t s) {
+    const Eigen::Quaterniond q(bad.recording.rotation(f, s) *
+                               Eigen::AngleAxisd(50.0 * kDegree, Eigen::Vector3d(0.6, 0.0, 0.8)));
+    double* to = bad.recording.quaternion.data() + 4 * (f * bad.recording.size() + s);
+    to[0] = q.w(), to[1] = q.x(), to[2] = q.y(), to[3] = q.z();
+  };
+  for (const std::int64_t f : {42, 43, 44}) spoil(f, 4);
+  spoil(120, 1);
+  auto options = kUpright;
+  const auto by_motion = solve_orientations(good.model, good.recording, &good.pose, options).value();
+  // One heading for all: where it is estimated, other frames may say it.
+  options.facing =
+      FacingAxis{.sensor = "trunk_imu",
+                 .axis = by_motion.fit.sensors[0].body_from_sensor.transpose() * Eigen::Vector3d::UnitX()};
+  const auto clean = solve_orientations(good.model, good.recording, &good.pose, options).value();
+  const auto found = solve_orientations(bad.model, bad.recording, &bad.pose, options).value();
+  EXPECT_TRUE(clean.fit.rejected.empty());
+  ASSERT_EQ(found.fit.rejected.size(), 2U);
+  EXPECT_EQ(found.fit.rejected[1].sensor, "shank_imu");
+  EXPECT_EQ(found.fit.rejected[1].samples(), 3);
+  EXPECT_NEAR(found.fit.rejected[1].angle_rad, 50.0 * kDegree, 8.0 * kDegree);
+  EXPECT_NEAR(found.fit.noise_sd_rad, clean.fit.noise_sd_rad, 0.02 * clean.fit.noise_sd_rad);
+  options.judge_samples = false;
+  const auto kept = solve_orientations(bad.model, bad.recording, &bad.pose, options).value();
+  EXPECT_TRUE(kept.fit.rejected.empty());
+  EXPECT_GT(kept.fit.max_rad, 2.0 * found.fit.max_rad);
+  for (std::int64_t f = 0; f < clean.motion.frames(); ++f) {
+    const bool is_spoiled = (f >= 42 && f <= 44) || f == 120;
+    EXPECT_EQ(std::isnan(found.error_rad[static_cast<std::size_t>(f * found.fit.sensors.size() + 4)]),
+              f >= 42 && f <= 44);
+    for (std::int64_t c = 0; c < clean.motion.size() && !is_spoiled; ++c) {
+      const auto i = clean.motion.index(f, c);
+      EXPECT_NEAR(found.motion.q[i], clean.motion.q[i], 1e-6) << f << " " << c;
+    }
+  }
 }
 
 TEST(OrientationIk, FramesAreCountedOnceHoweverOftenTheyAreSolved) {
