@@ -28,7 +28,7 @@ export function measuresPage({ summary, result }: MeasuresPage): Content {
   return {
     skip: ["table", "Skip to the table"],
     header: resultHeader("measures", result.heading, summary, [
-      [number(result.measures.length), "measures", `of ${plural(result.markers, "subject")} in ${plural(result.regions, "span", "spans")}`],
+      [number(result.measures.length), "measures", `of ${number(result.markers)} (${result.rows.toLowerCase()}) in ${plural(result.regions, "span", "spans")}`],
       [number(covered.length), `with an interval of ${level}`, result.refits === 0 ? "none was asked for" : `by ${number(result.refits)} refits`],
       [number(covered.filter((r) => r.interval.approximate).length), "approximate", "cover less in some movements"],
       [number(result.measures.length - known.length), "not determined", "the table says why"],

@@ -82,12 +82,10 @@ FusedTime fuse(const DetectorTimes& times, FootEvent what, bool running, FootSet
     if (std::isfinite(unbiased[k])) found.push_back(unbiased[k]);
   }
   const double middle = math::median(found);
-  double out = middle + table.weights[0], mean = 0.0, squares = 0.0;
+  double out = middle + table.weights[0];
   for (std::size_t k = 0; k < kDetectors; ++k)
     if (std::isfinite(unbiased[k]))
       out += table.weights[k + 1] * std::clamp(unbiased[k] - middle, -kMostApart_ms, kMostApart_ms);
-  for (const double x : found) mean += x / static_cast<double>(found.size());
-  for (const double x : found) squares += (x - mean) * (x - mean) / static_cast<double>(found.size());
   DetectorTimes apart{};
   for (std::size_t k = 0; k < kDetectors; ++k) apart[k] = 1e-3 * (unbiased[k] - middle);
   return {
@@ -95,10 +93,21 @@ FusedTime fuse(const DetectorTimes& times, FootEvent what, bool running, FootSet
       .error = {.kind_s = 1e-3 * std::sqrt(row.sd * row.sd - kWithin_ms * kWithin_ms - kFoot_ms * kFoot_ms),
                 .foot_s = 1e-3 * kFoot_ms,
                 .own_s =
-                    std::sqrt(1e-6 * (kWithin_ms * kWithin_ms + kOfSpread * kOfSpread * squares) +
+                    std::sqrt(1e-6 * kWithin_ms * kWithin_ms +
                               std::max(0.0, frame_s * frame_s - kLearntFrame_s * kLearntFrame_s) / 12.0)},
-      .beyond_s = 1e-3 * std::sqrt(std::max(0.0, squares - kLearntSpread_ms * kLearntSpread_ms)),
       .apart_s = apart};
+}
+
+double error_of_apart(const DetectorTimes& apart_s) {
+  double mean = 0.0, count = 0.0, squares = 0.0;
+  for (const double x : apart_s)
+    if (std::isfinite(x)) mean += x, count += 1.0;
+  if (!(count > 0.0)) return 0.0;
+  mean /= count;
+  for (const double x : apart_s)
+    if (std::isfinite(x)) squares += (x - mean) * (x - mean) / count;
+  const double beyond = std::max(0.0, squares - 1e-6 * kLearntSpread_ms * kLearntSpread_ms);
+  return std::sqrt(kOfSpread * kOfSpread * squares + beyond);
 }
 
 }  // namespace kinemark::analysis

@@ -29,9 +29,7 @@ using DetectorTimes = std::array<double, kDetectors>;
 /// One time of an event, in seconds after that of Detector::middle.
 struct FusedTime {
   double after_s = 0.0;    ///< detectors less their biases: the median, and weights of what they differ by
-  data::EventError error;  ///< `own_s` grows with what the detectors differ by
-  double beyond_s = 0.0;   ///< what the detectors differ by beyond what they did where they were learnt: the
-                           ///< foot moves otherwise than feet there, and which of them is right is open
+  data::EventError error;  ///< where all detectors agree
   DetectorTimes apart_s{kNaN, kNaN, kNaN, kNaN};  ///< each detector less its bias, from the median of all
 };
 
@@ -44,5 +42,10 @@ struct FusedTime {
 /// @param frame_s  1 / rate
 [[nodiscard]] FusedTime fuse(const DetectorTimes& times, data::FootEvent what, bool running, FootSet set,
                              double frame_s);
+
+/// What an event errs by, s, SD, where its detectors lie apart so (FusedTime::apart_s): 0.4 of their SD, and
+/// all that it has beyond 20 ms, the most that was learnt from: the foot moves otherwise than feet there, and
+/// which detector is right is open.
+[[nodiscard]] double error_of_apart(const DetectorTimes& apart_s);
 
 }  // namespace kinemark::analysis

@@ -45,11 +45,21 @@ TEST(EventTimes, OneThatIsFarOffMovesTheTimeByItsClippedShareAndWidensTheSd) {
   times[0] += 0.3;
   const auto after = fuse(times, FootEvent::strike, false, FootSet::heel_and_toe, 0.01);
   EXPECT_NEAR(after.after_s - before.after_s, 0.4272 * 0.040, 1e-3);
-  EXPECT_GT(after.error.own_s, 2.0 * before.error.own_s);
+  EXPECT_EQ(after.error.own_s, before.error.own_s);
   EXPECT_EQ(after.error.kind_s, before.error.kind_s);
-  // Four times, one of them 300 ms away: an SD of 130 ms, of which 20 are usual.
-  EXPECT_EQ(before.beyond_s, 0.0);
-  EXPECT_NEAR(after.beyond_s, std::sqrt(3.0 / 16.0 * 0.3 * 0.3 - 0.02 * 0.02), 1e-3);
+  // Four times, one of them 300 ms away: an SD of 130 ms, of which 0.4 and all beyond 20 ms count.
+  EXPECT_LT(error_of_apart(before.apart_s), 1e-5);
+  const double apart = std::sqrt(3.0 / 16.0) * 0.3;
+  EXPECT_NEAR(error_of_apart(after.apart_s), std::sqrt(0.16 * apart * apart + apart * apart - 0.02 * 0.02),
+              1e-3);
+}
+
+TEST(EventTimes, DetectorsThatLieApartByLessThanThoseLearntFromCountForTwoFifths) {
+  EXPECT_NEAR(error_of_apart({0.01, -0.01, 0.01, -0.01}), 0.004, 1e-12);
+  EXPECT_NEAR(error_of_apart({0.11, 0.09, 0.11, 0.09}), 0.004, 1e-12);  // what all have tells nothing
+  EXPECT_NEAR(error_of_apart({0.02, kNaN, -0.02, kNaN}), 0.008, 1e-12);
+  EXPECT_EQ(error_of_apart({0.05, kNaN, kNaN, kNaN}), 0.0);
+  EXPECT_EQ(error_of_apart({kNaN, kNaN, kNaN, kNaN}), 0.0);
 }
 
 TEST(EventTimes, RunningHasBiasesOfItsOwn) {

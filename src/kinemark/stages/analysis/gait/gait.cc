@@ -212,6 +212,15 @@ class GaitMeasurement {
     return values_of(cycles);
   }
 
+  // A swing that lasts longer is cut short by as large a share: errors of events can go against what strides
+  // differ by, and then take from their SD what those that go their own way add.
+  static Pivoted interval_of(const GaitDefinition& of, double value, std::span<const double> deviations,
+                             double level) {
+    if (!of.squared) return pivot(value, deviations, level);
+    return of.what.quantity == data::Quantity::time ? wide_pivot_of_square(value, deviations, level)
+                                                    : pivot_of_square(value, deviations, level);
+  }
+
   void state(const Slot& slot, double value, std::span<const double> deviations, Gait& out) const {
     const auto& definition = *slot.definition;
     const bool asked = !options_.measures.empty();
@@ -243,8 +252,7 @@ class GaitMeasurement {
         measure.remark = definition.squared ? "too few strides show what it needs"
                                             : "what it needs was not seen in any stride";
     } else if (options_.refits > 0) {
-      const auto pivoted = definition.squared ? pivot_of_square(value, deviations, options_.level)
-                                              : pivot(value, deviations, options_.level);
+      const auto pivoted = interval_of(definition, value, deviations, options_.level);
       if (std::isfinite(pivoted.value)) {
         measure.uncorrected = value;
         measure.value = pivoted.value;

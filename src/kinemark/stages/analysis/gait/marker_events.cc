@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/math/statistics.h"
 
 namespace kinemark::analysis {
@@ -86,21 +87,32 @@ void add_foot_errors(MarkerEvents& out) {
   }
 }
 
-// What detectors contradict each other by is common to the events of a kind as far as half of them show it:
-// somebody's way to walk. The rest is the event's own.
-void add_contradiction(MarkerEvents& out) {
+// The detectors of the events of a kind, each less its bias, as they usually lie apart.
+DetectorTimes usual_apart(const MarkerEvents& of, FootEvent what) {
+  DetectorTimes out{kNaN, kNaN, kNaN, kNaN};
+  for (std::size_t k = 0; k < kDetectors; ++k) {
+    std::vector<double> apart;
+    for (std::size_t i = 0; i < of.events.size(); ++i)
+      if (of.events[i].what == what && std::isfinite(of.fused[i].apart_s[k]))
+        apart.push_back(of.fused[i].apart_s[k]);
+    if (!apart.empty()) out[k] = math::median(apart);
+  }
+  return out;
+}
+
+// How the detectors usually lie apart is somebody's way to walk: what that makes of the time is common to the
+// events of a kind. How those of an event lie otherwise is its own.
+void add_apart(MarkerEvents& out) {
   for (const FootEvent what : data::kFootEvents) {
-    std::vector<double> squares;
-    for (std::size_t i = 0; i < out.events.size(); ++i)
-      if (out.events[i].what == what) squares.push_back(out.fused[i].beyond_s * out.fused[i].beyond_s);
-    if (squares.empty()) continue;
-    const double usual = math::median(squares);
+    const auto usual = usual_apart(out, what);
+    const double common_s = error_of_apart(usual);
     for (std::size_t i = 0; i < out.events.size(); ++i) {
       if (out.events[i].what != what) continue;
-      auto& [kind_s, foot_s, own_s] = out.fused[i].error;
-      const double all = out.fused[i].beyond_s * out.fused[i].beyond_s, common = std::min(all, usual);
-      kind_s = std::sqrt(kind_s * kind_s + common);
-      own_s = std::sqrt(own_s * own_s + all - common);
+      auto apart = out.fused[i].apart_s;
+      for (std::size_t k = 0; k < kDetectors; ++k) apart[k] -= usual[k];
+      auto& error = out.fused[i].error;
+      error.kind_s = std::hypot(error.kind_s, common_s);
+      error.own_s = std::hypot(error.own_s, error_of_apart(apart));
     }
   }
 }
@@ -153,7 +165,7 @@ Result<MarkerEvents> find_marker_events(GaitSmoother& smoother, const GaitMarker
     auto& error = out.fused[i].error;
     error.kind_s *= factor, error.foot_s *= factor, error.own_s *= factor;
   }
-  add_contradiction(out);
+  add_apart(out);
   for (std::size_t i = 0; i < out.events.size(); ++i) out.events[i].sd_s = out.fused[i].error.sd_s();
   return out;
 }

@@ -64,6 +64,27 @@ TEST(MarkerEvents, NothingIsSaidOfACleanWalk) {
   EXPECT_TRUE(tell(KnownWalk{}.markers(0.0003, 3)).sentences.empty());
 }
 
+TEST(MarkerEvents, HowDetectorsUsuallyLieApartIsCommonAndOwnIsWhatAnEventAdds) {
+  const auto usual_walk = tell(KnownWalk{}.markers(0.0003, 3)).found;
+  KnownWalk slow;
+  slow.stride_s = 2.4;
+  slow.speed_m_per_s = 0.3;
+  const auto found = tell(slow.markers(0.0003, 3)).found;
+  for (const auto what : data::kFootEvents) {
+    const auto worst = [what](const MarkerEvents& of, auto part) {
+      double out = 0.0;
+      for (std::size_t i = 0; i < of.events.size(); ++i)
+        if (of.events[i].what == what && !of.edges[i].at_end) out = std::max(out, part(of.fused[i].error));
+      return out;
+    };
+    const auto kind = [](const data::EventError& error) { return error.kind_s; };
+    const auto own = [](const data::EventError& error) { return error.own_s; };
+    // All steps of the slow walk are alike: the detectors contradict each other in the same way in each.
+    EXPECT_GT(worst(found, kind), 1.2 * worst(usual_walk, kind));
+    EXPECT_LT(worst(found, own), 0.5 * worst(found, kind));
+  }
+}
+
 TEST(MarkerEvents, AHiddenFootIsSaidAndTheOtherKeepsItsEvents) {
   const KnownWalk walk;
   auto markers = walk.markers(0.0003, 3);
