@@ -149,19 +149,26 @@ struct Score {
   std::vector<std::string> examples;
 };
 
-// The labels as they are, over the time that whole strides of damaged ones cover: who labels less measures
-// less.
-std::optional<analysis::Gait> whole_of(const Labelled& walk, const std::vector<GaitEvent>& labels,
-                                       const analysis::Gait& gait, std::uint64_t seed) {
-  if (gait.cycles.empty()) return std::nullopt;
+// The time that whole strides cover, in frames.
+std::array<std::int64_t, 2> span_of(const Labelled& walk, const analysis::Gait& gait) {
   const auto& time = walk.markers.time;
   double first = gait.cycles.front().start_s, last = gait.cycles.front().end_s;
   for (const auto& cycle : gait.cycles)
     first = std::min(first, cycle.start_s), last = std::max(last, cycle.end_s);
+  return {time.nearest_frame(first), time.nearest_frame(last)};
+}
+
+// The labels as they are, over the time that whole strides of damaged ones cover: who labels less measures
+// less.
+std::optional<analysis::Gait> whole_of(const Labelled& walk, const std::vector<GaitEvent>& labels,
+                                       const analysis::Gait& whole, const analysis::Gait& gait,
+                                       std::uint64_t seed) {
+  if (gait.cycles.empty() || whole.cycles.empty()) return std::nullopt;
+  const auto span = span_of(walk, gait);
+  if (span == span_of(walk, whole)) return whole;
+  const auto& time = walk.markers.time;
   return measured(walk, labels, seed,
-                  {{.name = "",
-                    .first_frame = time.number(time.nearest_frame(first)),
-                    .last_frame = time.number(time.nearest_frame(last))}});
+                  {{.name = "", .first_frame = time.number(span[0]), .last_frame = time.number(span[1])}});
 }
 
 // The measures of damaged labels beside those of the labels as they are.
@@ -204,7 +211,8 @@ class Table {
           if (!said.empty() && score.examples.size() < 6)
             score.examples.push_back(walk.name + ": " + said.front());
         } else if (const auto gait = measured(walk, damaged(labels, damage, random), seed)) {
-          if (const auto same = whole_of(walk, labels, *gait, seed)) compare(walk, *same, *gait, score);
+          if (const auto same = whole_of(walk, labels, *whole, *gait, seed))
+            compare(walk, *same, *gait, score);
         } else {
           ++score.said;  // refused
         }

@@ -6,7 +6,7 @@ use them, say of each; and that nothing of the kind is said of the recordings as
 
     tests/acceptance/second_facts.py [--quick] [--only NAME]... [--keep FOLDER]
 
-Each fault is planted 60 times (3 times with --quick), in different recordings, at different places, of different size. The clean side is
+Each fault is planted 60 times (3 times with --quick), in different recordings, at different positions, of different size. The clean side is
 every recording of the test data that the program reads. Files are changed here, by the rules of their formats; nothing of kinemark is
 used but the program. Needs KINEMARK_PROGRAM and KINEMARK_TEST_DATA. Prints rows "PASS|FAIL|SKIP | check | asked | measured"; exit
 status 1 when one fails.
@@ -283,11 +283,11 @@ class C3d:
             if not after:
                 break
             at += 2 + length + after
-        self.places = {(groups.get(of, ""), name): place for of, name, place in found}
+        self.positions = {(groups.get(of, ""), name): place for of, name, place in found}
 
     def where(self, group, name):
         """(struct format, place of the first number)."""
-        place = self.places[group, name]
+        place = self.positions[group, name]
         kind, count = struct.unpack_from("<bB", self.data, place)
         sizes = self.data[place + 2 : place + 2 + count]
         letter = {-1: "c", 1: "b", 2: "h", 4: "f"}[kind]

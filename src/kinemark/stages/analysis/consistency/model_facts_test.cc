@@ -35,7 +35,7 @@ data::ModelDescription hip(const Vector3d& first, const Vector3d& second, const 
 const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
 
 TEST(ModelFacts, RotationsOneAfterTheOtherAboutOneAxisAreNamed) {
-  for (const Vector3d second : {Vector3d(kX), Vector3d(-2.0 * kX), Vector3d(1.0, 0.01, 0.0)})
+  for (const Vector3d& second : {Vector3d(kX), Vector3d(-2.0 * kX), Vector3d(1.0, 0.01, 0.0)})
     EXPECT_THAT(
         contradicted_joints(hip(kX, second, kZ)),
         ElementsAre("joint 'hip_r' turns about one axis by two coordinates, 'flexion' and 'adduction': no "

@@ -22,9 +22,9 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi, kTurn_deg = 360.0;
 constexpr double kMostTurns = 2.0;
 constexpr std::size_t kFewestTurned = 4, kMostNamed = 3;
 // Parts of names of columns that hold no angle.
-constexpr std::array<std::string_view, 17> kOthers{
-    "force",  "torque",  "moment", "power",  "emg",          "activation", "speed", "reserve", "excitation",
-    "length", "ground_", "marker", "weight", "acceleration", "velocity",   "grf",   "_tau"};
+constexpr std::array<std::string_view, 16> kOthers{
+    "force",      "torque", "moment", "power",  "emg",          "activation", "speed", "reserve",
+    "excitation", "length", "marker", "weight", "acceleration", "velocity",   "grf",   "_tau"};
 
 std::string lowered(std::string_view text) {
   std::string out;
