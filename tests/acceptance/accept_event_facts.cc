@@ -185,6 +185,9 @@ void compare(const Labelled& walk, const analysis::Gait& whole, const analysis::
     const double off = std::abs(measure.value - same->value),
                  sd = std::isfinite(measure.sd) ? measure.sd : 0.0;
     if (off <= kWrong * std::abs(same->value) || off <= kWrongSds * sd) continue;
+    // What cannot be distinguished from 0 states an upper end in place of an SD.
+    if (measure.interval.kind == data::IntervalKind::at_most && same->value <= measure.interval.high)
+      continue;
     ++out.wrong;
     if (!said.empty()) continue;
     ++out.unsaid;
