@@ -19,12 +19,15 @@
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
+#include "kinemark/stages/analysis/consistency/model_facts.h"
+#include "kinemark/stages/analysis/consistency/table_facts.h"
 #include "kinemark/stages/analysis/gait/gait.h"
 #include "kinemark/stages/motion/dynamics/masses.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/stated_mass.h"
 #include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::pipeline {
@@ -84,9 +87,19 @@ Status describe_orientations(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
+/// Names of two markers of pelvis or legs that are exchanged throughout.
+Status note_exchanged_pairs(const data::Trajectories& markers, InfoOutcome& out) {
+  workflow::Remarks remarks;
+  const auto found = workflow::judge_recording("the recording", markers, "nothing was changed", remarks);
+  if (!found) return std::unexpected(found.error());
+  std::ranges::move(remarks.warnings, std::back_inserter(out.warnings));
+  return {};
+}
+
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
-  auto recording =
-      open_recording({.path = job.file, .rate = io::RateRule::or_unknown, .force = job.force}, job);
+  auto recording = open_recording(
+      {.path = job.file, .rate = io::RateRule::or_unknown, .plates = job.find_exchanges, .force = job.force},
+      job);
   const bool turned = io::has_orientations(job.file);
   if (!recording && turned && job.RecordingOptions::empty() && describe_orientations(job, out)) return {};
   if (!recording) return std::unexpected(recording.error());
@@ -127,14 +140,19 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
     if (!sensors) out.warnings.push_back(sensors.error().message);
   }
   out.facts = std::move(facts);
-  if (job.find_exchanges)
-    workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);
-  if (!job.find_exchanges || !recording->rate_known) return {};
+  if (!job.find_exchanges) return {};
+  if (!recording->plates_fault.empty()) out.warnings.push_back(recording->plates_fault);
+  workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);
+  if (auto s = note_exchanged_pairs(markers, out); !s) return s;
+  if (!recording->rate_known) return {};
   const auto swaps = workflow::find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());
   for (const auto& swap : workflow::sure_swaps(*swaps))
     out.warnings.push_back(sentence_of(swap, markers.time));
-  std::ranges::move(analysis::contradicted_events(markers, trial.events), std::back_inserter(out.warnings));
+  const analysis::GaitEvidence evidence{.plates = recording->plates ? &*recording->plates : nullptr,
+                                        .events = trial.events,
+                                        .mass_kg = workflow::stated_mass_kg(trial)};
+  std::ranges::move(analysis::contradictions_of(markers, evidence), std::back_inserter(out.warnings));
   return {};
 }
 
@@ -150,6 +168,8 @@ Status describe_table(const InfoJob& job, InfoOutcome& out) {
   }
   out.facts = std::move(facts);
   out.warnings = std::move(table->warnings);
+  std::ranges::move(analysis::contradicted_values(*table, job.file.filename().string()),
+                    std::back_inserter(out.warnings));
   return {};
 }
 
@@ -167,6 +187,7 @@ Status describe_model(const InfoJob& job, InfoOutcome& out) {
   }
   for (const auto& coordinate : model->coordinates) facts.labels.push_back(coordinate.name);
   out.warnings = std::move(model->warnings);
+  std::ranges::move(analysis::contradicted_joints(*model), std::back_inserter(out.warnings));
   if (const auto compiled = model::Model::compile(std::move(*model)))
     for (const auto& fault : motion::find_mass_faults(*compiled))
       (fault.matters ? out.warnings : facts.notes).push_back(fault.sentence());

@@ -20,6 +20,7 @@ void take_measured(workflow::Measured&& found, MeasuredRecording& out) {
   static_cast<data::Recording&>(out.recording) = std::move(found.recording);
   out.curves = std::move(found.curves);
   std::ranges::move(found.remarks.warnings, std::back_inserter(outcome.warnings));
+  std::ranges::move(found.remarks.gates, std::back_inserter(outcome.gates));
   static_cast<workflow::MeasuresFound&>(outcome) = std::move(found);
 }
 

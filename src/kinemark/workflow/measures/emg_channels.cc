@@ -36,12 +36,42 @@ double volts_of(const std::string& unit) {
   return kNaN;
 }
 
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
+
+// Whether a muscle's name may begin at a letter: at the beginning of a word, as a capital behind a small
+// letter, behind a side or a part ("LTIB", "RMGAS", "right_tib").
+bool begins_a_name(const std::string& name, std::size_t at) {
+  auto first = at;
+  while (first > 0 && is_letter(name[first - 1])) --first;
+  if (first == at || (is_upper(name[at]) && !is_upper(name[at - 1]))) return true;
+  const auto before = lowered(name.substr(first, at - first));
+  return before == "left" || before == "right" ||
+         (before.size() <= 2 && before.find_first_not_of("lrmv") == std::string::npos);
+}
+
+// "Electric" is no triceps, and a trigger none.
 bool names_a_muscle(const std::string& name) {
   constexpr std::array kParts{"quad", "ham",  "tib", "gas",  "sol",  "vas", "rec",  "bic",
                               "tri",  "delt", "glu", "sem",  "calf", "add", "pero", "trap",
                               "pect", "lat",  "abd", "obli", "erec", "ilio"};
   const auto text = lowered(name);
-  return std::ranges::any_of(kParts, [&](const char* part) { return text.find(part) != std::string::npos; });
+  return std::ranges::any_of(kParts, [&](const char* part) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+      if (begins_a_name(name, at) && text.substr(at, 4) != "trig") return true;
+    return false;
+  });
+}
+
+// A component of a force plate: "Fx", "Electric Potential.Fz", "Force.My2", "F1X".
+bool names_a_force(const std::string& name) {
+  auto text = lowered(name);
+  while (!text.empty() && !is_letter(text.back())) text.pop_back();
+  const auto begin = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz0123456789") + 1;
+  std::string word;  // the last one, without numbers
+  for (const char c : text.substr(begin))
+    if (is_letter(c)) word += c;
+  return word.size() == 2 && (word[0] == 'f' || word[0] == 'm') && word[1] >= 'x' && word[1] <= 'z';
 }
 
 analysis::EmgStretch emg_stretch_of(const data::Region& region, const data::Trial& trial) {
@@ -129,7 +159,8 @@ Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
     for (const int c : plate.channel_idx) of_plates.insert(static_cast<std::size_t>(c));
   const auto take = [&](const auto& is_one) {
     for (std::size_t c = 0; c < names.size(); ++c)
-      if (!std::isnan(volts_of(trial.analog.units[c])) && !of_plates.contains(c) && is_one(names[c]))
+      if (!std::isnan(volts_of(trial.analog.units[c])) && !of_plates.contains(c) &&
+          !names_a_force(names[c]) && is_one(names[c]))
         out.push_back(c);
   };
   take([](const std::string& name) { return lowered(name).find("emg") != std::string::npos; });

@@ -29,6 +29,22 @@ TEST(EmgChannels, ChannelsAreFoundByName) {
               HasSubstr("no analog channel 'RSQL' (nearest: RSOL"));
 }
 
+TEST(EmgChannels, AForceInVoltsIsNoMuscle) {
+  auto trial = muscles();
+  for (const auto* const name : {"Electric Potential.Fx", "Electric Potential.Mz2", "EMG plate.Fz", "F1X",
+                                 "Trigger", "Electric Potential"}) {
+    trial.analog.names[1] = name;
+    EXPECT_THAT(emg_channels(trial).value(), ElementsAre(2)) << name;
+  }
+  for (const auto* const name :
+       {"RMGAS", "L_TibAnt", "right tib", "R.Med.Hams", "myTriceps", "LLATGAS", "VASTM"}) {
+    trial.analog.names[1] = name;
+    EXPECT_THAT(emg_channels(trial).value(), ElementsAre(1, 2)) << name;
+  }
+  trial.analog.names[1] = "Electric Potential.Fx";
+  EXPECT_THAT(emg_channels(trial, {"*.Fx"}).value(), ElementsAre(1)) << "who names it has it";
+}
+
 TEST(EmgChannels, ValuesAreVoltsAndSpansThoseOfTheFrames) {
   const auto trial = muscles();
   const auto out =

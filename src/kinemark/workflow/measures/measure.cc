@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/text.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
+#include "kinemark/workflow/prepare/stated_mass.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -85,6 +87,18 @@ struct NoWalking {
   Status ends_without_plates;  ///< one that does so only where plates show nothing either
 };
 
+// A missed bound where walking rests on numbers that contradict each other.
+void add_contradictions(const std::vector<std::string>& contradicted, std::vector<data::Gate>& gates) {
+  if (contradicted.empty()) return;
+  gates.push_back(
+      {.name = "contradictions",
+       .passed = false,
+       .value = static_cast<double>(contradicted.size()),
+       .bound = 0.0,
+       .unit = "findings",
+       .sentence = fmt::format("What walking rests on is contradicted: {}.", join(contradicted, "; "))});
+}
+
 NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& asked,
                           const data::Recording& recording, Measured& found) {
   const auto& needs = options.needs;
@@ -92,6 +106,7 @@ NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& as
   auto gait = measure_gait(recording, asked.gait);
   if (gait) {
     std::ranges::copy(gait->notes, std::back_inserter(found.remarks.warnings));
+    add_contradictions(gait->contradicted, found.remarks.gates);
     if (options.of != MeasuresOf::muscles) found.measures = gait->measures;
     found.gait = std::move(*gait);
     return {};
@@ -182,9 +197,11 @@ Result<Measured> measure_as(MeasuresOf of, data::Recording recording, MeasureOpt
 Result<analysis::Gait> measure_gait(const data::Recording& recording, const analysis::GaitOptions& options) {
   auto stated = options;
   if (recording.up) stated.up = recording.up;
-  return analysis::analyze_gait(
-      recording.trial.markers,
-      {.plates = recording.plates ? &*recording.plates : nullptr, .events = recording.trial.events}, stated);
+  return analysis::analyze_gait(recording.trial.markers,
+                                {.plates = recording.plates ? &*recording.plates : nullptr,
+                                 .events = recording.trial.events,
+                                 .mass_kg = stated_mass_kg(recording.trial)},
+                                stated);
 }
 
 Result<Measured> measure_recording(data::Recording recording, const MeasureOptions& options) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "kinemark/core/random.h"
+#include "kinemark/stages/analysis/gait/testing/known_walk.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -115,6 +116,20 @@ TEST(Measure, EventsOfTheMarkersOwnMovements) {
   EXPECT_TRUE(found.rhythms[0].periodic);
   options.needs = {};
   EXPECT_THAT(measure(circle(), options).value().rhythms, IsEmpty());
+}
+
+TEST(Gait, SidesThatAreExchangedMissABound) {
+  const analysis::testing::KnownWalk walk;
+  data::Recording recording{.trial = {.markers = walk.body_markers(0.0003, 3)}};
+  MeasureOptions options;
+  options.refits = 0;
+  EXPECT_THAT(gait(recording, options).value().remarks.gates, IsEmpty());
+  for (auto& name : recording.trial.markers.names)
+    if (name.front() == 'L' || name.front() == 'R') name.front() = name.front() == 'L' ? 'R' : 'L';
+  const auto found = gait(recording, options).value();
+  ASSERT_EQ(found.remarks.gates.size(), 1U);
+  EXPECT_FALSE(found.remarks.gates[0].passed);
+  EXPECT_THAT(found.remarks.gates[0].sentence, HasSubstr("What walking rests on is contradicted: the left "));
 }
 
 }  // namespace

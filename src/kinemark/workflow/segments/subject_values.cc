@@ -5,32 +5,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <optional>
 
 #include "kinemark/core/length_unit.h"
+#include "kinemark/data/foreign_number.h"
 #include "kinemark/data/name_index.h"
 
 namespace kinemark::workflow {
 namespace {
 
 using analysis::SubjectQuantity;
-
-// A float, or a whole number of two bytes.
-std::optional<double> one_number(const data::ForeignParameter& parameter) {
-  const bool one = std::ranges::all_of(parameter.dims, [](std::uint8_t size) { return size == 1; });
-  const auto size = static_cast<std::size_t>(parameter.type == 4 ? 4 : 2);
-  if (!one || (parameter.type != 4 && parameter.type != 2) || parameter.values.size() != size)
-    return std::nullopt;
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < size; ++k) bits |= static_cast<std::uint32_t>(parameter.values[k]) << (8 * k);
-  if (parameter.type == 2) return static_cast<std::int16_t>(bits);
-  return std::bit_cast<float>(bits);
-}
 
 bool is_leg_length(const std::string& name) { return name.ends_with("LegLength"); }
 
@@ -80,7 +67,7 @@ std::vector<analysis::SubjectValue> subject_values(const data::Trial& trial,
     if (group.name != "PROCESSING") continue;
     for (const auto& parameter : group.parameters) {
       const auto* known = find_parameter(definition, parameter.name);
-      const auto value = one_number(parameter);
+      const auto value = data::number_of(parameter);
       if (known == nullptr || !value) continue;
       out.push_back(
           {known->name, *value * (known->quantity == SubjectQuantity::length ? metres : 1.0), trial.source});

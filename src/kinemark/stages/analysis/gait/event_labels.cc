@@ -119,7 +119,13 @@ std::vector<std::string> contradicted_labels(const MarkerEvents& of_markers,
   for (const auto& event : of_file) {
     const auto near = nearest_of(of_markers, event);
     const double apart = std::abs(near.later_s);
-    if (apart > std::max(kApart_s, kSds * near.sd_s) && apart < kOwnStride * of_markers.kind.stride_s)
+    if (!(apart > std::max(kApart_s, kSds * near.sd_s))) continue;
+    const auto of_other = nearest_of(of_markers, changed(event, true, false, 0.0));
+    if (std::abs(of_other.later_s) <= std::max(kSameInstant_s, 2.0 * of_other.sd_s))
+      out.push_back(
+          fmt::format("the file's {} {} at {:.3f} s lies at one that the markers show of the other foot",
+                      to_string(event.side), to_string(event.what), event.time_s));
+    else if (apart < kOwnStride * of_markers.kind.stride_s)
       out.push_back(fmt::format("{} foot: the file's {} at {:.3f} s lies {:.0f} ms {} that of the markers",
                                 to_string(event.side), to_string(event.what), event.time_s, 1e3 * apart,
                                 near.later_s > 0.0 ? "after" : "before"));

@@ -103,6 +103,22 @@ TEST(EventLabels, OneByItself) {
   EXPECT_THAT(contradicted_labels(hidden, labels()), IsEmpty());
 }
 
+TEST(EventLabels, OneOfTheOtherSide) {
+  for (const auto what : data::kFootEvents)
+    for (const auto at : {std::size_t{0}, std::size_t{2}, std::size_t{5}}) {
+      auto file = labels();
+      std::vector<GaitEvent*> of_kind;
+      for (auto& event : file)
+        if (event.what == what) of_kind.push_back(&event);
+      of_kind[at]->side = data::opposite(of_kind[at]->side);
+      const auto said = contradicted_labels(walked(), file);
+      ASSERT_EQ(said.size(), 1u);
+      EXPECT_THAT(said[0], HasSubstr("s lies at one that the markers show of the other foot"));
+    }
+  EXPECT_THAT(contradicted_labels(walked(), labels()),
+              Not(Contains(HasSubstr("s lies at one that the markers show of the other foot"))));
+}
+
 TEST(EventLabels, MarkersOfNoGaitContradictNobody) {
   auto none = walked();
   none.kind.not_gait = "no foot swings";

@@ -85,10 +85,9 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
   std::array<std::optional<GaitEvent>, 2> before;
   for (const auto& event : read) {
     auto& same_side = before[data::index_of(event.side)];
-    // A file may have one kind alone; where it has both, they take turns.
-    const bool turns = std::ranges::any_of(
-        read, [&](const auto& other) { return other.side == event.side && other.what != event.what; });
-    if (turns && same_side && same_side->what == event.what) {
+    // A file may have one kind alone; where it has both, be it of the other foot, they take turns.
+    const bool turns = std::ranges::any_of(read, [&](const auto& other) { return other.what != event.what; });
+    if (same_side && same_side->what == event.what) {
       const auto between =
           data::to_string(event.what == FootEvent::strike ? FootEvent::off : FootEvent::strike);
       if (event.time_s - same_side->time_s < kRepeated_s) {
@@ -96,9 +95,10 @@ FileEvents events_of_file(std::span<const data::Event> events, const TimeBase& t
                                         name_of(event), between));
         continue;
       }
-      out.notes.push_back(fmt::format("no {} {} is labelled between {} and the next at {:.3f} s",
-                                      data::to_string(event.side), between, name_of(*same_side),
-                                      event.time_s));
+      if (turns)
+        out.notes.push_back(fmt::format("no {} {} is labelled between {} and the next at {:.3f} s",
+                                        data::to_string(event.side), between, name_of(*same_side),
+                                        event.time_s));
     }
     same_side = event;
     out.events.push_back(event);

@@ -103,13 +103,30 @@ TEST(FileEventTurns, AreTakenBySidesApart) {
                                         {"LTO", "", 2.7}, {"RHS", "", 2.5}, {"RHS", "", 3.5}};
   const auto found = events_of_file(events, kFiveSeconds);
   EXPECT_EQ(found.events.size(), 4u);
-  ASSERT_EQ(found.notes.size(), 2u);
+  ASSERT_EQ(found.notes.size(), 3u);
   EXPECT_EQ(found.notes[0],
             "the file's event Left Foot Strike at 2.200 s follows another of its kind, with no Foot Off "
             "between, and is left out");
   EXPECT_EQ(found.notes[1],
             "the file's event Left Foot Off at 2.700 s follows another of its kind, with no Foot Strike "
             "between, and is left out");
+  EXPECT_EQ(
+      found.notes[2],
+      "no Right Foot Off is labelled between the file's event Right Foot Strike at 2.500 s and the next at "
+      "3.500 s")
+      << "a file that labels offs labels those of both feet";
+}
+
+TEST(FileEventTurns, WhereNoOffIsLabelledNoneIsMissedAndNoStrikeComesTwice) {
+  const auto found = events_of_file(
+      std::vector<data::Event>{{"LHS", "", 2.0}, {"LHS", "", 3.0}, {"LHS", "", 3.2}, {"RHS", "", 2.5}},
+      kFiveSeconds);
+  EXPECT_EQ(found.events.size(), 3u);
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_EQ(found.notes[0],
+            "the file's event Left Foot Strike at 3.200 s follows another of its kind, with no Foot Off "
+            "between, and "
+            "is left out");
 }
 
 TEST(FileEventTurns, OneThatIsNotLabelledIsSaidAndItsNeighboursStand) {

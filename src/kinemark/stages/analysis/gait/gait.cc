@@ -17,6 +17,7 @@
 #include "kinemark/stages/analysis/gait/event_labels.h"
 #include "kinemark/stages/analysis/gait/marker_events.h"
 #include "kinemark/stages/analysis/gait/plate_events.h"
+#include "kinemark/stages/analysis/gait/plate_facts.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 
@@ -328,6 +329,27 @@ std::string axis_name(const Eigen::Vector3d& direction) {
   return fmt::format("{}{}", direction[axis] < 0.0 ? "-" : "", "xyz"[axis]);
 }
 
+// What of names, plates and labels contradicts something else; labels count where events are those of the
+// file.
+void take_contradictions(const GaitSmoother& smoother, const MarkerEvents& of_markers,
+                         const GaitEvidence& evidence, const FileEvents& of_file, const EventsFound& found,
+                         Gait& out) {
+  const bool goes = of_markers.kind.not_gait.empty();
+  if (goes) out.contradicted = name_findings_of(smoother, of_markers, NamesOf::sides);
+  std::vector<std::string> more;
+  if (evidence.plates != nullptr && goes)
+    more = contradicted_plates(*evidence.plates, smoother.in_laboratory(), smoother.upright(),
+                               of_markers.kind.stride_s, evidence.mass_kg);
+  std::ranges::copy(more, std::back_inserter(out.contradicted));
+  std::ranges::copy(of_file.notes, std::back_inserter(more));
+  std::ranges::copy(more, std::back_inserter(out.notes));
+  const bool by_file = std::ranges::any_of(
+      found.events, [](const auto& event) { return event.source == data::EventSource::file; });
+  if (!by_file) return;
+  std::ranges::copy(of_file.notes, std::back_inserter(out.contradicted));
+  std::ranges::copy(contradicted_labels(of_markers, of_file.events), std::back_inserter(out.contradicted));
+}
+
 }  // namespace
 
 double event_noise(std::span<const double> moved_s) {
@@ -363,8 +385,8 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
     of_plates = find_plate_events(*evidence.plates, smoother->in_laboratory(), smoother->upright());
   std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
   auto of_file = events_of_file(evidence.events, markers.time);
-  std::ranges::move(of_file.notes, std::back_inserter(out.notes));
   const auto found = find_gait_events(*of_markers, of_plates.events, of_file.events, options.choice);
+  take_contradictions(*smoother, *of_markers, evidence, of_file, found, out);
   if (found.events.empty())
     return fail(Code::bad_input, fmt::format("there are no events of feet by {}", to_string(options.choice)));
   out.agreement = found.agreement;
@@ -379,19 +401,6 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   take_strides(out);
   if (out.kind.not_gait.empty()) out.notes.insert(out.notes.begin(), out.kind.sentence());
   return out;
-}
-
-std::vector<std::string> contradicted_events(const data::Trajectories& markers,
-                                             std::span<const data::Event> events) {
-  const auto of_file = events_of_file(events, markers.time);
-  if (of_file.events.empty()) return {};
-  const auto which = find_gait_markers(markers, {});
-  if (!which) return {};
-  auto smoother = GaitSmoother::create(markers, *which, 0.0, std::nullopt);
-  if (!smoother) return {};
-  const auto of_markers = find_marker_events(*smoother, *which);
-  if (!of_markers) return {};
-  return contradicted_labels(*of_markers, of_file.events);
 }
 
 }  // namespace kinemark::analysis

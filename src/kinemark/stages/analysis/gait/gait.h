@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
 #include "kinemark/data/edit.h"
 #include "kinemark/data/gait_event.h"
@@ -43,6 +44,7 @@ struct GaitEvidence {
   const data::Wrenches* plates =
       nullptr;                      ///< on the recording's clock, not cut off at a threshold; may be absent
   std::vector<data::Event> events;  ///< the file's own
+  double mass_kg = kNaN;            ///< of the body, as the file or somebody states it; NaN: nobody does
 };
 
 /// Walking.
@@ -57,6 +59,9 @@ struct Gait {
   std::vector<Agreement> agreement;     ///< between sources
   bool out_of_step = false;             ///< plates and markers do not run on one clock
   std::vector<PathNoise> noises;        ///< that intervals rest on, of feet and pelvis; empty: no refits
+  std::vector<std::string>
+      contradicted;                ///< numbers that events or measures rest on and that contradict each
+                                   ///< other, a sentence each; all of them are among the notes, too
   std::vector<std::string> notes;  ///< kind, markers, sources, what is hidden or missing; a sentence each
 };
 
@@ -72,10 +77,11 @@ struct Gait {
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
 
-/// What analyze_gait() says of the file's own events that the markers contradict (event_labels.h), without
-/// measuring. Nothing without events of feet and where markers tell no gait.
-[[nodiscard]] std::vector<std::string> contradicted_events(const data::Trajectories& markers,
-                                                           std::span<const data::Event> events);
+/// What analyze_gait() says of numbers that contradict each other, without measuring: the file's events among
+/// themselves and against those of the markers, names of sides, heel and toe against where the markers are,
+/// forces of plates against feet and mass. Only the first where no feet are found, or markers tell no gait.
+[[nodiscard]] std::vector<std::string> contradictions_of(const data::Trajectories& markers,
+                                                         const GaitEvidence& evidence);
 
 /// What noise does to the time of an event: root mean square over the refits that find it. NaN where more
 /// than a tenth do not: those that do are then no sample of all.

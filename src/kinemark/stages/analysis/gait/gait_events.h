@@ -68,7 +68,8 @@ inline constexpr double kFileOffset_s = 0.016, kFileOwn_s = 0.01;
 /// The file's own events of feet: "Foot Strike", "Foot Off", "Toe Off", "Heel Strike" with their sides, or
 /// "LHS", "RTO" and the like; others are not about feet. An event outside the recording, and one that follows
 /// another of its kind and side within 0.3 s with none between, is left out and told. Where one follows
-/// later, both stand, and the one that is not labelled between them is told.
+/// later, both stand, and the one that is not labelled between them is told, in a file that labels such of
+/// either foot.
 struct FileEvents {
   std::vector<data::GaitEvent>
       events;  ///< ascending in time, with kFileOffset_s, kFileOwn_s and a frame in the SD

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "kinemark/core/text.h"
 #include "kinemark/math/statistics.h"
@@ -37,12 +39,19 @@ class Findings {
       }
     tell_both();
     tell_ends();
+    tell_doubt();
     tell_sides();
     if (sd_factor(found_.kind.direction) > 1.0)
       out_.push_back(
           fmt::format("no plates have judged events of going {}: their SDs are {:.1f} times those of going "
                       "forward",
                       to_string(found_.kind.direction), sd_factor(found_.kind.direction)));
+    return std::move(out_);
+  }
+
+  std::vector<std::string> tell_of(NamesOf names) {
+    if (names == NamesOf::ends_and_sides) tell_ends();
+    tell_sides();
     return std::move(out_);
   }
 
@@ -106,28 +115,42 @@ class Findings {
 
   void tell_ends() {
     const auto& ends = found_.ends;
-    std::vector<std::string> pairs;
     for (const Side side : data::kBothSides) {
-      const auto& foot = smoother_.paths().foot(side);
-      if (!foot.present() || !foot.points) continue;
-      auto [heel, toe] = smoother_.ends_of(side);
-      if (ends.exchanged[data::index_of(side)]) {
-        std::swap(heel, toe);  // as they are named
-        out_.push_back(
-            fmt::format("{} and {} are exchanged: {}; walking is measured with them exchanged back", heel,
-                        toe, ends.why(side, heel, toe)));
-      }
-      pairs.push_back(fmt::format("{} with {}", heel, toe));
+      if (!points(side) || !ends.exchanged[data::index_of(side)]) continue;
+      const auto [heel, toe] = names_of_ends(side);
+      out_.push_back(fmt::format("{} and {} are exchanged: {}; walking is measured with them exchanged back",
+                                 heel, toe, ends.why(side, heel, toe)));
     }
-    if (ends.doubtful)
-      out_.push_back(fmt::format(
-          "whether the body goes forward or backward cannot be known: heel and toe may be exchanged "
-          "({}), and nothing else tells for sure",
-          join_names(pairs, pairs.size())));
     if (ends.pelvis_exchanged)
       out_.emplace_back(
           "the front of the pelvis points against the feet: the names of its front and its back are "
           "exchanged");
+  }
+
+  void tell_doubt() {
+    if (!found_.ends.doubtful) return;
+    std::vector<std::string> pairs;
+    for (const Side side : data::kBothSides)
+      if (points(side)) {
+        const auto [heel, toe] = names_of_ends(side);
+        pairs.push_back(fmt::format("{} with {}", heel, toe));
+      }
+    out_.push_back(fmt::format(
+        "whether the body goes forward or backward cannot be known: heel and toe may be exchanged "
+        "({}), and nothing else tells for sure",
+        join_names(pairs, pairs.size())));
+  }
+
+  [[nodiscard]] bool points(Side side) const {
+    const auto& foot = smoother_.paths().foot(side);
+    return foot.present() && foot.points;
+  }
+
+  // As the file names them.
+  [[nodiscard]] std::array<std::string, 2> names_of_ends(Side side) const {
+    auto names = smoother_.ends_of(side);
+    if (found_.ends.exchanged[data::index_of(side)]) std::swap(names[0], names[1]);
+    return names;
   }
 
   // Feet may cross over: they speak of sides by their outer ankles alone.
@@ -173,6 +196,11 @@ class Findings {
 
 std::vector<std::string> findings_of(const GaitSmoother& smoother, const MarkerEvents& found) {
   return Findings(smoother, found).tell();
+}
+
+std::vector<std::string> name_findings_of(const GaitSmoother& smoother, const MarkerEvents& found,
+                                          NamesOf names) {
+  return Findings(smoother, found).tell_of(names);
 }
 
 }  // namespace kinemark::analysis

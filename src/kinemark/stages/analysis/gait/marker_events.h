@@ -44,4 +44,14 @@ struct MarkerEvents {
 /// front and the back of the pelvis, or of sides that are exchanged.
 [[nodiscard]] std::vector<std::string> findings_of(const GaitSmoother& smoother, const MarkerEvents& found);
 
+/// Which names are held against where their markers are.
+enum class NamesOf : std::uint8_t {
+  sides,           ///< left and right
+  ends_and_sides,  ///< heel and toe, front and back of the pelvis, too; walking is measured with them
+                   ///< exchanged back
+};
+/// Of these, that names contradict where markers are.
+[[nodiscard]] std::vector<std::string> name_findings_of(const GaitSmoother& smoother,
+                                                        const MarkerEvents& found, NamesOf names);
+
 }  // namespace kinemark::analysis
