@@ -73,18 +73,21 @@ Result<std::string> read_plain_begin(const std::filesystem::path& path) {
   return begin;
 }
 
-/// What a text is that no reader knows, and what would bring it in; empty: it is no text.
+/// What a text is that no reader knows, and what would bring it in; empty: it is no text. Nothing of it is
+/// quoted: a page of `serve` shows this, and the file may be anybody's.
 std::string describe_text(std::string_view begin) {
-  constexpr std::size_t kShown = 60;
   if (begin.find('\0') != std::string_view::npos) return {};
-  if (begin.find("Kinovea") < begin.find('\n'))
+  const auto line = begin.substr(0, begin.find_first_of("\r\n"));
+  if (line.find("Kinovea") != std::string_view::npos)
     return ": it holds paths that Kinovea followed in the image of one camera, and no positions in space";
-  std::string line(begin.substr(0, begin.find_first_of("\r\n")));
-  std::ranges::replace(line, '\t', ' ');
+  const auto tabs = std::ranges::count(line, '\t'), commas = std::ranges::count(line, ',');
+  const std::string cells = tabs > 0     ? fmt::format("{} cells between tabs", tabs + 1)
+                            : commas > 0 ? fmt::format("{} cells between commas", commas + 1)
+                                         : "one cell";
   return fmt::format(
-      ": its first line is '{}', and a table of coordinates has labels there such as time, LASI_X, LASI_Y, "
-      "LASI_Z",
-      printable(line, kShown));
+      ": its first line has {}, and a table of coordinates has labels there such as time, LASI_X, "
+      "LASI_Y, LASI_Z",
+      cells);
 }
 
 /// As the reader of its format reads it; `box_m` around its samples where that reader knows it.

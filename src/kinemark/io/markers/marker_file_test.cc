@@ -84,10 +84,12 @@ TEST(MarkerFile, OtherFilesAreAnsweredWithWhatIsSupported) {
   ASSERT_TRUE(write_text(scratch / "README", "aPlain text with a P in second place", false));
   const auto motion = read_markers(scratch / "q.mot");
   EXPECT_EQ(motion.error().code, Code::not_supported);
-  EXPECT_THAT(motion.error().message,
-              ::testing::AllOf(HasSubstr("a .mot file is not read as a marker file: its first line is '"),
-                               HasSubstr("labels there such as time, LASI_X, LASI_Y, LASI_Z; supported are "
-                                         "C3D (.c3d), TRC (.trc), NWB")));
+  EXPECT_THAT(
+      motion.error().message,
+      ::testing::AllOf(
+          HasSubstr("a .mot file is not read as a marker file: its first line has one cell, and a table of "),
+          HasSubstr("labels there such as time, LASI_X, LASI_Y, LASI_Z; supported are "
+                    "C3D (.c3d), TRC (.trc), NWB")));
   ASSERT_TRUE(write_text(scratch / "ball.txt", "#Kinovea Trajectory data export\n#T X Y\n0 1 2\n", true));
   EXPECT_THAT(
       read_markers(scratch / "ball.txt").error().message,
@@ -95,7 +97,11 @@ TEST(MarkerFile, OtherFilesAreAnsweredWithWhatIsSupported) {
           "it holds paths that Kinovea followed in the image of one camera, and no positions in space"));
   ASSERT_TRUE(write_text(scratch / "tabs.txt", "Time\tFP1.ForX\n0\t1\n", true));
   EXPECT_THAT(read_markers(scratch / "tabs.txt").error().message,
-              HasSubstr("its first line is 'Time FP1.ForX'"));
+              HasSubstr("its first line has 2 cells between tabs, and"));
+  ASSERT_TRUE(write_text(scratch / "commas.txt", "when,where,who\n0,1,2\n", true));
+  EXPECT_THAT(
+      read_markers(scratch / "commas.txt").error().message,
+      ::testing::AllOf(HasSubstr("its first line has 3 cells between commas, and"), Not(HasSubstr("where"))));
   ASSERT_TRUE(write_text(scratch / "bytes.dat", std::string("a\0b", 3), true));
   EXPECT_THAT(read_markers(scratch / "bytes.dat").error().message,
               HasSubstr("a .dat file is not read as a marker file; supported are"));

@@ -152,6 +152,14 @@ bool keeps_its_place(const StandingBody::Marker& marker) {
          landmark->part == BodyPart::shank || landmark->part == BodyPart::foot;
 }
 
+/// Two of one cluster, whose names say no more than the segment: without a second recording nobody knows
+/// which of them is which, and the other leg's cluster may be counted otherwise.
+bool are_of_one_cluster(const StandingBody::Marker& a, const StandingBody::Marker& b) {
+  const auto one = landmark_of(a.name), other = landmark_of(b.name);
+  return one && other && one->part == other->part && one->side == other->side &&
+         one->x_in_part == other->x_in_part;
+}
+
 /// What movements tell of the body, less sure by how far markers lie from one recording to the next.
 internal::SharedPrior prior_with(const StandingBody& body, const internal::SharedPrior& prior,
                                  const std::vector<internal::SeenFrame>& frames, double between_sd_m) {
@@ -346,7 +354,8 @@ Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
     for (const auto* frame : {&frames.front(), &frames[frames.size() / 2]})
       for (const auto& h : internal::explain(body, prior, *frame))
         if (h.second >= 0 && h.score > options.least_score && keeps_its_place(body.markers[at(h.first)]) &&
-            keeps_its_place(body.markers[at(h.second)]))
+            keeps_its_place(body.markers[at(h.second)]) &&
+            !are_of_one_cluster(body.markers[at(h.first)], body.markers[at(h.second)]))
           pairs.emplace(h.first, h.second);
     FoundationFinding best;
     best.score = options.least_score;

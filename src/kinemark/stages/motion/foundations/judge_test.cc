@@ -420,6 +420,32 @@ TEST(Judge, ExchangesInAMovementAreFoundThereAndSoundOnesAccuseNobody) {
   EXPECT_TRUE(judge_movement(body_of_names(nobody.names), nobody)->empty());
 }
 
+TEST(Judge, MarkersOfOneClusterThatAreCountedOtherwiseOnTheOtherLegAreNotExchanged) {
+  auto person = subject(31);
+  const auto thigh_of = [&](const std::string& name) {
+    return std::ranges::find(person.markers, name, &data::MarkerDescription::name)->body_idx;
+  };
+  const auto left = thigh_of("LTHI"), right = thigh_of("RTHI");
+  // Down the left thigh 1, 2, 3, down the right one 3, 2, 1.
+  for (int k = 0; k < 3; ++k) {
+    const double down_m = -0.12 - 0.08 * k;
+    for (const bool of_left : {true, false}) {
+      auto marker =
+          *std::ranges::find(person.markers, of_left ? "LTHI" : "RTHI", &data::MarkerDescription::name);
+      marker.name = (of_left ? "LTHI" : "RTHI") + std::to_string(of_left ? k + 1 : 3 - k);
+      marker.body_idx = of_left ? left : right;
+      marker.x_in_body = Vector3d(0.03 + 0.02 * (k % 2), down_m, (of_left ? -0.07 : 0.07) + 0.01 * k);
+      person.markers.push_back(marker);
+    }
+  }
+  auto movement = frames(person, 40, 0.25, 131);
+  const auto found = judge_movement(body_of_names(movement.names), movement);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_TRUE(found->empty()) << found->front().marker << " " << found->front().partner;
+  exchange(movement, "LTOE", "LHEE");
+  EXPECT_EQ(judge_movement(body_of_names(movement.names), movement).value().size(), 1U);
+}
+
 TEST(Judge, ThighWandsAtDifferentHeightsAreAsPrescribed) {
   auto still = frames(subject(11), 9, 0.03, 11);
   move(still, "LTHI", Vector3d(0.0, -0.06, 0.0));
