@@ -252,7 +252,7 @@ def heel_and_toe_exchanged(folder, draw):
 def one_frame_flickers(folder, draw):
     trc = walk(draw)
     unit = 1.0 if "\tmm\t" in trc.head[2] else 0.001
-    name, size = draw.choice([n for n in trc.names if LEGS.search(n)]), unit * draw.uniform(15, 60)
+    name, size = draw.choice([n for n in trc.names if LEGS.search(n)] or trc.names), unit * draw.uniform(15, 60)
     at = draw.randrange(8, len(trc.rows) - 8)
     way = [draw.gauss(0, 1) for _ in range(3)]
     length = math.hypot(*way)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/analysis/gait/event_labels.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,6 +118,26 @@ TEST(EventLabels, OneOfTheOtherSide) {
     }
   EXPECT_THAT(contradicted_labels(walked(), labels()),
               Not(Contains(HasSubstr("s lies at one that the markers show of the other foot"))));
+}
+
+TEST(EventLabels, OneMoreThatLeavesNoTimeToStandOrToSwing) {
+  // The left foot stands already when the markers begin to tell of it.
+  auto seen = walked();
+  std::erase_if(seen.events, [](const auto& one) { return one.side == Side::left && one.time_s < 1.0; });
+  const auto off = *std::ranges::find_if(
+      seen.events, [](const auto& one) { return one.side == Side::left && one.what == FootEvent::off; });
+  auto file = seen.events;
+  EXPECT_THAT(contradicted_labels(seen, file), IsEmpty());
+  GaitEvent strike{.side = Side::left, .what = FootEvent::strike, .time_s = off.time_s - 0.3, .sd_s = 0.015};
+  file.push_back(strike);
+  EXPECT_THAT(contradicted_labels(seen, file),
+              ElementsAre(fmt::format(
+                  "the file's Left Foot Strike at {:.3f} s lies 300 ms before the Foot Off that the "
+                  "markers show of that foot: no stance is so short",
+                  strike.time_s)));
+  file.back().time_s = off.time_s - 0.62 * 1.1;  // where the foot did come down
+  EXPECT_THAT(contradicted_labels(seen, file),
+              Not(Contains(HasSubstr("that the markers show of that foot: no stance is so short"))));
 }
 
 TEST(EventLabels, MarkersOfNoGaitContradictNobody) {
