@@ -200,6 +200,9 @@ double over_the_same(const analysis::Gait& whole, const analysis::Gait& gait, co
     if (!std::isfinite(cycle.off_s)) one.off_s = kNaN;
     if (!std::isfinite(cycle.other_off_s)) one.other_off_s = kNaN;
     if (!std::isfinite(cycle.other_strike_s)) one.other_strike_s = kNaN;
+    if (!std::isfinite(cycle.print.x.x())) one.print = cycle.print;
+    if (!std::isfinite(cycle.other_print.x.x())) one.other_print = cycle.other_print;
+    if (!std::isfinite(cycle.next_print.x.x())) one.next_print = cycle.next_print;
     cycles.push_back(one);
   }
   return definition.value(cycles);
