@@ -28,7 +28,6 @@ namespace {
 
 using namespace kinemark;
 using data::GaitEvent;
-using data::Side;
 using testing_support::print_note;
 using testing_support::print_row;
 
