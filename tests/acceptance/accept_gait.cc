@@ -198,7 +198,7 @@ int run(int argc, char** argv) {
             fmt::format("{} of {}", count, count), fmt::format("{} of {}", recognised, count));
   judge_events(walkers);
   for (const auto& definition : analysis::gait_definitions())
-    if (!definition.squared) judge_measure(std::string(definition.what.id), walkers);
+    if (!definition.is_deviation()) judge_measure(std::string(definition.what.id), walkers);
   return testing_support::exit_status();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include "kinemark/core/index.h"
 #include "kinemark/io/file.h"
@@ -19,39 +20,41 @@ double time_of(const data::Orientations& what, std::int64_t f) {
   return std::round(1e9 * what.time.time_s(f)) / 1e9;
 }
 
-std::string opensense_text(const data::Orientations& what) {
-  std::string out = fmt::format(
-      "DataRate={}\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.1\nendheader\ntime", what.time.rate_hz);
-  for (const auto& name : what.names) out += "\t" + name;
+/// How a table sets its cells.
+struct Cells {
+  char before_sensor;        ///< between the time, or a sensor, and the next
+  std::string_view missing;  ///< the four numbers of a sample that is none
+};
+
+void put_rows(const data::Orientations& what, const Cells& cells, std::string& out) {
   const auto to = std::back_inserter(out);
   for (std::int64_t f = 0; f < what.frames(); ++f) {
     fmt::format_to(to, "\n{}", time_of(what, f));
     for (std::int64_t s = 0; s < what.size(); ++s) {
       const double* q = what.quaternion.data() + 4 * (f * what.size() + s);
+      out += cells.before_sensor;
       if (what.present(f, s))
-        fmt::format_to(to, "\t{},{},{},{}", q[0], q[1], q[2], q[3]);
+        fmt::format_to(to, "{},{},{},{}", q[0], q[1], q[2], q[3]);
       else
-        out += "\tNaN,NaN,NaN,NaN";
+        out += cells.missing;
     }
   }
-  return out + "\n";
+  out += '\n';
+}
+
+std::string opensense_text(const data::Orientations& what) {
+  std::string out = fmt::format(
+      "DataRate={}\nDataType=Quaternion\nversion=3\nOpenSimVersion=4.1\nendheader\ntime", what.time.rate_hz);
+  for (const auto& name : what.names) out += "\t" + name;
+  put_rows(what, {.before_sensor = '\t', .missing = "NaN,NaN,NaN,NaN"}, out);
+  return out;
 }
 
 std::string csv_text(const data::Orientations& what) {
   std::string out = "time";
   for (const auto& name : what.names) out += fmt::format(",{0}_w,{0}_x,{0}_y,{0}_z", name);
-  const auto to = std::back_inserter(out);
-  for (std::int64_t f = 0; f < what.frames(); ++f) {
-    fmt::format_to(to, "\n{}", time_of(what, f));
-    for (std::int64_t s = 0; s < what.size(); ++s) {
-      const double* q = what.quaternion.data() + 4 * (f * what.size() + s);
-      if (what.present(f, s))
-        fmt::format_to(to, ",{},{},{},{}", q[0], q[1], q[2], q[3]);
-      else
-        out += ",,,,";
-    }
-  }
-  return out + "\n";
+  put_rows(what, {.before_sensor = ',', .missing = ",,,"}, out);
+  return out;
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cctype>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -13,26 +11,15 @@
 #include "kinemark/core/counted.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/data/likely_pairs.h"
 #include "kinemark/pipeline/files/file_table.h"
 
 namespace kinemark::pipeline {
 namespace {
 
-/// A word as a shell takes it.
-std::string quoted(const std::string& word) {
-  constexpr std::string_view kPlain = "-_./=,:+%@";
-  const bool plain = !word.empty() && std::ranges::all_of(word, [&](unsigned char c) {
-    return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string command_of(const RunStep& step) {
   std::string out = "kinemark";
-  for (const auto& word : step.words) out += " " + quoted(word);
+  for (const auto& word : step.words) out += " " + data::for_shell(word);
   return out;
 }
 

@@ -1,15 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stages/analysis/gait/contradictions.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "kinemark/stages/analysis/gait/event_labels.h"
-#include "kinemark/stages/analysis/gait/gait.h"
-#include "kinemark/stages/analysis/gait/marker_events.h"
 #include "kinemark/stages/analysis/gait/plate_facts.h"
 
 namespace kinemark::analysis {
+
+Contradictions find_contradictions(const GaitSmoother& smoother, const MarkerEvents& of_markers,
+                                   const GaitEvidence& evidence, std::span<const data::GaitEvent> labels,
+                                   NamesOf names) {
+  Contradictions out{.labels = contradicted_labels(of_markers, labels)};
+  if (!of_markers.kind.not_gait.empty()) return out;
+  out.names = name_findings_of(smoother, of_markers, names);
+  if (evidence.plates != nullptr)
+    out.plates = contradicted_plates(*evidence.plates, smoother.in_laboratory(), smoother.upright(),
+                                     of_markers.kind.stride_s, evidence.mass_kg);
+  return out;
+}
 
 std::vector<std::string> contradictions_of(const data::Trajectories& markers, const GaitEvidence& evidence) {
   auto of_file = events_of_file(evidence.events, markers.time);
@@ -20,15 +32,10 @@ std::vector<std::string> contradictions_of(const data::Trajectories& markers, co
   if (!smoother) return out;
   const auto of_markers = find_marker_events(*smoother, *which);
   if (!of_markers) return out;
-  const bool goes = of_markers->kind.not_gait.empty();
-  if (goes)
-    std::ranges::move(name_findings_of(*smoother, *of_markers, NamesOf::ends_and_sides),
-                      std::back_inserter(out));
-  std::ranges::move(contradicted_labels(*of_markers, of_file.events), std::back_inserter(out));
-  if (evidence.plates != nullptr && goes)
-    std::ranges::move(contradicted_plates(*evidence.plates, smoother->in_laboratory(), smoother->upright(),
-                                          of_markers->kind.stride_s, evidence.mass_kg),
-                      std::back_inserter(out));
+  const auto found =
+      find_contradictions(*smoother, *of_markers, evidence, of_file.events, NamesOf::ends_and_sides);
+  for (const auto* kind : {&found.names, &found.labels, &found.plates})
+    std::ranges::copy(*kind, std::back_inserter(out));
   return out;
 }
 

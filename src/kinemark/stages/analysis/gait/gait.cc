@@ -14,12 +14,10 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
-#include "kinemark/stages/analysis/gait/event_labels.h"
+#include "kinemark/stages/analysis/gait/contradictions.h"
 #include "kinemark/stages/analysis/gait/marker_events.h"
 #include "kinemark/stages/analysis/gait/plate_events.h"
-#include "kinemark/stages/analysis/gait/plate_facts.h"
 #include "kinemark/stages/analysis/gait/spatiotemporal.h"
-#include "kinemark/stages/analysis/path/pivot.h"
 
 namespace kinemark::analysis {
 namespace {
@@ -108,8 +106,9 @@ class GaitMeasurement {
       for (std::int64_t k = begin; k < end; ++k) {
         const auto again = refit(k, noise);
         for (std::size_t i = 0; i < slots_.size(); ++i)
-          deviations[i][at(k)] = slots_[i].definition->squared ? again[i] * again[i] - values[i] * values[i]
-                                                               : again[i] - values[i];
+          deviations[i][at(k)] = slots_[i].definition->is_deviation()
+                                     ? again[i] * again[i] - values[i] * values[i]
+                                     : again[i] - values[i];
       }
     });
     out.events = found_.events;
@@ -213,15 +212,6 @@ class GaitMeasurement {
     return values_of(cycles);
   }
 
-  // A swing that lasts longer is cut short by as large a share: errors of events can go against what strides
-  // differ by, and then take from their SD what those that go their own way add.
-  static Pivoted interval_of(const GaitDefinition& of, double value, std::span<const double> deviations,
-                             double level) {
-    if (!of.squared) return pivot(value, deviations, level);
-    return of.what.quantity == data::Quantity::time ? wide_pivot_of_square(value, deviations, level)
-                                                    : pivot_of_square(value, deviations, level);
-  }
-
   void state(const Slot& slot, double value, std::span<const double> deviations, Gait& out) const {
     const auto& definition = *slot.definition;
     const bool asked = !options_.measures.empty();
@@ -250,10 +240,10 @@ class GaitMeasurement {
         measure.remark = definition.of_other ? "no stride of the other foot was seen whole"
                                              : "no stride was seen from strike to strike";
       else
-        measure.remark = definition.squared ? "too few strides show what it needs"
-                                            : "what it needs was not seen in any stride";
+        measure.remark = definition.is_deviation() ? "too few strides show what it needs"
+                                                   : "what it needs was not seen in any stride";
     } else if (options_.refits > 0) {
-      const auto pivoted = interval_of(definition, value, deviations, options_.level);
+      const auto pivoted = definition.interval(value, deviations, options_.level);
       if (std::isfinite(pivoted.value)) {
         measure.uncorrected = value;
         measure.value = pivoted.value;
@@ -261,7 +251,7 @@ class GaitMeasurement {
         measure.interval.kind = data::IntervalKind::two_sided;
         measure.interval.low = pivoted.low;
         measure.interval.high = pivoted.high;
-        if (definition.squared && pivoted.low <= 0.0) {
+        if (definition.is_deviation() && pivoted.low <= 0.0) {
           measure.interval.kind = data::IntervalKind::at_most;
           measure.interval.low = kNaN;
           measure.remark = "not distinguishable from 0";
@@ -329,25 +319,18 @@ std::string axis_name(const Eigen::Vector3d& direction) {
   return fmt::format("{}{}", direction[axis] < 0.0 ? "-" : "", "xyz"[axis]);
 }
 
-// What of names, plates and labels contradicts something else; labels count where events are those of the
-// file.
-void take_contradictions(const GaitSmoother& smoother, const MarkerEvents& of_markers,
-                         const GaitEvidence& evidence, const FileEvents& of_file, const EventsFound& found,
+// What contradicts something that is measured here; labels count where events are those of the file.
+void take_contradictions(const Contradictions& against, const FileEvents& of_file, const EventsFound& found,
                          Gait& out) {
-  const bool goes = of_markers.kind.not_gait.empty();
-  if (goes) out.contradicted = name_findings_of(smoother, of_markers, NamesOf::sides);
-  std::vector<std::string> more;
-  if (evidence.plates != nullptr && goes)
-    more = contradicted_plates(*evidence.plates, smoother.in_laboratory(), smoother.upright(),
-                               of_markers.kind.stride_s, evidence.mass_kg);
-  std::ranges::copy(more, std::back_inserter(out.contradicted));
-  std::ranges::copy(of_file.notes, std::back_inserter(more));
-  std::ranges::copy(more, std::back_inserter(out.notes));
+  const auto add = [](const std::vector<std::string>& from, std::vector<std::string>& to) {
+    std::ranges::copy(from, std::back_inserter(to));
+  };
+  for (const auto* said : {&against.plates, &of_file.notes}) add(*said, out.notes);
+  for (const auto* said : {&against.names, &against.plates}) add(*said, out.contradicted);
   const bool by_file = std::ranges::any_of(
       found.events, [](const auto& event) { return event.source == data::EventSource::file; });
-  if (!by_file) return;
-  std::ranges::copy(of_file.notes, std::back_inserter(out.contradicted));
-  std::ranges::copy(contradicted_labels(of_markers, of_file.events), std::back_inserter(out.contradicted));
+  if (by_file)
+    for (const auto* said : {&of_file.notes, &against.labels}) add(*said, out.contradicted);
 }
 
 }  // namespace
@@ -386,7 +369,8 @@ Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence&
   std::ranges::move(of_plates.notes, std::back_inserter(out.notes));
   auto of_file = events_of_file(evidence.events, markers.time);
   const auto found = find_gait_events(*of_markers, of_plates.events, of_file.events, options.choice);
-  take_contradictions(*smoother, *of_markers, evidence, of_file, found, out);
+  take_contradictions(find_contradictions(*smoother, *of_markers, evidence, of_file.events, NamesOf::sides),
+                      of_file, found, out);
   if (found.events.empty())
     return fail(Code::bad_input, fmt::format("there are no events of feet by {}", to_string(options.choice)));
   out.agreement = found.agreement;

@@ -380,7 +380,7 @@ TEST(GaitDefinitions, HaveNamesOfTheirOwn) {
   for (const auto& definition : gait_definitions()) {
     EXPECT_EQ(find_gait_definition(definition.what.id), &definition);
     EXPECT_FALSE(definition.what.formula.empty() || definition.what.source.empty());
-    EXPECT_TRUE(std::isnan(definition.value({})) || definition.squared);
+    EXPECT_TRUE(std::isnan(definition.value({})) || definition.is_deviation());
   }
   EXPECT_EQ(find_gait_definition("stride"), nullptr);
 }

@@ -146,7 +146,7 @@ TEST(Spatiotemporal, OfNoCycleTellNothing) {
 TEST(Spatiotemporal, OnlyDeviationsAreCorrectedAsSquaresAndOnlyStepsAreOfTheOtherFoot) {
   for (const auto& definition : gait_definitions()) {
     const std::string id(definition.what.id);
-    EXPECT_EQ(definition.squared, id.ends_with("_sd")) << id;
+    EXPECT_EQ(definition.is_deviation(), id.ends_with("_sd")) << id;
     EXPECT_EQ(definition.of_other, id == "step_time" || id == "step_length") << id;
   }
 }
