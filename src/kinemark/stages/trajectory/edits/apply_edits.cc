@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
-#include "kinemark/stages/trajectory/edits/internal/event_edits.h"
 #include "kinemark/stages/trajectory/edits/internal/marker_edits.h"
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 

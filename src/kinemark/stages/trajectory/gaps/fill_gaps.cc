@@ -15,7 +15,6 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/gaps/internal/filler.h"
-#include "kinemark/stages/trajectory/gaps/internal/pieces.h"
 
 namespace kinemark::trajectory {
 namespace {

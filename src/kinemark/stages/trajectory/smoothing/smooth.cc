@@ -16,7 +16,6 @@
 #include "kinemark/stages/trajectory/smoothing/internal/kalman.h"
 #include "kinemark/stages/trajectory/smoothing/internal/local_bias.h"
 #include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
-#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
 #include "kinemark/stages/trajectory/smoothing/internal/whiteness.h"
 
 namespace kinemark::trajectory {

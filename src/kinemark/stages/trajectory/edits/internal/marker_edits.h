@@ -15,6 +15,13 @@
 
 namespace kinemark::trajectory::internal {
 
+// Edits of events, one function an operation. Each fails with Code::bad_input and the reason, and leaves the
+// trial as it was then. An event is the one of that label and context within half a frame of the time given.
+
+[[nodiscard]] Status mark_event(data::Trial& trial, const data::Edit& edit);
+[[nodiscard]] Status move_event(data::Trial& trial, const data::Edit& edit);
+[[nodiscard]] Status delete_event(data::Trial& trial, const data::Edit& edit);
+
 /// The frames of an edit; Code::bad_input where one lies outside the recording.
 [[nodiscard]] Result<FrameSpan> frames_of(const data::Edit& edit, const data::Trial& trial);
 

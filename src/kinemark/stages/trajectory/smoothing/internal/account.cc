@@ -12,7 +12,7 @@
 #include <string>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 #include "kinemark/stages/trajectory/smoothing/internal/whiteness.h"
 
 namespace kinemark::trajectory::smoothing {

@@ -10,7 +10,7 @@
 #include "kinemark/math/digital_filter.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/cutoff.h"
-#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {

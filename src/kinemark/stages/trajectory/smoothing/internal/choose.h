@@ -12,6 +12,15 @@
 
 namespace kinemark::trajectory::smoothing {
 
+/// A cut-off that is good for positions lets too much noise into derivatives where the movement ends below
+/// it. This one weighs both: the geometric mean of cutoff_hz, best for positions, and of the cut-off with the
+/// least estimated error of velocity, searched around it. That estimate is Stein's again, inside a wider
+/// band in which movement and noise can be told apart: mean (v_wide - v)^2 + 2 sigma^2 dt / pi integral of
+/// w^2 H H_wide dw. O(10 filters).
+/// @param noise_sd_m  > 0, of a sample of variance 1
+[[nodiscard]] double refine_cutoff(std::span<const Series> parts, int order, double cutoff_hz,
+                                   double noise_sd_m);
+
 enum class Criterion : std::uint8_t {
   sure,  ///< RSS / n + 2 sigma^2 tr A / n: Stein's unbiased estimate of the squared error, sigma known or
          ///< found

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "kinemark/core/random.h"
-#include "kinemark/stages/trajectory/smoothing/internal/refine.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {

@@ -16,7 +16,6 @@
 #include "kinemark/stages/trajectory/smoothing/internal/error_bars.h"
 #include "kinemark/stages/trajectory/smoothing/internal/gap_correction.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
-#include "kinemark/stages/trajectory/smoothing/internal/refine.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {

@@ -11,7 +11,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/trajectory/smoothing/internal/iwp.h"
-#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 
 namespace kinemark::trajectory::smoothing {
 namespace {

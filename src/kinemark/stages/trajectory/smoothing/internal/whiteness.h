@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemark/core/missing.h"
-#include "kinemark/stages/trajectory/smoothing/internal/stretches.h"
+#include "kinemark/stages/trajectory/smoothing/internal/marker_samples.h"
 
 namespace kinemark::trajectory::smoothing {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/trajectory/gaps/internal/combine.h"
+#include "kinemark/stages/trajectory/gaps/internal/filler.h"
 
 #include <gtest/gtest.h>
 
