@@ -20,7 +20,6 @@
 #include "kinemark/stages/skeleton/articulated/recording/findings.h"
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
 #include "kinemark/stages/skeleton/articulated/recording/skin.h"
-#include "kinemark/stages/skeleton/articulated/recording/widening.h"
 
 namespace kinemark::skeleton {
 namespace {

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/functional/skin_slide.h"
 
+#include <fmt/core.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,8 +15,6 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/joint_choice.h"
-#include "kinemark/stages/skeleton/functional/internal/alike.h"
-#include "kinemark/stages/skeleton/functional/internal/axis_slide.h"
 #include "kinemark/stages/skeleton/functional/internal/gap_model.h"
 #include "kinemark/stages/skeleton/functional/skin_evidence.h"
 
@@ -293,6 +293,21 @@ Matrix6 across(const JointFit& score) {
 }
 
 }  // namespace
+
+Status SkinPrior::check() const {
+  for (const double value : {ball, hinge, misfit})
+    if (!(value > 0.0) || !std::isfinite(value))
+      return fail(Code::usage,
+                  fmt::format("skin that slides as one body by {} (ball) and {} (hinge) times its "
+                              "own slide, with a misfit of {}; need more than 0",
+                              ball, hinge, misfit));
+  for (const double factor : {ball_factor, hinge_factor})
+    if (!(factor > 1.0) || !std::isfinite(factor))
+      return fail(Code::usage, fmt::format("skin that differs by a factor of {}; need more than 1", factor));
+  if (!(anywhere > 0.0 && anywhere < 1.0))
+    return fail(Code::usage, fmt::format("a probability of {}; need one between 0 and 1", anywhere));
+  return {};
+}
 
 SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
                              const RelativeMotion& motion, const JointFit& score, const SkinPrior& prior) {

@@ -3,9 +3,10 @@
 #include "kinemark/stages/skeleton/functional/skin_slide.h"
 
 #include <gtest/gtest.h>
-
 #include <Eigen/Cholesky>
+
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kinemark/stages/skeleton/functional/score.h"
@@ -14,6 +15,20 @@
 
 namespace kinemark::skeleton {
 namespace {
+
+TEST(SkinPrior, DefaultsAreUsable) { EXPECT_TRUE(SkinPrior{}.check()); }
+
+TEST(SkinPrior, RefusesWhatIsNoSize) {
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(SkinPrior{.ball = bad}.check());
+    EXPECT_FALSE(SkinPrior{.hinge = bad}.check());
+    EXPECT_FALSE(SkinPrior{.misfit = bad}.check());
+    EXPECT_FALSE(SkinPrior{.anywhere = bad}.check());
+  }
+  EXPECT_FALSE(SkinPrior{.ball_factor = 1.0}.check());
+  EXPECT_FALSE(SkinPrior{.hinge_factor = 0.5}.check());
+  EXPECT_FALSE(SkinPrior{.anywhere = 1.0}.check());
+}
 
 /// A joint found by least squares, and what skin does to it.
 struct Fitted {
@@ -171,4 +186,5 @@ TEST(SkinSlide, MissingMarkersAndPosesWithoutAPathAreNoHindrance) {
 }
 
 }  // namespace
+
 }  // namespace kinemark::skeleton

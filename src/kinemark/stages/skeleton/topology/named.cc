@@ -13,7 +13,6 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
 #include "kinemark/math/statistics.h"
-#include "kinemark/stages/skeleton/topology/internal/drawn.h"
 #include "kinemark/stages/skeleton/topology/internal/pairs.h"
 #include "kinemark/stages/skeleton/topology/internal/place.h"
 #include "kinemark/stages/skeleton/topology/marker_sets.h"

@@ -10,7 +10,6 @@
 #include <numeric>
 
 #include "kinemark/core/text.h"
-#include "kinemark/stages/skeleton/topology/internal/drawn.h"
 #include "kinemark/stages/skeleton/topology/internal/edges.h"
 #include "kinemark/stages/skeleton/topology/internal/pairs.h"
 

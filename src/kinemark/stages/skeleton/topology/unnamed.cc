@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kinemark/stages/skeleton/topology/internal/agreed.h"
-#include "kinemark/stages/skeleton/topology/internal/drawn.h"
+#include "kinemark/stages/skeleton/topology/internal/pairs.h"
 #include "kinemark/stages/skeleton/topology/internal/rivals.h"
 #include "kinemark/stages/skeleton/topology/segmentation.h"
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -14,6 +15,12 @@
 #include "kinemark/data/skeleton.h"
 
 namespace kinemark::skeleton::articulated {
+
+/// A joint that turns about one axis: unit vectors in the axes of its parent and of its child.
+struct HingeAxis {
+  int joint = 0;
+  Eigen::Vector3d in_parent = Eigen::Vector3d::Zero(), in_child = Eigen::Vector3d::Zero();
+};
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;

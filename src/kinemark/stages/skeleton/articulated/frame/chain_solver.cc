@@ -12,7 +12,6 @@
 
 #include "kinemark/core/check.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
-#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
 #include "kinemark/stages/skeleton/articulated/frame/modes.h"
 
 namespace kinemark::skeleton::articulated {

@@ -11,6 +11,17 @@
 
 namespace kinemark::skeleton::articulated {
 
+// What tells a joint of a body from one that is none, before a geometry is refined.
+
+/// Distance of a joint from the nearest marker of the segment that it is farther from, m; infinite where it
+/// is no number.
+[[nodiscard]] double reach_of(const Chain& chain, int joint);
+
+/// RMS change over `frames` of the distance between a joint and that marker of its two segments that keeps it
+/// least, m. Markers that are seen in fewer than two of them do not count; infinite where it is no number.
+[[nodiscard]] double distance_change(const Chain& chain, const ChainSamples& samples,
+                                     const PosedFrames& frames, int joint);
+
 /// A segment that is no line is weak when its markers' second extent is within some times the noise: each
 /// frame then rotates it about its long axis to fit its own noise, which makes the shape too wide, the
 /// residuals too small and the centres' errors larger than their covariance, however many frames there are.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "kinemark/stages/skeleton/articulated/testing/known_geometry.h"
 #include "kinemark/stages/skeleton/articulated/testing/random_chain.h"
@@ -12,6 +13,61 @@
 
 namespace kinemark::skeleton::articulated {
 namespace {
+
+using testing_limbs::make_random_chain;
+using testing_limbs::RandomChain;
+
+PosedFrames true_frames(const RandomChain& limb) {
+  PosedFrames out{.frame = {}, .pose = limb.pose, .weight = {}};
+  for (std::int64_t f = 0; f < limb.samples.frames; ++f) out.frame.push_back(f);
+  return out;
+}
+
+TEST(JointFigures, AJointReachesToTheNearestMarkerOfItsFartherSegment) {
+  RandomChain limb = make_random_chain({.segments = 3, .frames = 2});
+  Chain& chain = limb.chain;
+  chain.joint.col(1) = Vector3d(0.0, 0.0, 0.5);
+  for (const int k : chain.layout.markers_of(1)) chain.marker.col(k) = Vector3d(0.0, 0.0, 0.1 + 0.01 * k);
+  for (const int k : chain.layout.markers_of(2)) chain.marker.col(k) = Vector3d(0.01 * k, 0.0, 0.0);
+  const int last = chain.layout.markers_of(1).back();
+  EXPECT_NEAR(reach_of(chain, 1), 0.4 - 0.01 * last, 1e-15);
+  chain.joint(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isinf(reach_of(chain, 1)));
+}
+
+TEST(JointFigures, OfRigidSegmentsADistanceDoesNotChange) {
+  const RandomChain exact = make_random_chain({.segments = 3, .frames = 60, .noise_sd_m = 0.0});
+  for (const int j : {0, 1})
+    EXPECT_LT(distance_change(exact.chain, exact.samples, true_frames(exact), j), 1e-12) << j;
+}
+
+TEST(JointFigures, OfAMarkerThatStandsStillItIsTheScatterOfItsDistance) {
+  RandomChain limb = make_random_chain({.segments = 2, .frames = 80, .noise_sd_m = 0.0});
+  const int k = limb.chain.layout.markers_of(1).front();
+  double sum = 0.0, squares = 0.0;
+  for (std::int64_t f = 0; f < 80; ++f) {
+    Eigen::Map<Vector3d> x(limb.samples.x.data() + 3 * (f * limb.samples.markers + k));
+    x = Vector3d(0.3, 0.1, -0.2);
+    const double d = (x - limb.chain.joint_centre(limb.pose[static_cast<std::size_t>(f)], 0)).norm();
+    sum += d;
+    squares += d * d;
+  }
+  const double scatter = std::sqrt(squares / 80.0 - sum / 80.0 * (sum / 80.0));
+  ASSERT_GT(scatter, 0.01);
+  EXPECT_NEAR(distance_change(limb.chain, limb.samples, true_frames(limb), 0), scatter, 1e-12);
+}
+
+TEST(JointFigures, AMarkerThatIsNotSeenDoesNotCountAndNoNumberIsInfinite) {
+  RandomChain limb = make_random_chain({.segments = 2, .frames = 30, .noise_sd_m = 0.0});
+  const int k = limb.chain.layout.markers_of(0).front();
+  for (std::int64_t f = 1; f < 30; ++f)
+    limb.samples.x[static_cast<std::size_t>(3 * (f * limb.samples.markers + k))] =
+        std::numeric_limits<double>::quiet_NaN();
+  EXPECT_LT(distance_change(limb.chain, limb.samples, true_frames(limb), 0), 1e-12);
+  PosedFrames broken = true_frames(limb);
+  broken.pose[3].joint0[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isinf(distance_change(limb.chain, limb.samples, broken, 0)));
+}
 
 using testing_limbs::known_geometry;
 using testing_limbs::make_random_chain;
@@ -59,4 +115,5 @@ TEST(Bootstrap, WithoutFramesThereIsNothingToCorrect) {
 }
 
 }  // namespace
+
 }  // namespace kinemark::skeleton::articulated

@@ -19,7 +19,6 @@
 #include "kinemark/stages/skeleton/articulated/geometry/bootstrap.h"
 #include "kinemark/stages/skeleton/articulated/geometry/frame_selection.h"
 #include "kinemark/stages/skeleton/articulated/geometry/geometry_fit.h"
-#include "kinemark/stages/skeleton/articulated/geometry/joint_figures.h"
 #include "kinemark/stages/skeleton/articulated/geometry/mirror_ambiguity.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_kind.h"
 #include "kinemark/stages/skeleton/articulated/geometry/segment_shape.h"

@@ -16,7 +16,7 @@
 #include "kinemark/data/joint_choice.h"
 #include "kinemark/stages/skeleton/articulated/chain/robust_weights.h"
 #include "kinemark/stages/skeleton/articulated/chain/small_cholesky.h"
-#include "kinemark/stages/skeleton/articulated/frame/frame_information.h"
+#include "kinemark/stages/skeleton/articulated/frame/modes.h"
 
 namespace kinemark::skeleton::articulated {
 

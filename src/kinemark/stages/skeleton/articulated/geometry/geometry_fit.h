@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
-#include "kinemark/stages/skeleton/articulated/chain/hinge_axis.h"
 #include "kinemark/stages/skeleton/articulated/frame/pose_solver.h"
 
 namespace kinemark::skeleton::articulated {

@@ -7,7 +7,6 @@
 
 #include "kinemark/stages/skeleton/articulated/chain/chain.h"
 #include "kinemark/stages/skeleton/articulated/chain/fitted_chain.h"
-#include "kinemark/stages/skeleton/articulated/chain/hinge_axis.h"
 
 namespace kinemark::skeleton::articulated {
 

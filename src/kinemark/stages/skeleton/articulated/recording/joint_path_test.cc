@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/articulated/recording/joint_path.h"
+#include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
 
 #include <gtest/gtest.h>
 
