@@ -16,7 +16,6 @@
 #include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
-#include "kinemark/stages/motion/control/internal/smooth_step.h"
 
 namespace kinemark::motion {
 namespace {

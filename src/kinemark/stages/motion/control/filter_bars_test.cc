@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // What the filter of the goals takes away from movements that are known.
-#include "kinemark/stages/motion/control/internal/filter_bars.h"
+#include "kinemark/stages/motion/control/internal/track_bars.h"
 
 #include <gtest/gtest.h>
 

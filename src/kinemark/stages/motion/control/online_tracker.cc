@@ -14,7 +14,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
-#include "kinemark/stages/motion/control/internal/readout.h"
+#include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
 #include "kinemark/stages/motion/control/internal/walker.h"
 #include "kinemark/stages/motion/internal/stream_judge.h"

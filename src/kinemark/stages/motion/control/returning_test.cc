@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/control/internal/returning.h"
+#include "kinemark/stages/motion/control/internal/walker.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kinemark/stages/motion/control/internal/smooth_step.h"
+#include "kinemark/stages/motion/control/internal/goals.h"
 
 namespace kinemark::motion::internal {
 namespace {

@@ -7,9 +7,17 @@
 #include <vector>
 
 #include "kinemark/stages/motion/internal/exchanges.h"
+#include "kinemark/stages/motion/internal/frame_walk.h"
 #include "kinemark/stages/motion/internal/judgement.h"
+#include "kinemark/stages/motion/internal/outlier_account.h"
 
 namespace kinemark::motion::internal {
+
+/// Samples that give themselves away without any model: a value held digit by digit while the body moves, a
+/// coordinate that is exactly 0 between others that are not.
+[[nodiscard]] std::vector<Outlier> find_plain_defects(const Problem& problem,
+                                                      const data::Trajectories& markers,
+                                                      const SolvedFrames& solved);
 
 /// Poses, and what was left out on the way.
 struct JudgedFrames {

@@ -17,6 +17,10 @@
 namespace kinemark::motion::internal {
 namespace {
 
+constexpr double kVaguest = 1e-2;  // 1 / (10 rad or m)^2
+constexpr double kLocked = 1e12;
+constexpr double kShutLoopSd_m = 1e-5;
+
 using Eigen::VectorXd;
 
 constexpr double kWeak = 0.03;          // rad or m: what is known better is linear enough
@@ -36,6 +40,30 @@ constexpr int kTrusted = 3;        // steps after which one that cannot lead to 
 constexpr double kSettled = 0.01;  // of chi-square, by which the next step would lower it
 
 }  // namespace
+
+void SpeedCovariance::factor(model::Workspace& w, const Eigen::VectorXd& information, Eigen::Index held) {
+  const auto& model = problem_.model;
+  model::marker_normal_matrix(model, w, information, H_);
+  if (!model.point_constraints().empty()) {
+    model::point_constraint_jacobian(model, w, C_);
+    H_.noalias() += C_.transpose() * C_ / (kShutLoopSd_m * kShutLoopSd_m);
+  }
+  for (Eigen::Index i = 0; i < H_.rows(); ++i) {
+    if (!problem_.fixed_speed[at(i)] && i != held) {
+      H_(i, i) += kVaguest;
+      continue;
+    }
+    H_.row(i).setZero();
+    H_.col(i).setZero();
+    H_(i, i) = kLocked;
+  }
+  llt_.compute(H_);
+}
+
+void SpeedCovariance::invert(Eigen::MatrixXd& K) const {
+  K.setIdentity(H_.rows(), H_.cols());
+  llt_.solveInPlace(K);
+}
 
 ProfileErrors::ProfileErrors(const Problem& problem)
     : problem_(problem),

@@ -12,7 +12,7 @@
 #include "kinemark/math/statistics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
-#include "kinemark/stages/motion/internal/speed_covariance.h"
+#include "kinemark/stages/motion/internal/profile_errors.h"
 
 namespace kinemark::motion::internal {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/math/digital_filter.h"
-#include "kinemark/stages/motion/control/internal/smooth_step.h"
 
 namespace kinemark::motion::internal {
 namespace {

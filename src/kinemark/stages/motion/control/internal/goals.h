@@ -11,6 +11,8 @@
 #pragma once
 
 #include <Eigen/Core>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -18,6 +20,12 @@
 #include "kinemark/data/derivatives.h"
 
 namespace kinemark::motion::internal {
+
+/// 0 up to u = 0, 1 from u = 1 on, a cubic with level ends between.
+inline double smooth_step(double u) {
+  const double s = std::clamp(u, 0.0, 1.0);
+  return s * s * (3.0 - 2.0 * s);
+}
 
 /// The last `capacity` frames of a stream of markers, or all of them.
 class SampleWindow {

@@ -9,8 +9,8 @@
 #include "kinemark/core/index.h"
 #include "kinemark/math/rotation_fit.h"
 #include "kinemark/model/kinematics.h"
-#include "kinemark/stages/motion/internal/speed_covariance.h"
-#include "kinemark/stages/motion/orientation/internal/turning_jacobian.h"
+#include "kinemark/stages/motion/internal/profile_errors.h"
+#include "kinemark/stages/motion/orientation/internal/turning_model.h"
 
 namespace kinemark::motion::internal {
 namespace {

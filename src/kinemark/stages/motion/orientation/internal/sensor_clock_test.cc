@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/motion/orientation/internal/sensor_clock.h"
+#include "kinemark/stages/motion/orientation/internal/sensor_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,11 @@
 
 namespace kinemark::motion::internal {
 
+/// The orientations at other instants of the same clock, by spherical interpolation between the two samples
+/// beside. An instant within a tenth of a sample from one takes that one. Missing before the first and after
+/// the last sample, and where one of the two beside is missing.
+[[nodiscard]] data::Orientations at_times(const data::Orientations& recording, const TimeBase& time);
+
 /// Longest span that is judged wrong, in samples. Longer ones may as well be right.
 inline constexpr std::int64_t kMostWrong = 10;
 

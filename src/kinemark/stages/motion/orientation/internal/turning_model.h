@@ -5,13 +5,26 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <vector>
 
+#include "kinemark/core/index.h"
 #include "kinemark/data/model_description.h"
 #include "kinemark/data/orientations.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/model/model.h"
+#include "kinemark/model/workspace.h"
 
 namespace kinemark::motion::internal {
+
+/// Angular velocity of a body (tree index), world axes, by the speeds: A is 3 x nv already. After
+/// kinematics().
+inline void turning_jacobian(const model::Model& model, const model::Workspace& w, int body,
+                             Eigen::MatrixXd& A) {
+  A.setZero();
+  for (const int c : model.bodies()[at(body)].support)
+    A.col(model.columns()[at(c)].speed) += w.column[at(c)].w;
+}
 
 /// Length of the axes, m. Only the check of units in solve_ik() asks for one of a body's size.
 inline constexpr double kAxis_m = 1.0;

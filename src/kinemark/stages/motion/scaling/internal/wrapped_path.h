@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <span>
 #include <vector>
 
@@ -11,6 +12,33 @@
 #include "kinemark/math/se3.h"
 
 namespace kinemark::motion::internal {
+
+// How one straight piece of a path bends around a cylinder: by the rules of OpenSim's WrapCylinder, so that
+// lengths agree with those of its ScaleTool.
+
+/// What a cylinder does to a piece of a path.
+enum class Contact {
+  none,      ///< the piece passes it by
+  inside,    ///< an end lies within its radius: nothing can be done
+  possible,  ///< it may bend around
+  needed     ///< it goes through, so that it must bend around
+};
+
+/// A piece that bends: straight to `onto`, along the surface, straight on from `off`.
+struct CylinderWrap {
+  Contact contact = Contact::none;
+  Eigen::Vector3d onto = Eigen::Vector3d::Zero();  ///< in the surface's frame, m
+  Eigen::Vector3d off = Eigen::Vector3d::Zero();   ///< in the surface's frame, m
+  double arc_m = 0.0;                              ///< along the surface, from onto to off
+};
+
+/// The piece from `from` to `to`, both in the surface's frame (m).
+///
+/// The points where it touches lie where the plane through both ends and the cylinder's edge between them
+/// meets the lines of tangency. `settle` then slides them along the cylinder until the way enters and leaves
+/// the helix without a kink (0.1 deg): so OpenSim does for a path with several surfaces, and only there.
+[[nodiscard]] CylinderWrap wrap_cylinder(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                         const data::WrapSurface& cylinder, bool settle);
 
 /// A point that the path runs over in a pose.
 struct PassedPoint {

@@ -11,7 +11,6 @@
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/smoother/internal/frame_rows.h"
 #include "kinemark/stages/motion/smoother/internal/step_prior.h"
-#include "kinemark/stages/motion/smoother/internal/window.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -25,7 +24,6 @@ constexpr std::int64_t kFramesOfNode = 2;  // frames used of each node, at most
 // Nodes are solved in stretches, each with so many more on either side: 2 s, beyond which the smoother
 // remembers nothing.
 constexpr Index kStretch = 160, kBeside = 40;
-constexpr double kFloorSd = 30.0;  // rad or m, prior SD over a stretch of a speed that nothing determines
 
 /// What slides: single markers and whole segments, each along three axes.
 struct Slides {

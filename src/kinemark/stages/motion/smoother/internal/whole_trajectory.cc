@@ -10,6 +10,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
+#include "kinemark/stages/motion/smoother/internal/step_prior.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -20,7 +21,6 @@ using Eigen::VectorXd;
 
 constexpr std::int64_t kOneSegment = 1024, kSegment = 256;  // frames whose factors are in memory at once
 // Prior SD (rad or m) over the whole recording of a speed that nothing determines.
-constexpr double kFloorSd = 30.0;
 constexpr double kDone = 1e-4;  // half the squared step over its variance: 0.015 standard deviations
 constexpr int kHalvings = 10;
 constexpr int kRounds = 12;  // in which the coordinates at a limit are found, at most

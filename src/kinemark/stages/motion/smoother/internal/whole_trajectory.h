@@ -13,7 +13,6 @@
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/smoother/internal/frame_rows.h"
 #include "kinemark/stages/motion/smoother/internal/step_prior.h"
-#include "kinemark/stages/motion/smoother/internal/window.h"
 
 namespace kinemark::motion::internal {
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Joints of a skeleton under skin that slides with the posture.
+// Joints whose covariance the motion alone would make too small: under skin that slides with the posture, and
+// in directions that the motion does not determine.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,6 @@
 #include "kinemark/stages/skeleton/articulated/recording/recording_pass.h"
 
 namespace kinemark::skeleton::articulated {
-
-// Covariances of joints in directions that the motion does not determine.
 
 /// Along a hinge's axis nothing is known: its SD becomes `size_m` there, in both segments and in every frame
 /// that has a centre. `axis` is in the axes of `chain_segment`, whose rotation is that of the last sampled

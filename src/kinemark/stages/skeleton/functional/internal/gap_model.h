@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What skin that turns with a hinge's angle does to its axis. Theory: docs/theory/joint-centres-skin.md
+// What skin that slides with the posture does to a joint: to a hinge's axis, to the shape of its segments, to
+// the gap between the two places of the joint. Theory: docs/theory/joint-centres-skin.md
 #pragma once
 
 #include <Eigen/Core>

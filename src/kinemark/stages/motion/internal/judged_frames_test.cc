@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // Samples that give themselves away without a model, and some that only seem to.
-#include "kinemark/stages/motion/internal/plain_defects.h"
+#include "kinemark/stages/motion/internal/judged_frames.h"
 
 #include <gtest/gtest.h>
 
