@@ -9,8 +9,6 @@
 #include "cli/command_tree.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
-#include "cli/emg_options.h"
-#include "cli/gait_options.h"
 #include "cli/heeded_options.h"
 #include "cli/many_inputs.h"
 #include "cli/measures_options.h"

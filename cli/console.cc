@@ -13,8 +13,8 @@
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/temporary.h"
+#include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/files/outcome_json.h"
 
 namespace kinemark::cli {
 namespace {

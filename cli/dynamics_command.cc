@@ -6,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
-#include "cli/gait_options.h"
 #include "cli/heeded_options.h"
 #include "cli/measures_options.h"
 #include "cli/recording_options.h"

@@ -11,8 +11,8 @@
 #include "cli/console.h"
 #include "kinemark/core/number.h"
 #include "kinemark/pipeline/body/motion_measures_job.h"
+#include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "cli/gait_options.h"
 #include "cli/measures_options.h"
 #include "cli/recording_options.h"
 

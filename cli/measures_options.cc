@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
 
 #include "cli/console.h"
 #include "cli/dynamics_options.h"
@@ -18,6 +19,8 @@
 
 namespace kinemark::cli {
 namespace {
+
+constexpr const char* kWalking = "Walking";
 
 void print_measures(const CommonOptions& common, const pipeline::MeasuresOutcome& outcome, bool events) {
   for (const auto& warning : outcome.warnings) say(common, "note: " + warning);
@@ -87,6 +90,103 @@ int run_many(const CommonOptions& common, MeasuresArguments& arguments) {
 }
 
 }  // namespace
+
+void add_feet_options(CLI::App& command, pipeline::GaitRequest& request, bool movements) {
+  std::string text = "Whose events of feet: best (plates, else markers), plates, kinematics, file";
+  if (movements) text += "; or movement: of each marker's own movement";
+  command.add_option("--events", request.events, text)
+      ->type_name("WHOSE")
+      ->capture_default_str()
+      ->group(kWalking);
+  command
+      .add_option(
+          "--gait-marker", request.markers,
+          "A marker under a name of its own: left_heel=L_FCC (left_, right_: heel, toe, ankle; sacrum); or a "
+          ".toml of such lines. Repeatable.")
+      ->type_name("ROLE=NAME")
+      ->allow_extra_args(false)
+      ->group(kWalking);
+}
+
+void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request, CyclesOf of) {
+  const char *events = "Foot strikes and foot offs", *cycles = "Angles over each stride and their mean";
+  if (of == CyclesOf::movements) {
+    events = "Starts and ends of movements and cycles";
+    cycles = "Places and speeds over each repetition and their mean";
+  } else if (of == CyclesOf::either) {
+    events = "Foot strikes and foot offs, or starts and ends of movements and cycles where no foot steps";
+    cycles =
+        "Angles over each stride and their mean; where no foot steps, places and speeds over each repetition";
+  }
+  command
+      .add_option("--write-events", request.write_events,
+                  fmt::format("{}: .csv, or .c3d, the recording with these events", events))
+      ->type_name("FILE")
+      ->group("Output");
+  command.add_option("--write-cycles", request.write_cycles, fmt::format("{}, 0 to 100 %, .csv", cycles))
+      ->type_name("FILE")
+      ->group("Output");
+}
+
+void add_angles_option(CLI::App& command, pipeline::GaitRequest& request) {
+  command
+      .add_option("--angles", request.angles,
+                  "Motion whose coordinates are cut into cycles, .mot or .sto; Q_sd.sto beside it counts too")
+      ->type_name("FILE")
+      ->group(kWalking);
+}
+
+void add_sheet_options(CLI::App& command, pipeline::GaitRequest& request) {
+  command
+      .add_option(
+          "--norm", request.sheet.norms,
+          "Bands to draw in grey and to compare with, .csv: of curves as 'groups band' writes them, of "
+          "measures. Repeatable.")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->group(kWalking);
+  command
+      .add_option(
+          "--angle-angle", request.sheet.angle_angle,
+          "Two curves to draw against each other: hip_flexion:knee_flexion, across and up. Repeatable; hip "
+          "and knee, knee and ankle when absent")
+      ->type_name("A:B")
+      ->allow_extra_args(false)
+      ->group(kWalking);
+}
+
+void add_emg_options(CLI::App& command, pipeline::EmgRequest& request, const EmgNames& names) {
+  const char* what = "Electromyograms";
+  command
+      .add_option(names.channels, request.channels,
+                  "Analog channels that hold EMG, with commas between; * is any text; found by their names "
+                  "when absent")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(what);
+  const auto number = [&](const std::string& name, double& value, const char* unit, const char* text) {
+    command.add_option(names.prefix + name, value, text)->type_name(unit)->capture_default_str()->group(what);
+  };
+  number("high-pass", request.envelope.high_pass_hz, "HZ", "Lower end of the band; 0: none");
+  number("low-pass", request.envelope.low_pass_hz, "HZ", "Upper end of the band");
+  number("envelope", request.envelope.envelope_hz, "HZ", "Low-pass of the rectified signal");
+  number("rms", request.envelope.rms_window_s, "S", "Root mean square of this long instead; 0: none");
+  command
+      .add_option(
+          names.prefix + "max", request.maximum,
+          "What 100 % is: trial, the largest envelope of the recording; or a .c3d of maximal contractions")
+      ->type_name("trial|FILE")
+      ->group(what);
+  command.add_option(names.write, request.write, "Envelopes at the frames of the recording, .sto or .csv")
+      ->type_name("FILE")
+      ->group(what);
+  command
+      .add_option(names.write_cycles, request.write_cycles,
+                  "Envelopes over each cycle of walking and their mean, 0 to 100 %, .csv")
+      ->type_name("FILE")
+      ->group(what);
+}
 
 void add_measures_options(CLI::App& command, MeasuresArguments& a) {
   auto& job = a.job;

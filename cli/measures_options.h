@@ -3,14 +3,43 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/command.h"
+#include "kinemark/pipeline/measures/emg_request.h"
+#include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/measures/measures_job.h"
 
 namespace kinemark::cli {
+
+/// Whose events of feet, and which markers are on them.
+/// @param movements  whether events may be those of the markers' own movements instead
+void add_feet_options(CLI::App& command, pipeline::GaitRequest& request, bool movements = false);
+/// Whose events and cycles are written.
+enum class CyclesOf : std::uint8_t { feet, movements, either };
+
+/// Files of events and cycles.
+void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request, CyclesOf of);
+/// The motion whose coordinates are cut into cycles.
+void add_angles_option(CLI::App& command, pipeline::GaitRequest& request);
+/// Norms, and pairs of curves.
+void add_sheet_options(CLI::App& command, pipeline::GaitRequest& request);
+
+/// What the options for electromyograms are called.
+struct EmgNames {
+  std::string channels, prefix, write, write_cycles;
+};
+
+/// Of `kinemark emg`, and of `analyze`, where others stand beside them.
+inline const EmgNames kOwnEmgNames{"--channels", "--", "--write-envelopes", "--write-cycles"};
+inline const EmgNames kSharedEmgNames{"--emg", "--emg-", "--write-emg", "--write-emg-cycles"};
+
+/// The options for electromyograms, in a group of their own.
+void add_emg_options(CLI::App& command, pipeline::EmgRequest& request, const EmgNames& names);
 
 /// What commands take that measure a recording of markers.
 struct MeasuresArguments {

@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/rig/reconstruct_json.h"
+#include "kinemark/pipeline/rig/reconstruct_job.h"
 
 namespace kinemark::cli {
 namespace {

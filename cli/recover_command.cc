@@ -4,8 +4,8 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/recover_job.h"
 
 namespace kinemark::cli {

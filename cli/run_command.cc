@@ -7,7 +7,7 @@
 #include "cli/console.h"
 #include "cli/program.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/run/run_table.h"
+#include "kinemark/pipeline/run/run_job.h"
 
 namespace kinemark::cli {
 namespace {

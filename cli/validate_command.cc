@@ -4,9 +4,9 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/files/input_list.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/files/outcome_json.h"
 #include "kinemark/pipeline/files/validate_job.h"
 
 namespace kinemark::cli {

@@ -3,22 +3,40 @@
 #include "server/angle_service.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/input/journal_input.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "server/entrance.h"
 #include "server/json_answer.h"
-#include "server/secret.h"
-#include "server/trial_model.h"
+#include "server/trial_files.h"
 #include "server/trial_page.h"
 
 namespace kinemark::server {
 namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> models_in(const fs::path& folder) {
+  std::vector<fs::path> models;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
+       at.increment(error))
+    if (pipeline::ending_of(at->path()) == ".osim" && at->is_regular_file(error) &&
+        !leads_out(folder.empty() ? "." : folder, at->path()))
+      models.push_back(folder / at->path().filename());
+  std::ranges::sort(models);
+  return models;
+}
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -37,6 +55,25 @@ std::string asked_of(std::string_view body) {
 }
 
 }  // namespace
+
+Result<fs::path> find_model(const fs::path& recording, const fs::path& given) {
+  if (!given.empty()) return given;
+  const auto models = models_in(recording.parent_path());
+  const auto own = std::ranges::find(models, recording.stem(), [](const auto& m) { return m.stem(); });
+  if (own != models.end()) return *own;
+  if (models.size() == 1) return models.front();
+  const auto name = printable(recording.filename().string(), 200);
+  if (models.empty())
+    return fail(
+        Code::not_supported,
+        fmt::format("No body model is known for {}: start 'kinemark serve' with --model FILE.osim, or "
+                    "put an .osim beside the recording",
+                    name));
+  return fail(Code::not_supported,
+              fmt::format("{} body models lie beside {} and none has its name: start 'kinemark serve' with "
+                          "--model FILE.osim, or call one {}.osim",
+                          models.size(), name, printable(recording.stem().string(), 200)));
+}
 
 AngleService::AngleService(AngleServiceOptions options)
     : options_(std::move(options)), worker_(options_.most_waiting) {

@@ -19,11 +19,20 @@
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/motion/ik_job.h"
 #include "server/message.h"
-#include "server/page_shelf.h"
 #include "server/trial_files.h"
+#include "server/trial_page.h"
 #include "server/worker.h"
 
 namespace kinemark::server {
+
+//
+// Which body model a recording is solved with.
+
+/// The model that was given; else the .osim of the recording's own name beside it, else the only .osim there.
+/// None, or several: Code::not_supported, one sentence with the way out. O(files of the folder).
+/// @param given  empty: none was
+[[nodiscard]] Result<std::filesystem::path> find_model(const std::filesystem::path& recording,
+                                                       const std::filesystem::path& given);
 
 /// How recordings are solved, and what that may take.
 struct AngleServiceOptions {

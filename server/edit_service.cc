@@ -3,23 +3,25 @@
 #include "server/edit_service.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <exception>
 #include <iterator>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "kinemark/core/counted.h"
+#include "kinemark/io/edits/edit_line.h"
 #include "kinemark/pipeline/motion/edited_page.h"
-#include "server/edit_request.h"
 #include "server/entrance.h"
 #include "server/json_answer.h"
 
 namespace kinemark::server {
 namespace {
+
+constexpr std::int64_t kMostOperations = 1'000'000'000;
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -27,6 +29,22 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostRequests = 64;  // that wait
 
 }  // namespace
+
+Result<EditRequest> parse_edit_request(std::string_view body) {
+  const auto json = nlohmann::json::parse(body, nullptr, false);
+  if (!json.is_object() || json.size() != 2 || !json.contains("expected") || !json.contains("edit"))
+    return fail(Code::bad_input, R"(need {"expected": 12, "edit": {"do": "swap", ...}} as JSON)");
+  const auto& expected = json["expected"];
+  if (!expected.is_number_unsigned() || expected.get<std::uint64_t>() > kMostOperations)
+    return fail(Code::bad_input, R"("expected" is the number of operations in the journal, 0 or more)");
+  const auto& edit = json["edit"];
+  // Also keeps what follows from being as deep as the body is long.
+  if (!edit.is_object() || std::ranges::any_of(edit, [](const auto& value) { return value.is_structured(); }))
+    return fail(Code::bad_input, R"("edit" is an object of texts and numbers, as a line of a journal)");
+  auto parsed = io::parse_edit(edit.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (!parsed) return std::unexpected(parsed.error());
+  return EditRequest{.expected = expected.get<std::size_t>(), .edit = std::move(*parsed)};
+}
 
 EditService::EditService(EditServiceOptions options) : options_(std::move(options)), worker_(kMostRequests) {}
 

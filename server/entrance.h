@@ -14,9 +14,20 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemark/core/result.h"
 #include "server/message.h"
 
 namespace kinemark::server {
+
+//
+// Random words that let in who knows them.
+
+/// 128 bits from the system's random source as 32 lower-case hexadecimal digits. Code::io without one.
+[[nodiscard]] Result<std::string> new_secret();
+
+/// Whether both are the same, in a time that depends on the length of `given` alone. Never with an empty
+/// secret.
+[[nodiscard]] bool same_secret(std::string_view given, std::string_view secret);
 
 /// What lets in. All secrets are 128 bits of new_secret().
 struct Keys {

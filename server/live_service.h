@@ -9,7 +9,7 @@
 #include "server/entrance.h"
 #include "server/live_feed.h"
 #include "server/message.h"
-#include "server/page_shelf.h"
+#include "server/trial_page.h"
 
 namespace kinemark::server {
 

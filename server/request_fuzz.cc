@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "kinemark/io/edits/edit_line.h"
-#include "server/edit_request.h"
+#include "server/edit_service.h"
 #include "server/entrance.h"
 #include "server/routes.h"
 

@@ -17,9 +17,9 @@
 #include "server/edit_service.h"
 #include "server/entrance.h"
 #include "server/message.h"
-#include "server/page_shelf.h"
 #include "server/routes.h"
 #include "server/trial_files.h"
+#include "server/trial_page.h"
 #include "server/trial_row.h"
 #include "server/worker.h"
 

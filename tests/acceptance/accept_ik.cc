@@ -15,7 +15,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/model/model.h"
 #include "kinemark/pipeline/files/motion_tables.h"
-#include "kinemark/pipeline/motion/ik_setup_options.h"
+#include "kinemark/pipeline/motion/ik_job.h"
 #include "kinemark/pipeline/motion/marker_locations.h"
 #include "kinemark/stages/motion/ik.h"
 #include "support/acceptance.h"

@@ -4,7 +4,7 @@
 
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/pipeline/motion/ik_setup_options.h"
+#include "kinemark/pipeline/motion/ik_job.h"
 
 namespace kinemark::testing_support {
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
-"""A viewer of a live source over a WebSocket, by the words of RFC 6455 and of server/live_message.h; for test_live.py and tests/acceptance/live.py."""
+"""A viewer of a live source over a WebSocket, by the words of RFC 6455 and of server/live_viewer.h; for test_live.py and tests/acceptance/live.py."""
 
 import os
 import struct

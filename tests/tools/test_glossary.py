@@ -11,7 +11,8 @@ def text_of(top, pattern):
 
 
 CODE = re.sub(r"//.*", "", text_of("src", "*.h") + text_of("studies", "*.h"))
-KEYS, COMMANDS = text_of("src", "*_json.cc"), text_of("cli", "*.cc")
+KEYS = text_of("src", "*_json.cc") + text_of("src", "*_job.cc")
+COMMANDS = text_of("cli", "*.cc")
 
 
 def exists(name, before):

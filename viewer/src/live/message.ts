@@ -34,7 +34,7 @@ const headBytes = 40;
 /** missing, measured, interpolated, filled from a model, upsampled, rejected: as data::SampleState counts. */
 const stateOfCode = Uint8Array.from(["missing", "measured", "interpolated", "model_filled", "upsampled", "rejected"].map((name) => stateNames.indexOf(name as "missing")));
 
-/** A message of the server; it throws at one that is none. server/live_message.h describes the bytes. */
+/** A message of the server; it throws at one that is none. server/live_viewer.h describes the bytes. */
 export function decodeMessage(buffer: ArrayBuffer): LiveMessage {
   const view = new DataView(buffer);
   if (buffer.byteLength < headBytes || view.getUint8(1) !== 1) throw new Error("this page cannot read what the server sends");

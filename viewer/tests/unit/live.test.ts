@@ -13,7 +13,7 @@ const { LiveStream } = await import("../../src/live/stream.ts");
 const { LiveWindow } = await import("../../src/live/window.ts");
 const { bounds } = await import("../../src/scene/scene.ts");
 
-/** A message as server/live_message.cc writes it. */
+/** A message as server/live_viewer.cc writes it. */
 function bytes(kind: number, frame: number, time_s: number, floats: number[], tail: number[], { dropped = 0, answer_s = NaN, version = 1 } = {}): ArrayBuffer {
   const buffer = new ArrayBuffer(40 + 4 * floats.length + tail.length);
   const view = new DataView(buffer);

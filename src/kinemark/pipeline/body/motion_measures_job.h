@@ -4,6 +4,8 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,11 +13,23 @@
 #include "kinemark/core/time_base.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/run_record.h"
+#include "kinemark/pipeline/gait/gait_sheet.h"
 #include "kinemark/pipeline/measures/gait_request.h"
 #include "kinemark/pipeline/motion/motion_files.h"
+#include "kinemark/stages/analysis/gait/gait_facts.h"
 #include "kinemark/workflow/measures/asked.h"
+#include "kinemark/workflow/motion/dynamics.h"
 
 namespace kinemark::pipeline {
+
+// A motion of a model over walking cycles.
+
+/// Coordinates that move by themselves, with their deviations; where torques are known, moments along those
+/// that are angles of joints ("knee_angle_r_moment") and their powers ("knee_angle_r_power"). A value that
+/// the markers do not determine is missing.
+/// @param measured  on the clock of the cycles
+void add_motion_cycles(const workflow::MotionMeasured& measured, std::span<const analysis::GaitCycle> cycles,
+                       std::vector<SheetInput>& out);
 
 /// What `kinemark dynamics MOTION --model M` is asked to measure: ids of analysis::body_definitions(),
 /// regions whose rows count from 1, between events in the .c3d of `forces` or found of its feet. The output

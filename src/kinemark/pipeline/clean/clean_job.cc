@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/clean/internal/clean_account.h"
 #include "kinemark/pipeline/clean/internal/clean_output.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/output_check.h"

@@ -8,7 +8,6 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/pipeline/files/info_json.h"
-#include "kinemark/pipeline/files/outcome_json.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {

@@ -16,7 +16,6 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/version.h"
 #include "kinemark/io/rig/toml_text.h"
-#include "kinemark/pipeline/files/settings_table.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -3,6 +3,8 @@
 // Options of a command in a TOML file: docs/formats/settings.md.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -35,5 +37,8 @@ struct Settings {
 
 /// The text that read_settings() reads back as the same, lines aside. Numbers stand without quotes.
 [[nodiscard]] std::string settings_text(const Settings& settings);
+
+/// The options in a table, in the order of the file; as parse_settings(). @param name  of the file
+[[nodiscard]] Result<Settings> settings_of(const toml::table& table, const std::string& name);
 
 }  // namespace kinemark::pipeline

@@ -9,7 +9,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
-#include "kinemark/pipeline/files/outcome_json.h"
+#include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
 #include "support/scratch.h"

@@ -1,21 +1,62 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A gait report as files, for any job that has curves over the cycle.
+// A gait report for any job that has curves over the cycle: how far walking is from a norm (Movement Analysis
+// Profile, Gait Profile Score), one page to read and to print, and files.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/run_record.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/angle_angle.h"
+#include "kinemark/pipeline/gait/gait_figures.h"
 #include "kinemark/pipeline/gait/gait_norms.h"
-#include "kinemark/pipeline/gait/gait_page.h"
 #include "kinemark/pipeline/gait/gait_sheet.h"
 
 namespace kinemark::pipeline {
+
+/// The root mean square over the cycle of what a mean curve differs from the norm's mean.
+struct GaitVariableScore {
+  std::string title;                            ///< of its panel
+  std::array<double, 2> value_deg{kNaN, kNaN};  ///< left, right; NaN: not known at every point
+};
+
+/// Baker et al. 2009 (Gait & Posture 30:265-269). `scores` is the Movement Analysis Profile, as far as there
+/// are curves and norms. The Gait Profile Score of a side is the root mean square of nine scores: pelvic
+/// tilt, obliquity and rotation, hip flexion, adduction and rotation, knee flexion, ankle dorsiflexion, foot
+/// progression; that of both sides is of fifteen, the pelvis counted once, from the left cycle. The paper
+/// takes 51 points of the cycle, here are those of the curves.
+struct GaitDeviation {
+  std::vector<GaitVariableScore> scores;       ///< in the order of the nine; empty: no norm has means
+  std::array<double, 2> side_deg{kNaN, kNaN};  ///< left, right; NaN: one of the nine is not known
+  double both_deg = kNaN;                      ///< NaN: one of the fifteen is not known
+  std::vector<std::string> lacking;            ///< titles of those of the nine that are not known
+};
+
+/// Of a sheet with norms; without a mean curve in them it is empty.
+[[nodiscard]] GaitDeviation gait_deviation(const GaitSheet& sheet);
+
+/// What stands on the page besides the sheet.
+struct GaitPageFacts {
+  std::string angles_from;              ///< "Plug-in Gait", "outputs of the recording's model"
+  std::string command_line;             ///< as typed; may be empty
+  std::vector<data::InputFile> inputs;  ///< files that were read
+  std::vector<std::string> warnings;    ///< of the job; one sentence each
+  std::vector<data::Gate> gates;        ///< bounds that the job had to meet
+};
+
+/// One HTML page that needs nothing else, made by the viewer (docs/formats/pages.md, GaitPage): what must be
+/// known, the figures, measures left and right with intervals and norms, scores, events, how to read it. The
+/// same sheet gives the same bytes.
+[[nodiscard]] std::string gait_page(const GaitSheet& sheet, const GaitDeviation& deviation,
+                                    std::span<const GaitFigure> figures, const GaitPageFacts& facts);
 
 /// What a report is asked to show besides what there is.
 struct GaitReportRequest {

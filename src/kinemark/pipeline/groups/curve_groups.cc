@@ -12,7 +12,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/pipeline/groups/tidy_rows.h"
+#include "kinemark/pipeline/groups/groups_tables.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -15,7 +15,6 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/text/tidy_csv.h"
 #include "kinemark/pipeline/groups/groups_tables.h"
-#include "kinemark/pipeline/groups/tidy_rows.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -11,9 +11,7 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
-#include "kinemark/pipeline/joints/joints_page.h"
 #include "kinemark/pipeline/joints/segments_file.h"
-#include "kinemark/pipeline/joints/vsk_layout.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 
 namespace kinemark::pipeline {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,12 @@
 #include "kinemark/pipeline/joints/joints_job.h"
 
 namespace kinemark::pipeline {
+
+/// HTML of the joints that were found: what stands out, the skeleton in space among the markers that it comes
+/// from, centres, axes and lengths with their intervals.
+/// @param first_frame  number of the recording's first frame
+[[nodiscard]] std::string joints_page(const JointsJob& job, const JointsOutcome& outcome,
+                                      std::int64_t first_frame);
 
 /// What skeleton.json holds: skeleton_json(), how it was found ("version", "command", "input", "method",
 /// "notes", "left_out", "next_step" where something was, "slips", "marker_noise" with soft tissue) and

@@ -10,7 +10,6 @@
 
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/event_table.h"
-#include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/stages/analysis/path/path_measures.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kinemark/pipeline/measures/gait_cycles.h"
+#include "kinemark/pipeline/measures/event_table.h"
 
 namespace kinemark::pipeline {
 namespace {

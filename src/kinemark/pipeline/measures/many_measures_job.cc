@@ -21,7 +21,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/pipeline/files/result_files.h"
-#include "kinemark/pipeline/measures/measure_request.h"
+#include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
 
@@ -66,9 +66,9 @@ Status join_participants(ManyMeasuresJob& job, std::vector<std::string>& notes) 
 }
 
 // A recording that is too large for the memory, or that trips a check, is one that failed.
-Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const workflow::MeasureOptions& options) {
+Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const workflow::AskedMeasures& asked) {
   try {
-    return measure_recording(job, options);
+    return measure_recording(job, asked);
   } catch (const std::bad_alloc&) {
     return fail(Code::io, fmt::format("{}: out of memory", job.input.string()));
   } catch (const std::exception& error) {
@@ -76,11 +76,10 @@ Result<MeasuredRecording> measure_guarded(const MeasuresJob& job, const workflow
   }
 }
 
-std::optional<RecordingRows> run_trial(const MeasuresJob& job, workflow::MeasureOptions options,
+std::optional<RecordingRows> run_trial(const MeasuresJob& job, const workflow::AskedMeasures& asked,
                                        TrialOutcome& trial) {
-  options.threads = job.threads;
   const auto begin = std::chrono::steady_clock::now();
-  auto measured = measure_guarded(job, options);
+  auto measured = measure_guarded(job, asked);
   trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!measured) {
     trial.status = TrialStatus::failed;
@@ -145,8 +144,11 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
   ManyMeasuresJob job = given;
   if (auto s = check_many(job); !s) return std::unexpected(s.error());
   if (auto s = job.selection.check(); !s) return std::unexpected(s.error());
-  const auto options = measure_options(job);
-  if (!options) return std::unexpected(options.error());
+  const int at_a_time = thread_count(job.jobs);
+  MeasuresJob alike = job;  // what is asked of every recording
+  alike.threads = std::max(1, thread_count(job.threads) / at_a_time);
+  const auto asked = asked_measures(alike);
+  if (!asked) return std::unexpected(asked.error());
   ManyMeasuresOutcome out;
   if (auto s = join_participants(job, out.notes); !s) return std::unexpected(s.error());
   auto list = list_recordings(job.inputs);
@@ -173,15 +175,14 @@ Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& given) {
   std::mutex mutex;
   std::int64_t done = 0;
   std::atomic<bool> stopped = false;
-  const int at_a_time = thread_count(job.jobs);
   parallel_for(std::ssize(out.trials), 1, at_a_time, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = at(begin); i < at(end) && !stopped; ++i) {
       MeasuresJob one = job;
       one.input = out.trials[i].input;
       if (!io::needs_rate(one.input)) one.rate_hz = 0.0;
-      one.threads = std::max(1, thread_count(job.threads) / at_a_time);
+      one.threads = alike.threads;
       one.progress = {};
-      each[i] = run_trial(one, *options, out.trials[i]);
+      each[i] = run_trial(one, *asked, out.trials[i]);
       const std::lock_guard lock(mutex);
       ++done;
       if (job.progress && !job.progress(done, std::ssize(out.trials))) stopped = true;

@@ -43,7 +43,7 @@ struct ManyMeasuresOutcome : ManyOutcome {
 ///
 /// Fails before anything is read: Code::usage without a table to write or JSON to print, for what is made of
 /// one recording alone (figures, a page, a .c3d, envelopes, angles, a named journal), and as
-/// list_recordings(), read_participants(), measure_options() and Staging.
+/// list_recordings(), read_participants(), asked_measures() and Staging.
 [[nodiscard]] Result<ManyMeasuresOutcome> run_many_measures(const ManyMeasuresJob& job);
 
 /// "recordings" (each as measures_outcome_json() without "written", with participant, session and trial),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
 #include "kinemark/stages/report/figures/figure.h"
 
@@ -33,5 +34,9 @@ inline constexpr std::string_view kFigureFormats = "svg and png";
 
 /// The content of the figure's file in a format. Code::not_supported as figure_png().
 [[nodiscard]] Result<std::string> figure_file(const report::Figure& figure, const std::string& format);
+
+/// The page of a recording's measures: what stands out, figures, the table.
+[[nodiscard]] std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome,
+                                        const std::vector<NamedFigure>& figures);
 
 }  // namespace kinemark::pipeline

@@ -14,6 +14,21 @@
 namespace kinemark::pipeline {
 namespace {
 
+/// What is asked of walking and of cycles fits what the command is about.
+Status check_walking(const MeasuresJob& job) {
+  if (job.gait.of_movement() && job.of != workflow::MeasuresOf::everything &&
+      job.of != workflow::MeasuresOf::paths)
+    return fail(
+        Code::usage,
+        fmt::format("--events movement is none of 'kinemark {}'; 'kinemark measure' takes the markers' own",
+                    workflow::command_of(job.of)));
+  if (job.of == workflow::MeasuresOf::muscles && job.gait.wanted() && job.emg.write_cycles.empty())
+    return fail(Code::usage, fmt::format("--{} is of walking, over whose cycles nothing is written; need "
+                                         "--write-cycles FILE.csv too",
+                                         job.gait.events == "best" ? "gait-marker" : "events"));
+  return {};
+}
+
 // What the verb found goes into the outcome, behind the warnings that are there.
 void take_measured(workflow::Measured&& found, MeasuredRecording& out) {
   auto& outcome = out.outcome;
@@ -56,16 +71,45 @@ void note_aimless(const MeasuresOutcome& outcome, std::vector<std::string>& note
 
 }  // namespace
 
-Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workflow::MeasureOptions& options) {
-  const auto asked = workflow::asked_measures(options);
-  if (!asked) return std::unexpected(asked.error());
-  if (!job.forces.empty() && !asked->uses_forces())
+Result<workflow::AskedMeasures> asked_measures(const MeasuresJob& job) {
+  const bool drawn = !job.figures.empty() || !job.report.empty();
+  auto gait = gait_options(job.gait, drawn);
+  if (!gait) return std::unexpected(gait.error());
+  if (auto s = job.emg.check(); !s) return std::unexpected(s.error());
+  if (auto s = check_walking(job); !s) return std::unexpected(s.error());
+  workflow::MeasureOptions out;
+  static_cast<workflow::MeasureChoice&>(out) = job;
+  out.of = job.of;
+  out.gait = std::move(*gait);
+  out.noise_sd_m = job.noise_sd_m;
+  out.seed = job.seed;
+  out.threads = job.threads;
+  out.keep_doubtful = !job.drops_doubtful(true);
+  out.curves = drawn;
+  const bool cycles_of_emg = !job.emg.write_cycles.empty();
+  out.needs = {.events = job.gait.writes(),
+               .own_movements = job.gait.of_movement(),
+               .walking = job.gait.wanted(),
+               .strides = cycles_of_emg,
+               .emg = job.emg.wanted(),
+               .envelopes = cycles_of_emg || !job.emg.write.empty()};
+  out.emg.envelope = job.emg.envelope;
+  auto asked = workflow::asked_measures(out);
+  if (!asked) return asked;
+  auto emg = emg_choice(job.emg);
+  if (!emg) return std::unexpected(emg.error());
+  asked->options.emg = std::move(*emg);
+  return asked;
+}
+
+Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workflow::AskedMeasures& asked) {
+  if (!job.forces.empty() && !asked.uses_forces())
     return fail(Code::usage, fmt::format("--forces: nothing that is asked for of {} is measured from forces",
                                          job.input.string()));
   const RecordingSource source{.path = job.input,
                                .needs_samples = true,
                                .record = true,
-                               .plates = asked->uses_forces(),
+                               .plates = asked.uses_forces(),
                                .forces = job.forces,
                                .force = job.force,
                                .seed = job.seed,
@@ -90,7 +134,7 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
     workflow::set_screen_up(*out.recorded, up->up);
   std::ranges::move(out.recording.notes, std::back_inserter(outcome.warnings));
   std::ranges::move(std::exchange(trial.warnings, {}), std::back_inserter(outcome.warnings));
-  auto found = workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)), options);
+  auto found = workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)), asked);
   if (!found) return fail_at(name, found.error());
   take_measured(std::move(*found), out);
   const auto& time = trial.markers.time;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// One recording, read and measured; nothing is written yet.
+// What a job asks, sorted once before any recording is read; one recording, read and measured. Nothing is
+// written yet.
 #pragma once
 
 #include <optional>
@@ -10,13 +11,17 @@
 #include "kinemark/data/trial.h"
 #include "kinemark/pipeline/files/recording.h"
 #include "kinemark/pipeline/measures/event_table.h"
-#include "kinemark/pipeline/measures/gait_cycles.h"
 #include "kinemark/pipeline/measures/measures_job.h"
 #include "kinemark/pipeline/measures/recording_name.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
 #include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
+
+/// Options of the job, sorted: files of roles and of maxima are read. Code::usage for a measure that does not
+/// exist, with the nearest names, for one of another command, and as gait_options() and
+/// workflow::asked_measures(); else as the readers.
+[[nodiscard]] Result<workflow::AskedMeasures> asked_measures(const MeasuresJob& job);
 
 /// All that a recording gives.
 struct MeasuredRecording {
@@ -31,8 +36,8 @@ struct MeasuredRecording {
 
 /// Read, screen, measure. Files that the job writes are looked at for what they need alone. Errors as
 /// run_measures().
-/// @param options  measure_options() of the job
+/// @param asked  asked_measures() of the job
 [[nodiscard]] Result<MeasuredRecording> measure_recording(const MeasuresJob& job,
-                                                          const workflow::MeasureOptions& options);
+                                                          const workflow::AskedMeasures& asked);
 
 }  // namespace kinemark::pipeline

@@ -17,12 +17,9 @@
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
 #include "kinemark/pipeline/measures/measure_figures.h"
-#include "kinemark/pipeline/measures/measure_request.h"
 #include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
-#include "kinemark/pipeline/measures/measures_page.h"
 #include "kinemark/pipeline/measures/measures_table.h"
-#include "kinemark/pipeline/measures/noise_table.h"
 #include "kinemark/stages/analysis/forces/force_measures.h"
 
 namespace kinemark::pipeline {
@@ -196,8 +193,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
-  const auto options = measure_options(job);
-  if (!options) return std::unexpected(options.error());
+  const auto asked = asked_measures(job);
+  if (!asked) return std::unexpected(asked.error());
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   if (!job.participants_file.empty() && !job.participants) {
@@ -214,7 +211,7 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   auto staging = Staging::create(targets, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
   if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
-  auto measured = measure_recording(job, *options);
+  auto measured = measure_recording(job, *asked);
   if (!measured) return std::unexpected(measured.error());
   staging->add_inputs(inputs_of(measured->outcome));
   auto files = other_files(job, *measured);

@@ -11,7 +11,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/mesh/testing/shapes.h"
 #include "kinemark/io/osim/osim_model.h"
-#include "kinemark/pipeline/motion/internal/body_positions.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {

@@ -21,7 +21,6 @@
 #include "kinemark/pipeline/files/motion_tables.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/recording.h"
-#include "kinemark/pipeline/motion/internal/body_positions.h"
 #include "kinemark/pipeline/motion/internal/cycle_overlays.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/model_meshes.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "kinemark/core/version.h"
-#include "kinemark/pipeline/motion/internal/body_positions.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/sensor_run.h"
 #include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/stages/report/ik_report.h"

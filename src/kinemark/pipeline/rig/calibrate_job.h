@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -39,5 +41,10 @@ struct CalibrateOutcome : JobOutcome {
 /// workflow::calibrate(), and with Code::bad_input for a recording that does not say what it shows.
 /// Progress counts steps.
 [[nodiscard]] Result<CalibrateOutcome> run_calibrate(const CalibrateJob& job);
+
+/// "method", by bundle and scan chi2_per_dof, warp_degree, crosstalk, iterations, poses, sightings, outliers,
+/// side_rms_mm and "alignment" (cameras, aligned, next), "written" unless only the alignment was asked, and
+/// "warnings".
+[[nodiscard]] nlohmann::ordered_json calibrate_json(const CalibrateOutcome& outcome);
 
 }  // namespace kinemark::pipeline

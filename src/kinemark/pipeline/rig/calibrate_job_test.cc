@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 // The chain from files to files: recordings of known things to a rig, counts and rig to markers.
-#include "kinemark/pipeline/rig/calibrate_json.h"
+#include "kinemark/pipeline/rig/calibrate_job.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,6 +11,26 @@
 #include "kinemark/pipeline/rig/rig_page.h"
 
 namespace kinemark::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json summary_of(const reconstruction::LedSummary& led) {
+  return {{"name", led.name},          {"frames", led.frames},       {"located", led.located},
+          {"occluded", led.occluded},  {"saturated", led.saturated}, {"inconsistent", led.inconsistent},
+          {"near_edge", led.near_edge}};
+}
+
+void add_fit(const trajectory::LedFit& fit, Json& to) {
+  to["order"] = fit.bandwidth.order;
+  to["cutoff_hz"] = fit.bandwidth.cutoff_hz;
+  to["chi2_per_dof"] = fit.chi2_per_dof;
+  to["rejected"] = fit.rejected;
+  to["held_down"] = fit.held_down;
+  to["flicker_counts"] = fit.flicker_counts;
+}
+
+}  // namespace
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   if (auto s = io::check_marker_format(job.output); !s) return std::unexpected(s.error());
@@ -42,6 +62,17 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   out.written = std::move(*written);
   out.found.markers = std::move(trial.markers);
   return out;
+}
+
+Json reconstruct_json(const ReconstructOutcome& outcome) {
+  Json leds = Json::array();
+  for (const auto& led : outcome.found.leds) leds.push_back(summary_of(led));
+  for (std::size_t i = 0; i < outcome.found.fits.size(); ++i) add_fit(outcome.found.fits[i], leds[i]);
+  return Json{{"method", to_string(outcome.method)},
+              {"frames", outcome.frames},
+              {"written", outcome.written.front().string()},
+              {"warnings", outcome.warnings},
+              {"leds", std::move(leds)}};
 }
 
 }  // namespace kinemark::pipeline

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <filesystem>
 
@@ -29,5 +31,10 @@ struct ReconstructOutcome : JobOutcome {
 
 /// Points of a recording of counts as markers. Fails as the readers and workflow::reconstruct().
 [[nodiscard]] Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job);
+
+/// "method", "frames", "written", "warnings" and "leds": for each name, frames, located, occluded, saturated,
+/// inconsistent, near_edge, and by the smoother order, cutoff_hz, chi2_per_dof, rejected, held_down,
+/// flicker_counts (per camera).
+[[nodiscard]] nlohmann::ordered_json reconstruct_json(const ReconstructOutcome& outcome);
 
 }  // namespace kinemark::pipeline

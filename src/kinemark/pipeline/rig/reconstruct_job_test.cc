@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/rig/reconstruct_json.h"
+#include "kinemark/pipeline/rig/reconstruct_job.h"
 
 #include <gmock/gmock.h>
 

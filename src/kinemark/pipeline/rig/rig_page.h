@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kinemark/data/rig.h"
 #include "kinemark/data/trajectories.h"
@@ -10,6 +13,21 @@
 #include "kinemark/pipeline/rig/reconstruct_job.h"
 
 namespace kinemark::pipeline {
+
+/// Median standard deviation (root of the trace of the covariance, m) of the points of each cell of a plane
+/// of the world.
+struct PrecisionMap {
+  std::array<int, 2> axes{};           ///< of the world, along columns and along rows: 0, 1 or 2
+  std::array<double, 2> first{};       ///< edges of the first cell, m
+  double cell_m = 0.0;                 ///< side of a cell; 0: there is nothing to map
+  std::int64_t columns = 0, rows = 0;  ///< cells along the two axes
+  std::vector<double> sd_m;            ///< rows x columns, NaN where no point was
+  std::vector<std::int64_t> samples;   ///< rows x columns
+};
+
+/// Of all present samples that have a covariance, seen along the world's axis `along`. Cells are the finest
+/// of 1, 2 or 5 times a power of ten metres of which 24 cover the longer side.
+[[nodiscard]] PrecisionMap precision_map(const data::Trajectories& points, int along);
 
 /// HTML of a calibration: what stands out, the cameras in space, where they stand and where they were meant
 /// to, what to turn.

@@ -3,9 +3,66 @@
 #include "kinemark/pipeline/rig/rig_page.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace kinemark::pipeline {
 namespace {
+
+/// Points every 10 mm on a square of 1 m by 0.5 m in x and z; the SD grows with x.
+data::Trajectories square() {
+  auto t = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 100 * 50});
+  t.covariance.assign(static_cast<std::size_t>(6 * t.frames()), 0.0);
+  for (std::int64_t f = 0; f < t.frames(); ++f) {
+    const double x = 0.005 + 0.01 * static_cast<double>(f % 100),
+                 z = -0.245 + 0.01 * static_cast<double>(f / 100);
+    t.x(f, 0) = Eigen::Vector3d(x, 7.0, z);
+    t.state[t.index(f, 0)] = data::SampleState::measured;
+    const double variance = std::pow(1e-3 * (1.0 + x), 2) / 3.0;
+    for (const int k : {0, 3, 5}) t.covariance[static_cast<std::size_t>(6 * f + k)] = variance;
+  }
+  return t;
+}
+
+TEST(PrecisionMap, CellsHoldTheMedianOfTheirPoints) {
+  const auto map = precision_map(square(), 1);
+  EXPECT_EQ(map.axes, (std::array{0, 2}));
+  EXPECT_DOUBLE_EQ(map.cell_m, 0.05);
+  ASSERT_EQ(map.columns, 20);
+  ASSERT_EQ(map.rows, 10);
+  EXPECT_NEAR(map.first[0], 0.0, 1e-12);
+  EXPECT_NEAR(map.first[1], -0.25, 1e-12);
+  for (std::int64_t row = 0; row < map.rows; ++row)
+    for (std::int64_t column = 0; column < map.columns; ++column) {
+      const auto i = static_cast<std::size_t>(row * map.columns + column);
+      EXPECT_EQ(map.samples[i], 25);
+      EXPECT_NEAR(map.sd_m[i], 1e-3 * (1.0 + 0.05 * (static_cast<double>(column) + 0.5)), 1e-9);
+    }
+}
+
+TEST(PrecisionMap, WhatIsAbsentOrWithoutCovarianceDoesNotCount) {
+  auto t = square();
+  for (std::int64_t f = 0; f < t.frames(); ++f) {
+    if (t.x(f, 0).x() < 0.5) t.set_missing(f, 0, data::SampleState::rejected);
+  }
+  const auto map = precision_map(t, 1);
+  EXPECT_NEAR(map.first[0], 0.5, 1e-12);
+  t.covariance.clear();
+  const auto nothing = precision_map(t, 1);
+  EXPECT_EQ(nothing.columns, 0);
+  EXPECT_DOUBLE_EQ(nothing.cell_m, 0.0);
+}
+
+TEST(PrecisionMap, ASinglePointHasACell) {
+  auto t = square();
+  for (std::int64_t f = 1; f < t.frames(); ++f) t.set_missing(f, 0, data::SampleState::missing);
+  const auto map = precision_map(t, 2);
+  EXPECT_EQ(map.axes, (std::array{0, 1}));
+  EXPECT_EQ(map.columns, 1);
+  EXPECT_EQ(map.rows, 1);
+  EXPECT_EQ(map.samples, std::vector<std::int64_t>{1});
+}
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -56,4 +113,5 @@ TEST(RigPage, AReconstructionJudgesEachLed) {
 }
 
 }  // namespace
+
 }  // namespace kinemark::pipeline

@@ -15,7 +15,7 @@
 #include "kinemark/io/file.h"
 #include "kinemark/io/rig/toml_fields.h"
 #include "kinemark/io/rig/toml_text.h"
-#include "kinemark/pipeline/files/settings_table.h"
+#include "kinemark/pipeline/files/settings_file.h"
 
 namespace kinemark::pipeline {
 namespace {

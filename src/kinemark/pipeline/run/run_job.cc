@@ -11,14 +11,21 @@
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <mutex>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "kinemark/core/counted.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/text.h"
+#include "kinemark/core/utf8.h"
+#include "kinemark/data/likely_pairs.h"
+#include "kinemark/pipeline/files/file_table.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/run/step_record.h"
 
@@ -235,6 +242,12 @@ Result<std::vector<fs::path>> find_inputs(const RunJob& job, const fs::path& bas
   return read;
 }
 
+std::string command_of(const RunStep& step) {
+  std::string out = "kinemark";
+  for (const auto& word : step.words) out += " " + data::for_shell(word);
+  return out;
+}
+
 }  // namespace
 
 int RunOutcome::exit_status() const {
@@ -272,6 +285,49 @@ Result<RunOutcome> run_study(const RunJob& job) {
   const auto hold = Hold::take(folder);
   if (!hold) return std::unexpected(hold.error());
   Runner(job, base, std::move(*read), out.steps).run();
+  return out;
+}
+
+std::string run_table(const RunOutcome& outcome) {
+  std::vector<std::vector<std::string>> rows{{"subject", "recording", "step", "status", "s", "findings"}};
+  std::map<TrialStatus, std::int64_t> counts;
+  for (const auto& each : outcome.steps) {
+    rows.push_back({printable(each.step.subject), printable(each.step.trial), each.step.name,
+                    std::string(to_string(each.status)),
+                    each.seconds > 0.0 ? fmt::format("{:.1f}", each.seconds) : "",
+                    printable_sentence(each.said)});
+    ++counts[each.status];
+  }
+  std::vector<std::string> parts;
+  for (const auto& [status, n] : counts) parts.push_back(fmt::format("{} {}", n, to_string(status)));
+  return aligned(rows) + fmt::format("{}: {}\n", counted(std::ssize(outcome.steps), "step"), join(parts));
+}
+
+nlohmann::ordered_json run_json(const RunOutcome& outcome) {
+  nlohmann::ordered_json json;
+  json["exit_status"] = outcome.exit_status();
+  json["steps"] = nlohmann::ordered_json::array();
+  for (const auto& each : outcome.steps) {
+    nlohmann::ordered_json step;
+    step["subject"] = each.step.subject;
+    step["trial"] =
+        each.step.trial.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(each.step.trial);
+    step["step"] = each.step.name;
+    step["command"] = command_of(each.step);
+    step["outputs"] = nlohmann::ordered_json::array();
+    for (const auto& file : each.step.outputs) step["outputs"].push_back(file.string());
+    step["status"] = to_string(each.status);
+    step["exit_status"] = each.exit_status;
+    step["seconds"] = each.seconds;
+    step["said"] = each.said;
+    json["steps"].push_back(std::move(step));
+  }
+  return json;
+}
+
+std::string commands_text(const RunOutcome& outcome) {
+  std::string out;
+  for (const auto& each : outcome.steps) out += command_of(each.step) + "\n";
   return out;
 }
 

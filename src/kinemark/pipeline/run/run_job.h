@@ -3,6 +3,8 @@
 // The way of a whole study: every step of every recording, begun again where it was stopped.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -64,5 +66,16 @@ struct RunOutcome {
 /// write where it is one that they read and none of them makes; Code::io where the output folder cannot be
 /// made, or another run is at work in it.
 [[nodiscard]] Result<RunOutcome> run_study(const RunJob& job);
+
+/// How the steps of a run fared: a heading, a line for each (subject, recording, step, status, seconds, what
+/// was said), and how many fared how.
+[[nodiscard]] std::string run_table(const RunOutcome& outcome);
+
+/// The same: "exit_status" and "steps", each with "subject", "trial" (null: of the subject), "step",
+/// "command", "outputs", "status", "exit_status", "seconds" and "said".
+[[nodiscard]] nlohmann::ordered_json run_json(const RunOutcome& outcome);
+
+/// The commands of a run, a line each, as they would be typed in a shell.
+[[nodiscard]] std::string commands_text(const RunOutcome& outcome);
 
 }  // namespace kinemark::pipeline

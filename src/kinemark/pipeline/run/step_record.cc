@@ -3,9 +3,10 @@
 #include "kinemark/pipeline/run/step_record.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
 #include "kinemark/core/version.h"
@@ -15,6 +16,15 @@
 
 namespace kinemark::pipeline {
 namespace {
+
+constexpr std::size_t kLargestReport = 256UL << 20;  // bytes
+
+/// A text of an object, empty when it is none.
+std::string text_in(const nlohmann::json& object, const char* key) {
+  if (!object.is_object()) return "";
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -111,6 +121,32 @@ Status remove_stale(const std::vector<HashedFile>& before, const std::vector<Has
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> written_files(const std::vector<std::string>& said) {
+  constexpr std::string_view kWrote = "wrote ";
+  std::vector<std::filesystem::path> files;
+  for (const auto& line : said)
+    if (line.starts_with(kWrote)) files.emplace_back(line.substr(kWrote.size()));
+  return files;
+}
+
+std::vector<HashedFile> named_inputs(const std::vector<std::filesystem::path>& results,
+                                     const std::filesystem::path& base) {
+  std::vector<HashedFile> files;
+  for (const auto& result : results) {
+    if (result.extension() != ".json") continue;
+    const auto text = io::read_text(base / result, kLargestReport);
+    if (!text) continue;
+    const auto json = nlohmann::json::parse(*text, nullptr, false);
+    if (!json.is_object() || !json.contains("inputs") || !json["inputs"].is_array()) continue;
+    for (const auto& input : json["inputs"]) {
+      const auto path = text_in(input, "path"), hash = text_in(input, "hash");
+      if (text_in(input, "hash_kind") == "XXH3-64" && !path.empty() && !hash.empty())
+        files.emplace_back(path, hash);
+    }
+  }
+  return files;
+}
 
 std::string record_text(const StepRecord& record) {
   Json json;

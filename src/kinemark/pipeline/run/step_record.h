@@ -11,9 +11,21 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/pipeline/run/run_steps.h"
-#include "kinemark/pipeline/run/step_files.h"
 
 namespace kinemark::pipeline {
+
+// Which files a command had to do with, by what it said and by what its results say.
+
+/// A file and the checksum of its content.
+using HashedFile = std::pair<std::string, std::string>;
+
+/// The files of the lines "wrote FILE".
+[[nodiscard]] std::vector<std::filesystem::path> written_files(const std::vector<std::string>& said);
+
+/// The files that results name as what they were made from: "inputs" of a .json among them, with checksums
+/// as they were then. Results that are no such JSON name none. @param base  folder from which paths count
+[[nodiscard]] std::vector<HashedFile> named_inputs(const std::vector<std::filesystem::path>& results,
+                                                   const std::filesystem::path& base);
 
 /// What was done.
 struct StepRecord {

@@ -9,7 +9,7 @@
 
 #include "kinemark/math/statistics.h"
 #include "kinemark/pipeline/foundations/foundation_json.h"
-#include "kinemark/pipeline/measures/noise_table.h"
+#include "kinemark/pipeline/measures/measures_table.h"
 #include "kinemark/pipeline/segments/segment_tables.h"
 #include "kinemark/pipeline/segments/segments_job.h"
 #include "kinemark/stages/report/inputs_json.h"

@@ -38,42 +38,33 @@ Status unknown_measure(const std::string& id) {
                                        nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
 }
 
-Status check_kinds(const MeasureOptions& options) {
+/// Each measure goes to the stage that takes it; a word for all of a kind stands for none of its own.
+Status sort_measures(const MeasureOptions& options, AskedMeasures& out) {
   for (const auto& id : options.measures) {
     const auto kind = measures_of(id);
     if (!kind) return unknown_measure(id);
     if (options.of != MeasuresOf::everything && options.of != *kind)
       return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
                                            command_of(options.of), command_of(*kind)));
-  }
-  return {};
-}
-
-/// Each measure goes to the stage that takes it; a word for all of a kind stands for none of its own.
-void sort_measures(const MeasureOptions& options, AskedMeasures& out) {
-  bool all_of_walking = false, all_of_plates = false, all_of_emg = false;
-  for (const auto& id : options.measures) {
-    if (id == "gait")
-      all_of_walking = true;
-    else if (id == "plates")
-      all_of_plates = true;
-    else if (id == "emg")
-      all_of_emg = true;
-    else if (analysis::find_force_definition(id) != nullptr)
-      out.plates.measures.push_back(id);
-    else if (analysis::find_emg_definition(id) != nullptr)
-      out.emg.measures.push_back(id);
-    else if (analysis::find_gait_definition(id) != nullptr)
-      out.gait.measures.push_back(id);
-    else
+    if (*kind == MeasuresOf::paths)
       out.path.measures.push_back(id);
+    else if (*kind == MeasuresOf::muscles)
+      out.emg.measures.push_back(id);
+    else if (id == "plates" || analysis::find_force_definition(id) != nullptr)
+      out.plates.measures.push_back(id);
+    else
+      out.gait.measures.push_back(id);
   }
-  out.by_name = all_of_walking || !out.gait.measures.empty();
-  out.forces_by_name = all_of_plates || !out.plates.measures.empty();
-  out.muscles_by_name = all_of_emg || !out.emg.measures.empty();
-  if (all_of_walking) out.gait.measures.clear();
-  if (all_of_plates) out.plates.measures.clear();
-  if (all_of_emg) out.emg.measures.clear();
+  out.by_name = !out.gait.measures.empty();
+  out.forces_by_name = !out.plates.measures.empty();
+  out.muscles_by_name = !out.emg.measures.empty();
+  const auto leave_to_stage = [](const char* all, std::vector<std::string>& ids) {
+    if (std::ranges::find(ids, all) != ids.end()) ids.clear();
+  };
+  leave_to_stage("gait", out.gait.measures);
+  leave_to_stage("plates", out.plates.measures);
+  leave_to_stage("emg", out.emg.measures);
+  return {};
 }
 
 void spread_intervals(const MeasureOptions& options, AskedMeasures& out) {
@@ -104,10 +95,10 @@ std::optional<MeasuresOf> measures_of(const std::string& id) {
 
 Result<AskedMeasures> asked_measures(const MeasureOptions& options) {
   if (auto s = options.emg.envelope.check(); !s) return std::unexpected(s.error());
-  if (auto s = check_kinds(options); !s) return std::unexpected(s.error());
-  AskedMeasures out{.path = {.curves = options.curves, .keep_outliers = options.keep_doubtful},
+  AskedMeasures out{.options = options,
+                    .path = {.curves = options.curves, .keep_outliers = options.keep_doubtful},
                     .gait = options.gait};
-  sort_measures(options, out);
+  if (auto s = sort_measures(options, out); !s) return std::unexpected(s.error());
   const auto& needs = options.needs;
   const auto by_itself = [&options](MeasuresOf kind) {
     return options.measures.empty() && (options.of == MeasuresOf::everything || options.of == kind);

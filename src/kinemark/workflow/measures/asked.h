@@ -62,8 +62,9 @@ struct MeasureOptions : MeasureChoice {
   MeasureNeeds needs = {};          ///< what else has to be found
 };
 
-/// The options, sorted by the stage that measures.
+/// The options, sorted by the stage that measures: made once, before a recording is read.
 struct AskedMeasures {
+  MeasureOptions options;                ///< as they were given
   analysis::PathMeasureOptions path;     ///< without regions
   analysis::GaitOptions gait;            ///< without regions
   analysis::ForceMeasureOptions plates;  ///< without regions and events

@@ -54,9 +54,8 @@ Status measure_plates(const AskedMeasures& asked, const data::Recording& recordi
 }
 
 // Electromyograms, where channels are named or known by their names.
-Status measure_muscles(const MeasureOptions& options, const AskedMeasures& asked, const data::Trial& trial,
-                       Measured& found) {
-  auto measured = measure_channels(trial, options.emg, asked.path.regions, asked.emg);
+Status measure_muscles(const AskedMeasures& asked, const data::Trial& trial, Measured& found) {
+  auto measured = measure_channels(trial, asked.options.emg, asked.path.regions, asked.emg);
   if (!measured) return std::unexpected(measured.error());
   std::ranges::copy(measured->measures, std::back_inserter(found.measures));
   std::ranges::copy(measured->notes, std::back_inserter(found.remarks.warnings));
@@ -99,8 +98,8 @@ void add_contradictions(const std::vector<std::string>& contradicted, std::vecto
        .sentence = fmt::format("What walking rests on is contradicted: {}.", join(contradicted, "; "))});
 }
 
-NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& asked,
-                          const data::Recording& recording, Measured& found) {
+NoWalking measure_walking(const AskedMeasures& asked, const data::Recording& recording, Measured& found) {
+  const auto& options = asked.options;
   const auto& needs = options.needs;
   const bool events_needed = needs.events || needs.strides;
   auto gait = measure_gait(recording, asked.gait);
@@ -127,11 +126,11 @@ NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& as
 }
 
 // Walking, plates, EMG, then paths; what fails is reported where something else is measured.
-Status measure_all(const MeasureOptions& options, const AskedMeasures& asked,
-                   const data::Recording& recording, Measured& found) {
+Status measure_all(const AskedMeasures& asked, const data::Recording& recording, Measured& found) {
+  const auto& needs = asked.options.needs;
   const auto& trial = recording.trial;
   NoWalking walking;
-  if (asked.walking) walking = measure_walking(options, asked, recording, found);
+  if (asked.walking) walking = measure_walking(asked, recording, found);
   if (!walking.ends_all) return walking.ends_all;
   const bool others = asked.paths || asked.by_name;
   const Status plates = asked.forces ? measure_plates(asked, recording, found) : Status();
@@ -146,13 +145,13 @@ Status measure_all(const MeasureOptions& options, const AskedMeasures& asked,
     found.remarks.warnings.push_back("Walking is not measured: " + late.error().message);
   }
   if (asked.muscles)
-    if (auto s = take_failure(measure_muscles(options, asked, trial, found), "EMG", asked.muscles_by_name,
-                              (!others && found.measures.empty()) || options.needs.envelopes, found);
+    if (auto s = take_failure(measure_muscles(asked, trial, found), "EMG", asked.muscles_by_name,
+                              (!others && found.measures.empty()) || needs.envelopes, found);
         !s)
       return s;
   // Where no foot steps, or nobody asks whether one does, events and cycles are those of the markers' own
   // movements.
-  const bool own = (options.needs.events || options.needs.own_movements) && !found.gait;
+  const bool own = (needs.events || needs.own_movements) && !found.gait;
   if (!asked.paths && !own) return {};
   auto of_paths = asked.path;
   of_paths.rhythms = own;
@@ -189,7 +188,9 @@ void leave_points_apart(Measured& found) {
 
 Result<Measured> measure_as(MeasuresOf of, data::Recording recording, MeasureOptions options) {
   options.of = of;
-  return measure_recording(std::move(recording), options);
+  auto asked = asked_measures(options);
+  if (!asked) return std::unexpected(asked.error());
+  return measure_recording(std::move(recording), std::move(*asked));
 }
 
 }  // namespace
@@ -204,20 +205,18 @@ Result<analysis::Gait> measure_gait(const data::Recording& recording, const anal
                                 stated);
 }
 
-Result<Measured> measure_recording(data::Recording recording, const MeasureOptions& options) {
-  auto asked = asked_measures(options);
-  if (!asked) return std::unexpected(asked.error());
+Result<Measured> measure_recording(data::Recording recording, AskedMeasures asked) {
   Measured found;
   found.recording = std::move(recording);
   leave_points_apart(found);
-  if (auto s = leave_out_defects(found.recording.trial, options.keep_doubtful, found.recording.edits.swapped,
-                                 found.remarks.warnings);
+  if (auto s = leave_out_defects(found.recording.trial, asked.options.keep_doubtful,
+                                 found.recording.edits.swapped, found.remarks.warnings);
       !s)
     return std::unexpected(s.error());
-  auto regions = regions_of(options, found.recording);
+  auto regions = regions_of(asked.options, found.recording);
   if (!regions) return std::unexpected(regions.error());
-  asked->path.regions = asked->gait.regions = std::move(*regions);
-  if (auto s = measure_all(options, *asked, found.recording, found); !s) return std::unexpected(s.error());
+  asked.path.regions = asked.gait.regions = std::move(*regions);
+  if (auto s = measure_all(asked, found.recording, found); !s) return std::unexpected(s.error());
   return found;
 }
 

@@ -53,8 +53,9 @@ struct Measured : MeasuresFound {
 [[nodiscard]] Result<Measured> emg(data::Recording recording, const MeasureOptions& options = {});
 
 /// What options.of says: everything that the recording holds, or one of the above. What was asked for by name
-/// and fails is a remark where something else is measured.
-[[nodiscard]] Result<Measured> measure_recording(data::Recording recording, const MeasureOptions& options);
+/// and fails is a remark where something else is measured. Errors as measure(), those of asked_measures()
+/// left.
+[[nodiscard]] Result<Measured> measure_recording(data::Recording recording, AskedMeasures asked);
 
 /// Walking in a recording: its markers as they are, its plates, its events, its vertical where it is stated.
 /// Code::bad_input as analysis::analyze_gait().

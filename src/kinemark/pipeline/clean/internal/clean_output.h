@@ -17,6 +17,11 @@
 
 namespace kinemark::pipeline::internal {
 
+// What is said of a run beside the account that the verb gives.
+
+/// What was asked of a run, for the record.
+[[nodiscard]] report::CleanRun describe_run(const CleanJob& job, const data::Trial& trial);
+
 /// One marker's result as trajectories and derivatives of one marker. Bridged samples get the filter's name,
 /// filled ones keep the method of `from`, measured ones tell that they were smoothed (hand_on()).
 struct MarkerPiece {

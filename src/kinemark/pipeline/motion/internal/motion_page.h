@@ -10,11 +10,19 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
+#include "kinemark/pipeline/motion/model_meshes.h"
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/report/ik_report.h"
 #include "kinemark/stages/report/ik_summary.h"
+#include "kinemark/stages/report/scene.h"
 
 namespace kinemark::pipeline::internal {
+
+/// Where the bodies of a model are in a motion of it. A body ends where the bodies that it carries begin (the
+/// middle of them), one that carries none as far beyond its mass centre as that lies from its origin. Bodies
+/// without mass or length are left out, unless they have a mesh.
+[[nodiscard]] report::SceneBodies body_positions(const model::Model& model, const data::JointMotion& motion,
+                                                 const ModelMeshes& meshes = {});
 
 /// HTML with the model's bodies in space, as the meshes that its file names where they are found, and over
 /// the cycles that the recording's events mark.

@@ -14,7 +14,7 @@ namespace kinemark::motion::internal {
 namespace {
 
 constexpr double kFirstLesson_s = 0.5, kWindow_s = 4.0;
-constexpr std::int64_t kFewest = 30;     // frames, to learn from
+constexpr std::int64_t kFewest = 30;           // frames, to learn from
 constexpr std::int64_t kStreamHeldFrames = 3;  // as in recordings
 constexpr double kStreamHeldTravel_m = 2e-3;
 
@@ -99,7 +99,8 @@ void StreamJudge::drop_held(const Eigen::Matrix3Xd& y, Eigen::VectorXd& weight) 
       continue;
     }
     if (++repeats_[at(m)] == 2) begun_.col(m) = marker.col(m);
-    if (repeats_[at(m)] < kStreamHeldFrames || (marker.col(m) - begun_.col(m)).norm() <= kStreamHeldTravel_m) continue;
+    if (repeats_[at(m)] < kStreamHeldFrames || (marker.col(m) - begun_.col(m)).norm() <= kStreamHeldTravel_m)
+      continue;
     weight[m] = 0.0;
     out_[at(m)] = 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/measures/measure_request.h"
+#include "kinemark/pipeline/measures/measured_recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,13 +11,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
-
-/// What the verb makes of the job.
-Result<workflow::AskedMeasures> asked_measures(const MeasuresJob& job) {
-  const auto options = measure_options(job);
-  if (!options) return std::unexpected(options.error());
-  return workflow::asked_measures(*options);
-}
 
 workflow::AskedMeasures asked_for(std::vector<std::string> measures) {
   MeasuresJob job;

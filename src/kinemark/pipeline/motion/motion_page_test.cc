@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/motion/internal/body_positions.h"
+#include "kinemark/pipeline/motion/internal/motion_page.h"
 
 #include <gmock/gmock.h>
 
