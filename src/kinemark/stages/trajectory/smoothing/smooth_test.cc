@@ -18,7 +18,7 @@ using data::SampleState;
 using data::Trajectories;
 using ::testing::HasSubstr;
 
-constexpr double kSigma = 0.0005;
+constexpr double kNoiseSd_m = 0.0005;
 
 Eigen::Vector3d position(double t, int derivative) {
   Eigen::Vector3d p;
@@ -38,7 +38,7 @@ Trajectories hand(int frames = 400, double rate_hz = 100.0, std::uint64_t seed =
     Random random(seed, static_cast<std::uint64_t>(m));
     for (int f = 0; f < frames; ++f) {
       Eigen::Vector3d x = position(f / rate_hz, 0);
-      for (int axis = 0; axis < 3; ++axis) x[axis] += kSigma * random.gaussian();
+      for (int axis = 0; axis < 3; ++axis) x[axis] += kNoiseSd_m * random.gaussian();
       t.x(f, m) = x;
       t.state[t.index(f, m)] = SampleState::measured;
     }
@@ -68,11 +68,11 @@ TEST(Smooth, FindsTheMovementItsDerivativesAndTheNoise) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->trajectories.validate());
   EXPECT_TRUE(result->derivatives.validate(result->trajectories));
-  EXPECT_LT(rms_error(result->trajectories.x_in_world, 0, 100.0), 0.4 * kSigma);
+  EXPECT_LT(rms_error(result->trajectories.x_in_world, 0, 100.0), 0.4 * kNoiseSd_m);
   EXPECT_LT(rms_error(result->derivatives.velocity, 1, 100.0), 0.008);
   EXPECT_LT(rms_error(result->derivatives.acceleration, 2, 100.0), 0.35);
   const data::MarkerAccount& account = result->markers.front();
-  EXPECT_NEAR(account.used.noise_sd_m, kSigma, 0.1 * kSigma);
+  EXPECT_NEAR(account.used.noise_sd_m, kNoiseSd_m, 0.1 * kNoiseSd_m);
   EXPECT_EQ(account.used.method, "kalman");
   EXPECT_EQ(account.candidates.size(), 4u);
   EXPECT_TRUE(account.judged());
@@ -216,7 +216,7 @@ TEST(Smooth, CovariancesWeighTheSamples) {
   Random random(9, 9);
   for (int f = 0; f < 400; ++f) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double sd = f % 3 == axis ? 10.0 * kSigma : kSigma;
+      const double sd = f % 3 == axis ? 10.0 * kNoiseSd_m : kNoiseSd_m;
       if (f % 3 == axis) in.x_in_world[static_cast<std::size_t>(3 * f + axis)] += sd * random.gaussian();
       in.covariance[at(6 * f) + math::kSymmetric3Diagonal[at(axis)]] = sd * sd;
     }
@@ -226,7 +226,7 @@ TEST(Smooth, CovariancesWeighTheSamples) {
   const auto with_weights = smooth(in).value(), without = smooth(ignorant).value();
   EXPECT_LT(rms_error(with_weights.derivatives.velocity, 1, 100.0),
             0.6 * rms_error(without.derivatives.velocity, 1, 100.0));
-  EXPECT_NEAR(with_weights.markers.front().used.noise_sd_m, kSigma, 0.15 * kSigma);
+  EXPECT_NEAR(with_weights.markers.front().used.noise_sd_m, kNoiseSd_m, 0.15 * kNoiseSd_m);
 }
 
 TEST(Smooth, SamplesAreSmoothedAtTheirOwnTimes) {
@@ -318,7 +318,7 @@ TEST(Smooth, VariancesOfNothingAreCountedAndReplaced) {
   Trajectories in = hand();
   in.covariance.assign(6 * 400, 0.0);
   for (std::size_t f = 0; f < 400; ++f)
-    for (const std::size_t d : math::kSymmetric3Diagonal) in.covariance[6 * f + d] = kSigma * kSigma;
+    for (const std::size_t d : math::kSymmetric3Diagonal) in.covariance[6 * f + d] = kNoiseSd_m * kNoiseSd_m;
   in.covariance[6 * 10] = 0.0;
   in.covariance[6 * 20 + 3] = -1.0;
   in.covariance[6 * 30 + 5] = HUGE_VAL;
@@ -384,11 +384,11 @@ TEST(Smooth, FilledStretchesCountAsOneObservation) {
   in.covariance.assign(6 * 400, 0.0);
   for (int f = 0; f < 400; ++f)
     for (const std::size_t d : math::kSymmetric3Diagonal)
-      in.covariance[at(6 * f) + d] = f >= 100 && f < 140 ? 4e-4 : kSigma * kSigma;
+      in.covariance[at(6 * f) + d] = f >= 100 && f < 140 ? 4e-4 : kNoiseSd_m * kNoiseSd_m;
   const auto result = smooth(in).value();
   EXPECT_EQ(result.trajectories.made_by(120, 0), "cubic");
   EXPECT_EQ(result.trajectories.state[120], SampleState::interpolated);
-  EXPECT_LT((result.trajectories.x(97, 0) - position(0.97, 0)).norm(), 3.0 * kSigma);
+  EXPECT_LT((result.trajectories.x(97, 0) - position(0.97, 0)).norm(), 3.0 * kNoiseSd_m);
   EXPECT_EQ(result.markers.front().measured, 360);
 }
 
@@ -417,7 +417,7 @@ TEST(Smooth, ColouredNoiseIsDistinguishedFromWhite) {
   Random random(8, 8);
   double wander = 0.0;
   for (int f = 0; f < 2000; ++f) {
-    wander = 0.9 * wander + kSigma * random.gaussian();
+    wander = 0.9 * wander + kNoiseSd_m * random.gaussian();
     in.x(f, 0) = position(f / 100.0, 0) + Eigen::Vector3d::Constant(wander);
   }
   SmoothOptions options;
@@ -437,7 +437,7 @@ TEST(Smooth, TheSpectrumHasThePowerOfTheNoise) {
   const data::Spectrum& spectrum = result.markers.front().spectrum;
   ASSERT_GT(spectrum.frequency_hz.size(), 10u);
   // White noise of variance s^2 per axis: s^2 / (rate / 2) per Hz, three axes.
-  const double expected = 3.0 * kSigma * kSigma / 50.0;
+  const double expected = 3.0 * kNoiseSd_m * kNoiseSd_m / 50.0;
   double sum = 0.0;
   for (std::size_t i = spectrum.frequency_hz.size() - 4; i < spectrum.frequency_hz.size(); ++i)
     sum += spectrum.raw_m2_per_hz[i] / 4.0;
@@ -450,7 +450,7 @@ TEST(Smooth, AFillKeepsItsStandardDeviation) {
   t.covariance.assign(2 * t.x_in_world.size(), 0.0);
   for (int f = 0; f < 400; ++f) {
     const bool filled = f >= 200 && f < 220;
-    math::pack_isotropic3(std::pow(filled ? 0.0015 : kSigma, 2), t.covariance.data() + 6 * t.index(f, 0));
+    math::pack_isotropic3(std::pow(filled ? 0.0015 : kNoiseSd_m, 2), t.covariance.data() + 6 * t.index(f, 0));
     if (!filled) continue;
     for (int axis = 0; axis < 3; ++axis) t.x(f, 0)[axis] += 0.0015;
     t.state[t.index(f, 0)] = SampleState::model_filled;
@@ -467,7 +467,7 @@ TEST(Smooth, AFillKeepsItsStandardDeviation) {
       for (const auto d : math::kSymmetric3Diagonal)
         EXPECT_GE(std::sqrt(smoothed.covariance[6 * smoothed.index(f, 0) + d]), 0.0015 * (1.0 - 1e-12))
             << to_string(method) << ", frame " << f;
-    EXPECT_LT(std::sqrt(smoothed.covariance[6 * smoothed.index(100, 0)]), 1.01 * kSigma)
+    EXPECT_LT(std::sqrt(smoothed.covariance[6 * smoothed.index(100, 0)]), 1.01 * kNoiseSd_m)
         << "what was measured is as before";
     if (method != FilterMethod::kalman) continue;
     const auto& sd = found->derivatives.velocity_sd;
