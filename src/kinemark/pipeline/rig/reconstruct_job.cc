@@ -30,6 +30,8 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   out.frames = recording->counts.frames();
   out.found = std::move(*found);
   out.warnings = std::move(recording->warnings);
+  out.warnings.insert(out.warnings.end(), out.found.remarks.warnings.begin(),
+                      out.found.remarks.warnings.end());
   data::Trial trial;
   trial.source = job.recording.string();
   trial.markers = std::move(out.found.markers);

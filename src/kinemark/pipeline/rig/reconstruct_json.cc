@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/rig/reconstruct_json.h"
 
+#include <cmath>
 #include <utility>
+
+#include "kinemark/core/missing.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -24,11 +27,23 @@ void add_fit(const trajectory::LedFit& fit, Json& to) {
   to["flicker_counts"] = fit.flicker_counts;
 }
 
+/// Numbers that were not found are null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+void add_light(const reconstruction::LedLight& found, Json& to) {
+  const bool known = found.source != reconstruction::LightSource::unknown;
+  to["light"] = number(known ? found.light.value : kNaN);
+  to["light_sd"] = number(known ? found.light.sd : kNaN);
+  to["light_source"] = to_string(found.source);
+  to["strength_counts"] = found.strength_counts;
+}
+
 }  // namespace
 
 Json reconstruct_json(const ReconstructOutcome& outcome) {
   Json leds = Json::array();
   for (const auto& led : outcome.found.leds) leds.push_back(summary_of(led));
+  for (std::size_t i = 0; i < outcome.found.lights.size(); ++i) add_light(outcome.found.lights[i], leds[i]);
   for (std::size_t i = 0; i < outcome.found.fits.size(); ++i) add_fit(outcome.found.fits[i], leds[i]);
   return Json{{"method", to_string(outcome.method)},
               {"frames", outcome.frames},

@@ -11,6 +11,7 @@
 #include "kinemark/data/counts.h"
 #include "kinemark/data/rig.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/stages/reconstruction/light.h"
 
 namespace kinemark::reconstruction {
 
@@ -21,6 +22,7 @@ struct ReconstructOptions {
       40.0;            ///< misfit of two cameras (3 degrees of freedom) above which a point is rejected
   double edge = 0.96;  ///< half-sides; farther out a point is flagged: precision falls to a fifth there
   double flicker_counts = 1.0;    ///< amplitude of the room's flicker, which adds to the noise of each count
+  bool light = true;              ///< find the light of each LED, and set offsets by it
   bool calibration_error = true;  ///< add what the rig's own covariance contributes
   int threads = 0;                ///< 0: all cores. Any number gives the same bits
 
@@ -47,15 +49,25 @@ struct Reconstruction {
   Array<std::uint8_t> used;       ///< F x L x C: 1 where the observation served
   Array<std::uint8_t> near_edge;  ///< F x L: 1 where a spot lay beyond the edge
   std::vector<LedSummary> leds;   ///< L
+  std::vector<LedLight> lights;   ///< L; empty where they were not asked for
+  std::vector<data::Rig> rigs;    ///< L: as the light of each LED shows the rig; one for all without lights
 };
 
 /// Points of a recording, frame by frame, from all four currents of every camera.
+///
+/// An LED that is not as bright as those of the calibration has other offsets: its light is found first,
+/// where the rig knows how (find_lights()), and its error is part of the covariance.
 ///
 /// Fails when the recording is of another rig, has other cameras, or no light at all. Cost: about 3 us a
 /// point, and 0.1 ms for every 2 cm cell that points lie in when the error of the calibration is added.
 /// Theory: docs/theory/reconstruction.md
 [[nodiscard]] Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& rig,
                                                  const ReconstructOptions& options = {});
+
+/// Adds to the covariance of points of the same LEDs and frames (of a smoother, say) what the rig's own
+/// covariance and the error of each LED's light contribute. As reconstruct() does by itself.
+void add_calibration_error(const data::Counts& counts, const Reconstruction& from, data::Trajectories& points,
+                           int threads = 0);
 
 /// The method of 1986: ratios, look-up tables, midpoint of two rays; only dark frames are rejected, and there
 /// is no covariance. Fails as above, and when a camera has no table.
