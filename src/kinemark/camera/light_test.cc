@@ -29,7 +29,8 @@ data::Rig measured_rig() {
 }
 
 int offset_of(const data::Rig& rig, int camera) {
-  return rig.first_parameter(camera) + data::ParameterLayout(rig.cameras[static_cast<std::size_t>(camera)]).offset;
+  return rig.first_parameter(camera) +
+         data::ParameterLayout(rig.cameras[static_cast<std::size_t>(camera)]).offset;
 }
 
 TEST(Light, OffsetsAreDarkCountsAndTheShareOfTheLight) {
@@ -50,7 +51,8 @@ TEST(Light, CovarianceIsThatOfTheOffsetsInForce) {
   const double s = 0.4, sd = 0.05;
   const auto lit = with_light(rig, {.value = s, .sd = sd});
   EXPECT_NEAR(lit.covariance(a, a), s * s * 0.04 + 0.6 * 0.6 * 0.01 + sd * sd * kStray[0] * kStray[0], 1e-12);
-  EXPECT_NEAR(lit.covariance(a, b + 2), sd * sd * kStray[0] * kStray[2], 1e-12);  // all cameras share the light
+  EXPECT_NEAR(lit.covariance(a, b + 2), sd * sd * kStray[0] * kStray[2],
+              1e-12);  // all cameras share the light
   EXPECT_NEAR(lit.covariance(0, 0), 0.04, 1e-15);
 }
 
@@ -68,7 +70,8 @@ TEST(Light, StrayLightThatIsNotKnownLiesWithinTheOffset) {
 }
 
 data::Counts dark_recording(std::int64_t frames, double rate_hz, double pedestal) {
-  auto counts = data::Counts::zeros({"led"}, {"A"}, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = frames}, true);
+  auto counts =
+      data::Counts::zeros({"led"}, {"A"}, {.rate_hz = rate_hz, .t0_s = 0.0, .frames = frames}, true);
   Random random(5, 1);
   for (std::size_t k = 0; k < 4; ++k) counts.dark_time_s[k] = 0.004 + 50e-6 * static_cast<double>(k);
   for (std::int64_t f = 0; f < frames; ++f)
@@ -90,9 +93,9 @@ TEST(DarkSlot, MeansWithoutTheFlickerOfTheRoom) {
 }
 
 TEST(DarkSlot, SaysNothingWhereItCannotKnow) {
-  EXPECT_FALSE(dark_slot(dark_recording(10, 110.0, 16.0), 0));    // too short
-  EXPECT_FALSE(dark_slot(dark_recording(400, 110.0, 0.5), 0));    // clipped at 0
-  EXPECT_FALSE(dark_slot(dark_recording(400, 120.0, 16.0), 0));   // flicker looks like an offset
+  EXPECT_FALSE(dark_slot(dark_recording(10, 110.0, 16.0), 0));   // too short
+  EXPECT_FALSE(dark_slot(dark_recording(400, 110.0, 0.5), 0));   // clipped at 0
+  EXPECT_FALSE(dark_slot(dark_recording(400, 120.0, 16.0), 0));  // flicker looks like an offset
   auto none = dark_recording(400, 110.0, 16.0);
   none.dark.clear();
   none.dark_time_s.clear();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "kinemark/camera/noise.h"
@@ -31,7 +32,8 @@ constexpr int kRounds = 3;             // of light and points in turns: each lea
 constexpr std::size_t kFewestFrames = 20;
 constexpr double kFacing = 0.36;  // tan 20 deg: how far from the cameras an LED may point, SD
 constexpr double kSteady = 0.01;  // misfit of strengths, of the light, up to which the direction stays
-constexpr double kRoom = 0.3;     // SD of the room's share from one LED to another, of its light
+constexpr double kEven = 0.002;   // error of strengths over the field, of the light: what calibrations leave
+constexpr double kRoom = 0.1;     // SD of the room's share from one LED to another, of its light
 constexpr double kConstants =
     0.0007;  // SD of the cameras' constants, of themselves: 0.0007 over 32 simulated rigs
 
@@ -117,7 +119,7 @@ Steady steady_light(const std::vector<Sight>& sights) {
     shining = covariance * (right / (noise * noise) + prior * facing);
     double squares = 0.0;
     for (const auto& s : sights) squares += std::pow(s.light - shining.dot(s.to_camera), 2);
-    noise = std::max(std::sqrt(squares / n), 1e-4 * average);
+    noise = std::max(std::sqrt(squares / n), kEven * average);
   }
   const double length = shining.norm();
   const Vector3d along = shining / length;
@@ -217,6 +219,23 @@ camera::Light joined(const camera::Light& a, const camera::Light& b) {
   return {.value = (wa * a.value + wb * b.value) / (wa + wb), .sd = 1.0 / std::sqrt(wa + wb)};
 }
 
+/// What is known of a light before it is looked at: most LEDs are like those of the calibration, the others
+/// shine with anything from a tenth to five times as much. What an LED at rest says of itself is too little
+/// to move it from there.
+camera::Light with_prior(const camera::Light& seen) {
+  constexpr double kAlike = 0.9, kSpread = 0.05;  // share of LEDs, and SD of their lights
+  const double logs = std::log(5.0 / 0.1);
+  const double both = seen.sd * seen.sd + kSpread * kSpread, off = seen.value - 1.0;
+  const double alike = kAlike * std::exp(-0.5 * off * off / both) / std::sqrt(2.0 * std::numbers::pi * both);
+  const double other = (1.0 - kAlike) / (logs * seen.value);
+  const double share = alike / (alike + other);
+  const auto joint = joined(seen, {.value = 1.0, .sd = kSpread});
+  const double between = joint.value - seen.value;
+  const double variance = share * joint.sd * joint.sd + (1.0 - share) * seen.sd * seen.sd +
+                          share * (1.0 - share) * between * between;
+  return {.value = seen.value + share * between, .sd = std::sqrt(variance)};
+}
+
 bool knows_light(const data::Rig& rig) {
   return std::ranges::all_of(rig.cameras,
                              [](const auto& c) { return std::isfinite(c.detector.light_counts); });
@@ -226,14 +245,38 @@ bool knows_stray(const data::Rig& rig) {
   return std::ranges::all_of(rig.cameras, [](const auto& c) { return c.detector.knows_dark(); });
 }
 
+/// Means over `count` sights of one camera: noise of points, which moves direction and distance together,
+/// must not look like an LED that moves.
+class Means {
+ public:
+  void add(const Sight& sight, std::vector<Sight>& out) {
+    sum_.to_camera += sight.to_camera;
+    sum_.light += sight.light;
+    if (++count_ < kTogether) return;
+    out.push_back({.to_camera = sum_.to_camera / kTogether, .light = sum_.light / kTogether});
+    *this = {};
+  }
+
+ private:
+  static constexpr int kTogether = 10;
+  Sight sum_{.to_camera = Vector3d::Zero()};
+  int count_ = 0;
+};
+
 /// Light by the strengths, with the points as they are now.
 void look_at_strengths(const data::Rig& lit, const std::vector<Frame>& frames, LedLight& out) {
   std::vector<Sight> sights;
+  std::vector<Means> means(lit.cameras.size());
   std::vector<std::array<Sight, 2>> pairs;
   for (const auto& frame : frames) {
-    for (const auto& read : frame.read) sights.push_back(sight(lit.cameras[at(read.camera)], read, frame.x));
-    if (frame.read.size() >= 2) pairs.push_back({sights[sights.size() - 2], sights.back()});
+    std::vector<Sight> here;
+    for (const auto& read : frame.read) {
+      here.push_back(sight(lit.cameras[at(read.camera)], read, frame.x));
+      means[at(read.camera)].add(here.back(), sights);
+    }
+    if (here.size() >= 2) pairs.push_back({here[0], here[1]});
   }
+  if (sights.empty()) return;
   const Steady steady = steady_light(sights);
   out.light = steady.light;
   out.source = LightSource::direction;
@@ -257,14 +300,17 @@ void find_light(const data::Rig& rig, std::vector<Frame>& frames, LedLight& out)
       StrayMisfit misfit(rig, lit);
       for (const auto& frame : frames) misfit.add(frame);
       const auto said = misfit.result();
-      if (std::isfinite(said.sd)) room = camera::Light{.value = out.stray.value + said.step, .sd = said.sd};
+      if (std::isfinite(said.sd) && out.stray.value + said.step > 0.0)
+        room = camera::Light{.value = out.stray.value + said.step, .sd = said.sd};
     }
     if (by_strength) {
       look_at_strengths(lit, frames, out);
+      if (out.source == LightSource::unknown) return;
+      out.light = with_prior(out.light);
       out.stray = {.value = out.light.value, .sd = std::hypot(out.light.sd, kRoom * out.light.value)};
       if (room) out.stray = joined(out.stray, *room);
     } else if (room) {
-      out.light = out.stray = *room;
+      out.light = out.stray = with_prior(*room);
       out.source = LightSource::stray;
     }
     out.stray.value = std::max(out.stray.value, kLeast);

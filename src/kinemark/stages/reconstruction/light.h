@@ -42,7 +42,7 @@ struct LedLight {
 /// over the square of the distance; two cameras give light and direction where the direction stays. The
 /// room's light adds a share of the LED's own to every channel, which counts alone show too: three of the
 /// eight numbers of a frame do not serve the point. Both are joined: the room returns a light that the
-/// strength foretells to 30 %.
+/// strength foretells to 10 %.
 ///
 /// @param points  F x L, from reconstruct() with the rig's own offsets
 /// @param used    F x L x C, which observations served
