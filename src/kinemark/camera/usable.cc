@@ -11,7 +11,7 @@ namespace kinemark::camera {
 std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kDarkened = data::kCountOccluded | data::kCountLost;
   constexpr double kFewestKept = 3.0;  // channels below the highest code: what a point needs
-  constexpr double kDark = 60.0;     // counts of all four channels: reached by offsets and stray light alone
+  constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   std::vector<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<double> light;
   for (std::int64_t led = 0; led < counts.led_count(); ++led)

@@ -168,8 +168,8 @@ TEST(ReconstructJson, HasTheFitOnlyWhereThereIsOne) {
   outcome.found.lights.emplace_back();
   EXPECT_EQ(reconstruct_json(outcome)["leds"][0]["light"], nullptr) << "unknown is not 1";
   outcome.found.lights[0] = {.source = reconstruction::LightSource::turning,
-                             .light = {.value = 0.5, .sd = 0.05},
-                             .stray = {},
+                             .light = 0.5,
+                             .light_sd = 0.05,
                              .strength_counts = {800.0, 900.0},
                              .seen = {}};
   const auto lit = reconstruct_json(outcome)["leds"][0];

@@ -32,8 +32,8 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 void add_light(const reconstruction::LedLight& found, Json& to) {
   const bool known = found.source != reconstruction::LightSource::unknown;
-  to["light"] = number(known ? found.light.value : kNaN);
-  to["light_sd"] = number(known ? found.light.sd : kNaN);
+  to["light"] = number(known ? found.light : kNaN);
+  to["light_sd"] = number(known ? found.light_sd : kNaN);
   to["light_source"] = to_string(found.source);
   to["strength_counts"] = found.strength_counts;
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "kinemark/camera/light.h"
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/response.h"
 #include "kinemark/camera/usable.h"
@@ -263,8 +264,14 @@ class Means {
   int count_ = 0;
 };
 
-/// Light by the strengths, with the points as they are now.
-void look_at_strengths(const data::Rig& lit, const std::vector<Frame>& frames, LedLight& out) {
+/// An LED's light, and what it stands on.
+struct Seen {
+  LightSource source = LightSource::direction;
+  camera::Light light;
+};
+
+/// Light by the strengths, with the points as they are now; no value with too few sights.
+std::optional<Seen> by_strengths(const data::Rig& lit, const std::vector<Frame>& frames) {
   std::vector<Sight> sights;
   std::vector<Means> means(lit.cameras.size());
   std::vector<std::array<Sight, 2>> pairs;
@@ -276,46 +283,45 @@ void look_at_strengths(const data::Rig& lit, const std::vector<Frame>& frames, L
     }
     if (here.size() >= 2) pairs.push_back({here[0], here[1]});
   }
-  if (sights.empty()) return;
+  if (sights.empty()) return std::nullopt;
   const Steady steady = steady_light(sights);
-  out.light = steady.light;
-  out.source = LightSource::direction;
-  if (steady.misfit <= kSteady) return;
-  if (const auto turning = turning_light(pairs)) {
-    out.light = *turning;
-    out.source = LightSource::turning;
-  }
+  if (steady.misfit > kSteady)
+    if (const auto turning = turning_light(pairs)) return Seen{LightSource::turning, *turning};
+  return Seen{LightSource::direction, steady.light};
+}
+
+/// Light of the stray light by the misfit of the counts, with the points as they are now.
+std::optional<camera::Light> by_misfit(const data::Rig& rig, const data::Rig& lit, double stray,
+                                       const std::vector<Frame>& frames) {
+  StrayMisfit misfit(rig, lit);
+  for (const auto& frame : frames) misfit.add(frame);
+  const auto said = misfit.result();
+  if (!std::isfinite(said.sd) || !(stray + said.step > 0.0)) return std::nullopt;
+  return camera::Light{.value = stray + said.step, .sd = said.sd};
 }
 
 /// Rounds of light and points for one LED.
 void find_light(const data::Rig& rig, std::vector<Frame>& frames, LedLight& out) {
-  const bool by_strength = knows_light(rig), by_stray = knows_stray(rig);
   constexpr double kLeast = 0.01;
+  const bool knows_strength = knows_light(rig), knows_room = knows_stray(rig);
+  camera::Light light, stray;
   for (int round = 0; round < kRounds; ++round) {
-    const auto lit = camera::with_light(rig, {.value = out.stray.value});
+    const auto lit = camera::with_light(rig, {.value = stray.value});
     for (auto& frame : frames)
       if (const auto found = locate(lit, frame.read, frame.x)) frame.x = found->x_in_world;
-    std::optional<camera::Light> room;
-    if (by_stray) {
-      StrayMisfit misfit(rig, lit);
-      for (const auto& frame : frames) misfit.add(frame);
-      const auto said = misfit.result();
-      if (std::isfinite(said.sd) && out.stray.value + said.step > 0.0)
-        room = camera::Light{.value = out.stray.value + said.step, .sd = said.sd};
-    }
-    if (by_strength) {
-      look_at_strengths(lit, frames, out);
-      if (out.source == LightSource::unknown) return;
-      out.light = with_prior(out.light);
-      out.stray = {.value = out.light.value, .sd = std::hypot(out.light.sd, kRoom * out.light.value)};
-      if (room) out.stray = joined(out.stray, *room);
-    } else if (room) {
-      out.light = out.stray = with_prior(*room);
-      out.source = LightSource::stray;
-    }
-    out.stray.value = std::max(out.stray.value, kLeast);
-    out.light.value = std::max(out.light.value, kLeast);
+    const auto room = knows_room ? by_misfit(rig, lit, stray.value, frames) : std::nullopt;
+    const auto seen = knows_strength ? by_strengths(lit, frames) : std::nullopt;
+    if (!seen && !room) return;
+    out.source = seen ? seen->source : LightSource::stray;
+    light = with_prior(seen ? seen->light : *room);
+    light.value = std::max(light.value, kLeast);
+    stray = light;
+    if (seen) stray.sd = std::hypot(light.sd, kRoom * light.value);
+    if (seen && room) stray = joined(stray, *room);
+    stray.value = std::max(stray.value, kLeast);
   }
+  out.light = light.value, out.light_sd = light.sd;
+  out.stray = stray.value, out.stray_sd = stray.sd;
 }
 
 }  // namespace
@@ -337,7 +343,7 @@ std::vector<LedLight> find_lights(const data::Counts& counts, const data::Rig& r
     if (frames.size() < kFewestFrames) continue;
     find_light(rig, frames, found);
     std::vector<std::vector<double>> strengths(counts.cameras.size());
-    const auto lit = camera::with_light(rig, {.value = found.stray.value});
+    const auto lit = camera::with_light(rig, {.value = found.stray});
     for (const auto& frame : frames)
       for (const auto& read : frame.read) {
         const auto& camera = lit.cameras[at(read.camera)];

@@ -86,8 +86,8 @@ TEST(Light, IsFoundToTwoPercentAndTakesTheBiasAway) {
     const auto without = reconstruct(counts, rig, options).value();
     ASSERT_EQ(with.lights.size(), 1u);
     EXPECT_EQ(with.lights[0].source, LightSource::direction) << s;
-    EXPECT_NEAR(with.lights[0].light.value, s, 0.02 * s);
-    EXPECT_LT(std::abs(with.lights[0].light.value - s), 4.0 * with.lights[0].light.sd) << s;
+    EXPECT_NEAR(with.lights[0].light, s, 0.02 * s);
+    EXPECT_LT(std::abs(with.lights[0].light - s), 4.0 * with.lights[0].light_sd) << s;
     EXPECT_LT(mean_error_m(with.points, led), 0.25e-3 / std::min(1.0, s)) << s;
     if (s == 0.3) EXPECT_GT(mean_error_m(without.points, led), 5.0 * mean_error_m(with.points, led));
     EXPECT_TRUE(without.lights.empty());
@@ -102,7 +102,7 @@ TEST(Light, OfAnLedThatTurnsIsWhatItShowsAtMost) {
                     }};
   const auto r = reconstruct(recording(rig, led), rig).value();
   EXPECT_EQ(r.lights[0].source, LightSource::turning);
-  EXPECT_NEAR(r.lights[0].light.value, 0.6, 0.12 * 0.6);
+  EXPECT_NEAR(r.lights[0].light, 0.6, 0.12 * 0.6);
 }
 
 TEST(Light, CountsAloneTellItWhereTheCamerasConstantsAreNotKnown) {
@@ -110,8 +110,8 @@ TEST(Light, CountsAloneTellItWhereTheCamerasConstantsAreNotKnown) {
   for (auto& camera : rig.cameras) camera.detector.light_counts = kNaN;
   const auto r = reconstruct(recording(rig, {0.4, circle, ahead}), rig).value();
   EXPECT_EQ(r.lights[0].source, LightSource::stray);
-  EXPECT_LT(std::abs(r.lights[0].light.value - 0.4), 4.0 * r.lights[0].light.sd);
-  EXPECT_LT(r.lights[0].light.sd, 0.15);
+  EXPECT_LT(std::abs(r.lights[0].light - 0.4), 4.0 * r.lights[0].light_sd);
+  EXPECT_LT(r.lights[0].light_sd, 0.15);
 }
 
 TEST(Light, IsTakenForOneWhereNothingIsKnown) {
@@ -123,7 +123,7 @@ TEST(Light, IsTakenForOneWhereNothingIsKnown) {
   }
   const auto r = reconstruct(counts, rig).value();
   EXPECT_EQ(r.lights[0].source, LightSource::unknown);
-  EXPECT_EQ(r.lights[0].light.value, 1.0);
+  EXPECT_EQ(r.lights[0].light, 1.0);
   ReconstructOptions options;
   options.light = false;
   EXPECT_EQ(r.points.x_in_world, reconstruct(counts, rig, options)->points.x_in_world);

@@ -15,6 +15,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
+#include "kinemark/stages/reconstruction/light.h"
 #include "kinemark/stages/reconstruction/locate.h"
 
 namespace kinemark::reconstruction {
@@ -199,7 +200,8 @@ Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& 
   if (options.light) {
     r.lights = find_lights(counts, rig, r.points, r.used, options.flicker_counts);
     r.rigs.clear();
-    for (const auto& found : r.lights) r.rigs.push_back(camera::with_light(rig, found.stray));
+    for (const auto& found : r.lights)
+      r.rigs.push_back(camera::with_light(rig, {.value = found.stray, .sd = found.stray_sd}));
     locate_all(counts, options, r);
   }
   if (options.calibration_error) add_calibration_error(counts, r, r.points, options.threads);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/array.h"
@@ -11,7 +12,6 @@
 #include "kinemark/data/counts.h"
 #include "kinemark/data/rig.h"
 #include "kinemark/data/trajectories.h"
-#include "kinemark/stages/reconstruction/light.h"
 
 namespace kinemark::reconstruction {
 
@@ -39,6 +39,28 @@ struct LedSummary {
   std::int64_t saturated = 0;     ///< a camera stood at its highest code, so fewer than two were left
   std::int64_t inconsistent = 0;  ///< rejected: the cameras contradict each other
   std::int64_t near_edge = 0;     ///< located, but beyond ReconstructOptions::edge
+};
+
+/// How an LED's light came to be known.
+enum class LightSource : std::uint8_t {
+  unknown,    ///< the rig knows neither its cameras' constants nor their dark counts: taken for 1
+  direction,  ///< strength in all cameras, the LED keeping its direction
+  turning,    ///< strength in all cameras; the LED turns, and its light is what it shows them at most
+  stray,      ///< the stray light alone, which contradicts the rig's offsets
+};
+[[nodiscard]] std::string_view to_string(LightSource source);  ///< "unknown", "direction", "turning", "stray"
+
+/// Light of one LED.
+struct LedLight {
+  LightSource source = LightSource::unknown;  ///< what `light` stands on
+  double light = 1.0;                         ///< relative to the LEDs of the calibration
+  double light_sd = 0.0;                      ///< its standard deviation
+  double stray = 1.0;                         ///< what its light by way of the room is: sets the offsets
+  double stray_sd = 0.0;                      ///< its standard deviation
+  std::vector<double> strength_counts;  ///< C, medians of the counts that it makes; 0 where it is not seen
+  /// F x C, light as each camera sees it, facing the LED from 1 m: light times the cosine of the LED's
+  /// direction. NaN where it is not seen or the rig does not know its cameras' constants.
+  Array<double> seen;
 };
 
 /// Points of all LEDs, what they stand on, and what became of the rest.

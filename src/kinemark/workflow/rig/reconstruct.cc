@@ -32,17 +32,16 @@ bool knows_dark(const data::Rig& rig) {
 
 /// What there is to say of an LED's light.
 std::string light_sentence(const std::string& led, const reconstruction::LedLight& found, bool dark_known) {
-  const auto& light = found.light;
-  const double off = light.value < 1.0 ? kDimmer - light.value : light.value - kBrighter;
+  const double off = found.light < 1.0 ? kDimmer - found.light : found.light - kBrighter;
   if (found.source == reconstruction::LightSource::unknown ||
-      !(off > kSure * light.sd || (dark_known && off > 0.0)))
+      !(off > kSure * found.light_sd || (dark_known && off > 0.0)))
     return {};
-  return fmt::format(
-      "LED '{}' shines with {:.2f} +- {:.2f} of the light of the calibration's LEDs{}; {}",
-      printable(led, 60), light.value, light.sd, light.value < kDim ? ": it is dim" : "",
-      dark_known ? "the offsets are those of its light"
-                 : "how much of the offsets goes with it is not known, and its positions' deviations "
-                   "say so; calibrate with a dark slot");
+  return fmt::format("LED '{}' shines with {:.2f} +- {:.2f} of the light of the calibration's LEDs{}; {}",
+                     printable(led, 60), found.light, found.light_sd, found.light < kDim ? ": it is dim" : "",
+                     dark_known
+                         ? "the offsets are those of its light"
+                         : "how much of the offsets goes with it is not known, and its positions' deviations "
+                           "say so; calibrate with a dark slot");
 }
 
 /// Observations of an LED that stand at the converter's highest code, in one channel and in more.
