@@ -263,7 +263,7 @@ def heel_and_toe_exchanged(folder, draw):
     return trc.rename({a: b, b: a}).write(folder / "walk.trc")
 
 
-@fault("leaves its path", ("measure", "FILE", "--refits", "0"))
+@fault("leaves its path", ("measure", "FILE", "--refits", "0"), status=False)
 def one_frame_flickers(folder, draw):
     trc = walk(draw)
     unit = 1.0 if "\tmm\t" in trc.head[2] else 0.001
@@ -676,7 +676,7 @@ class Channels:
         count, begin, frame = per_frame // times, 512 * (start - 1), 4 * points * self.width + per_frame * self.width
         self.samples = [begin + f * frame + 4 * points * self.width + t * count * self.width for f in range(last - first + 1) for t in range(times)]
         self.labels = [t.decode("latin-1").strip() for t in self.file.texts("ANALOG", "LABELS")][:count]
-        self.offsets = self.file.get("ANALOG", "OFFSET")
+        self.offsets = self.file.get("ANALOG", "OFFSET") if ("ANALOG", "OFFSET") in self.file.positions else [0] * count
 
     def change(self, channel, function):
         """function(sample number, what the sample is beside its offset)."""
@@ -688,7 +688,7 @@ class Channels:
             struct.pack_into("<" + self.letter, self.file.data, at, new if self.letter == "f" else max(-32768, min(32767, round(new))))
 
     def muscles(self):
-        return [c for c, label in enumerate(self.labels) if re.match(r"EMG\d+$|[LR] (Gast|Tib Ant|Med Ham|Rect|VMed|Gastroc)", label)]
+        return [c for c, label in enumerate(self.labels) if re.match(r"EMG\d+$|[LR] (Gast|Tib Ant|Med Ham|Rect|Gastroc)", label)]
 
     def write(self, path):
         return self.file.write(path)
@@ -827,7 +827,8 @@ def flickers_in_simulated_paths(folder, count):
 
 
 def flickers_in_real_paths(folder, count):
-    """Against the same path as it was recorded, of those whose peaks have an interval then."""
+    """Against the same path as it was recorded, of those whose peaks have an interval then: peaks may not become larger than that
+    interval allows. Some paths hold flickers of their own, and are less once more are found."""
     good = 0
     for i in range(count):
         draw = random.Random(f"real flickers {i}")
@@ -843,7 +844,7 @@ def flickers_in_real_paths(folder, count):
         for row, place in zip(rows, flickered(draw, [[float(v) for v in row[first : first + 3]] for row in rows], 3.0 * unit)):
             row[first : first + 3] = [f"{v:.9g}" for v in place]
         after, said = peaks(trc.write(path), "--select", name)
-        right = said or (len(after) == 2 and not any(excludes(after[id], before[id][0]) for id in before))
+        right = said or (len(after) == 2 and not any(after[id][1] is not None and after[id][1] > 1.05 * before[id][2] for id in before))
         good += right
         if not right:
             print(f"  real_{i} {name}: {after} for {before}")

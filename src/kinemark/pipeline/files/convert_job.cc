@@ -101,9 +101,12 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job, std::vecto
 }
 
 /// The motion of a model's bodies.
-Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
+/// @param gates  get `contradictions`
+Result<std::vector<std::string>> convert_motion(const ConvertJob& job, std::vector<data::Gate>& gates) {
   auto motion = read_model_motion(job.model, job.in);
   if (!motion) return std::unexpected(motion.error());
+  workflow::add_contradictions(motion->contradicted, gates);
+  std::ranges::copy(motion->contradicted, std::back_inserter(motion->notes));
   const bool is_bvh = ending_of(job.out) == ".bvh";
   const auto write =
       is_bvh
@@ -362,7 +365,7 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
       warnings = convert_model(job, out.gates);
       break;
     case Kind::table:
-      warnings = job.model.empty() ? convert_table(job, out.gates) : convert_motion(job);
+      warnings = job.model.empty() ? convert_table(job, out.gates) : convert_motion(job, out.gates);
       break;
     case Kind::markers:
       warnings = kind_of(ending_of(job.out)) == Kind::table ? convert_forces(job, out.gates)

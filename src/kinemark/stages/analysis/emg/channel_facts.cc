@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 100;
 constexpr double kNearZero = 0.5;  // the least of the median's distance
-constexpr double kSkewed = 0.5;    // from the least to the median over from there to the largest
+constexpr double kSkewed = 0.6;    // from the least to the median over from there to the largest
 constexpr double kSmooth = 0.2;    // of the deviation: steps from sample to sample of an envelope
 
 // Root mean square of the steps from sample to sample over the deviation about the mean.
