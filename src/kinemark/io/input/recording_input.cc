@@ -29,6 +29,7 @@ void take_plates(const ForcesSource& forces, RecordingInput& input) {
   }
   input.plates = std::move(found->wrenches);
   std::ranges::move(found->warnings, std::back_inserter(input.notes));
+  input.contradicted = std::move(found->contradicted);
 }
 
 /// Forces of a file of their own, on the recording's frames.
@@ -42,6 +43,8 @@ Status take_forces(const ForcesSource& forces, RecordingInput& input) {
   }
   for (const auto& warning : found->warnings)
     input.notes.push_back(fmt::format("{}: {}", forces.file.string(), warning));
+  for (const auto& one : found->contradicted)
+    input.contradicted.push_back(fmt::format("{}: {}", forces.file.string(), one));
   input.notes.push_back(fmt::format("forces are those of {}", forces.file.string()));
   input.plates = std::move(found->wrenches);
   return {};

@@ -205,8 +205,7 @@ Vector3d corrected(const Vector3d& point, const std::vector<double>& numbers) {
   return {1e-3 * (x - error_mm(0, x, y)), 1e-3 * (y - error_mm(1, y, x)), point.z()};
 }
 
-data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,
-                     std::vector<std::string>& warnings) {
+data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options, PlateForces& out) {
   data::Wrench wrench{.name = plate.name,
                       .body = "",
                       .force = {},
@@ -243,10 +242,11 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
     wrench.point.insert(wrench.point.end(), point.data(), point.data() + 3);
   }
   if (20 * off > loaded)
-    warnings.push_back(
+    out.warnings.push_back(
         fmt::format("the centre of pressure leaves {} in {} of {} frames with {:.0f} N or more; its "
                     "ORIGIN, CORNERS or the unit of its moments may be wrong",
                     plate.name, off, loaded, kSurelyLoaded));
+  if (4 * off > loaded) out.contradicted.push_back(out.warnings.back());
   return wrench;
 }
 
@@ -274,7 +274,7 @@ Result<PlateForces> plate_forces(const data::Trial& trial, const PlateOptions& o
     measure(trial, per_frame, plate);
     const double side = side_of_body(plate, markers, forces.warnings);
     settle_sign(plate, side, forces.warnings);
-    forces.wrenches.items.push_back(on_body(plate, side, options, forces.warnings));
+    forces.wrenches.items.push_back(on_body(plate, side, options, forces));
   }
   return forces;
 }

@@ -506,6 +506,8 @@ TEST(PlateForces, AWrongUnitShowsAtTheCentreOfPressure) {
   const auto forces = through_a_file(setting.trial(6, [](double) { return 1.0; })).value();
   EXPECT_THAT(forces.warnings,
               ElementsAre(HasSubstr("the centre of pressure leaves plate 1 in 6 of 6 frames")));
+  EXPECT_EQ(forces.contradicted, forces.warnings);
+  EXPECT_THAT(through_a_file(Setting().trial(6, [](double) { return 1.0; })).value().contradicted, IsEmpty());
 }
 
 TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {

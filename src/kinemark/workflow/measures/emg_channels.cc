@@ -17,6 +17,7 @@
 #include "kinemark/core/name_pattern.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/emg/channel_facts.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -165,6 +166,15 @@ Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
   };
   take([](const std::string& name) { return lowered(name).find("emg") != std::string::npos; });
   if (out.empty()) take(names_a_muscle);
+  return out;
+}
+
+std::vector<std::string> contradicted_channels(const data::Trial& trial) {
+  std::vector<std::string> out;
+  const auto which = emg_channels(trial);
+  if (!which) return out;
+  for (const auto& channel : channels_of(trial, *which))
+    if (auto why = analysis::why_rectified(channel); !why.empty()) out.push_back(std::move(why));
   return out;
 }
 

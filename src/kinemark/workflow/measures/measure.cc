@@ -14,6 +14,7 @@
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/stated_mass.h"
 
@@ -60,6 +61,7 @@ Status measure_muscles(const MeasureOptions& options, const AskedMeasures& asked
   if (!measured) return std::unexpected(measured.error());
   std::ranges::copy(measured->measures, std::back_inserter(found.measures));
   std::ranges::copy(measured->notes, std::back_inserter(found.remarks.warnings));
+  add_contradictions(measured->contradicted, found.remarks.gates);
   found.emg = std::move(*measured);
   return {};
 }
@@ -86,18 +88,6 @@ struct NoWalking {
   Status ends_all;             ///< a failure that ends it
   Status ends_without_plates;  ///< one that does so only where plates show nothing either
 };
-
-// A missed bound where walking rests on numbers that contradict each other.
-void add_contradictions(const std::vector<std::string>& contradicted, std::vector<data::Gate>& gates) {
-  if (contradicted.empty()) return;
-  gates.push_back(
-      {.name = "contradictions",
-       .passed = false,
-       .value = static_cast<double>(contradicted.size()),
-       .bound = 0.0,
-       .unit = "findings",
-       .sentence = fmt::format("What walking rests on is contradicted: {}.", join(contradicted, "; "))});
-}
 
 NoWalking measure_walking(const MeasureOptions& options, const AskedMeasures& asked,
                           const data::Recording& recording, Measured& found) {
@@ -209,6 +199,7 @@ Result<Measured> measure_recording(data::Recording recording, const MeasureOptio
   if (!asked) return std::unexpected(asked.error());
   Measured found;
   found.recording = std::move(recording);
+  add_contradictions(found.recording.contradicted, found.remarks.gates);
   leave_points_apart(found);
   if (auto s = leave_out_defects(found.recording.trial, options.keep_doubtful, found.recording.edits.swapped,
                                  found.remarks.warnings);

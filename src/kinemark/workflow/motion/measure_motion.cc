@@ -14,6 +14,7 @@
 #include "kinemark/stages/analysis/body/body_measures.h"
 #include "kinemark/workflow/motion/dynamics.h"
 #include "kinemark/workflow/motion/internal/body_input.h"
+#include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/internal/rated_motion.h"
 
 namespace kinemark::workflow {
@@ -88,6 +89,7 @@ Result<MotionMeasured> measure_motion(const model::Model& model, const GivenMoti
   if (!input) return std::unexpected(input.error());
   MotionMeasured found;
   found.remarks.warnings = std::move(input->notes);
+  internal::hold_motion(model, given, !asked.torques && !given.forces, found.remarks);
   analysis::BodyMeasureOptions options{.measures = asked.measures,
                                        .stretches = asked.stretches,
                                        .normalized = asked.normalized,

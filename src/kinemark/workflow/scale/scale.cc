@@ -13,6 +13,7 @@
 
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/measured_joints.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/scale/internal/grow.h"
 #include "kinemark/workflow/scale/internal/sizes.h"
 #include "kinemark/workflow/scale/internal/trials.h"
@@ -183,6 +184,11 @@ class Scaling {
     return {};
   }
 
+  void hold(const std::vector<std::string>& contradicted) {
+    std::ranges::copy(contradicted, std::back_inserter(found_.remarks.warnings));
+    add_contradictions(contradicted, found_.remarks.gates);
+  }
+
   ScaleFound take() { return std::move(found_); }
 
  private:
@@ -243,6 +249,7 @@ Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs
     return std::unexpected(s.error());
   if (auto s = check_inputs(inputs, options); !s) return std::unexpected(s.error());
   Scaling scaling(model, std::move(inputs), options);
+  scaling.hold(contradicted_model(model));
   for (const auto step :
        {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials, &Scaling::scale_by_recipe,
         &Scaling::scale_by_static_trial, &Scaling::adapt_to_motion, &Scaling::judge_factors,

@@ -11,6 +11,7 @@
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::workflow {
@@ -50,9 +51,10 @@ Status judge_stills(const std::vector<const ScaleTrial*>& stills, const std::opt
   std::vector<const data::Trajectories*> movements;
   if (motion) {
     movements.push_back(&motion->recording.trial.markers);
-    note_mirrored(motion->name, *body, *movements.back(), found.remarks.warnings);
+    add_contradictions(motion->recording.contradicted, found.remarks.gates);
   }
   for (const auto* still : stills) {
+    add_contradictions(still->recording.contradicted, found.remarks.gates);
     auto judgement =
         judge_static_trial(still->name, *body, still->recording.trial.markers, movements, found.remarks);
     if (!judgement) return std::unexpected(judgement.error());
