@@ -119,7 +119,7 @@ TEST(MarkerRows, NinesInAllCoordinatesMarkWhatWasNotSeen) {
   EXPECT_FALSE(trial.markers.present(2, 0));
   EXPECT_TRUE(trial.markers.present(3, 0)) << "0.1 m from the origin";
   EXPECT_THAT(trial.warnings,
-              ElementsAre("2 samples are 999, 9999, ... in all coordinates, taken as not seen"));
+              testing::ElementsAre("2 samples are 999, 9999, ... in all coordinates, taken as not seen"));
 }
 
 TEST(MarkerRows, TimesMayBeInAnotherUnit) {
