@@ -168,9 +168,21 @@ void measure(const data::Trial& trial, std::int64_t S, Plate& plate) {
   }
 }
 
+/// Where no marker tells on which side the body is: laboratories have an axis that points up, and none that
+/// points down.
+double side_of_up(const Plate& plate, std::vector<std::string>& warnings) {
+  const Vector3d z = plate.pose.world_from_plate.col(2);
+  Eigen::Index up = 0;
+  z.cwiseAbs().maxCoeff(&up);
+  warnings.push_back(fmt::format("no marker tells on which side of {} the body is; {} is taken as up",
+                                 plate.name, "xyz"[up]));
+  return z[up] > 0.0 ? 1.0 : -1.0;
+}
+
 /// +1 when the body is on the side of the plate's z, else -1 (as it should be: z points into the plate).
 double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std::string>& warnings) {
   const double height = (markers - plate.pose.centre).dot(plate.pose.world_from_plate.col(2));
+  if (std::isnan(height)) return side_of_up(plate, warnings);
   if (!(height > 0.0)) return -1.0;
   warnings.push_back(
       fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "

@@ -73,7 +73,7 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
     return fail(Code::usage, fmt::format("--forces: nothing that is asked for of {} is measured from forces",
                                          job.input.string()));
   const RecordingSource source{.path = job.input,
-                               .needs_samples = true,
+                               .needs_samples = !asked->muscles && !asked->forces,
                                .record = true,
                                .plates = asked->uses_forces(),
                                .forces = job.forces,

@@ -144,6 +144,11 @@ Status measure_all(const MeasureOptions& options, const AskedMeasures& asked,
   // movements.
   const bool own = (options.needs.events || options.needs.own_movements) && !found.gait;
   if (!asked.paths && !own) return {};
+  if (trial.markers.markers() == 0) {  // plates or EMG alone
+    if (!found.measures.empty()) return {};
+    return fail(Code::bad_input, fmt::format("there are no markers to measure{}{}", plates ? "" : "; ",
+                                             plates ? "" : plates.error().message));
+  }
   auto of_paths = asked.path;
   of_paths.rhythms = own;
   if (!asked.paths)
