@@ -44,6 +44,8 @@ void add_validate(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("FILE", job->files,
                    ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")
       ->required();
+  command->add_option("-m,--model", job->model,
+                      "Model (.osim) that tables of coordinates are of: ranges that they leave are said");
   command->callback([&common, job, &run] { run = [&common, job] { return run_command(common, *job); }; });
 }
 

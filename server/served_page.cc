@@ -106,7 +106,7 @@ std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root)
   summary["kind"] = value_text(json["kind"]);
   Json facts = Json::array(), lists = Json::array();
   for (const auto& [key, value] : json.items()) {
-    if (key == "warnings" || key == "kind" || key == "file") continue;
+    if (key == "warnings" || key == "contradicted" || key == "kind" || key == "file") continue;
     if (!value.is_array()) {
       facts.push_back(
           {{"name", title_of(key)}, {"value", value_text(value.is_object() ? value["said"] : value)}});
@@ -117,8 +117,10 @@ std::string facts_page(const pipeline::InfoOutcome& info, std::string_view root)
     for (const auto& one : value) values.push_back(value_text(one));
     lists.push_back({{"name", title_of(key)}, {"values", std::move(values)}});
   }
+  auto said = info.contradicted;
+  said.insert(said.end(), info.warnings.begin(), info.warnings.end());
   return fill({{"summary", std::move(summary)},
-               {"warnings", printable_sentences(info.warnings)},
+               {"warnings", printable_sentences(said)},
                {"facts", std::move(facts)},
                {"lists", std::move(lists)}},
               root);

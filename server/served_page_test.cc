@@ -90,12 +90,15 @@ TEST(FactsPage, NamesAreText) {
   info.file = "/secret/place/<u>.c3d";
   info.facts = facts;
   info.warnings = {"the label <img> is odd"};
+  info.contradicted = {"the body is mirrored"};
   const auto page = facts_page(info, "/s/");
   for (const char* never : {"<img", "<b>&", "<i>", "<u>", "/secret", "\x1b", "\xff"})
     EXPECT_THAT(page, Not(HasSubstr(never)));
   const auto data = data_of(page);
   EXPECT_EQ(data["summary"]["trial"], "<u>.c3d");
-  EXPECT_EQ(data["warnings"][0], "the label <img> is odd");
+  EXPECT_EQ(data["warnings"][0], "the body is mirrored");
+  EXPECT_EQ(data["warnings"][1], "the label <img> is odd");
+  EXPECT_THAT(data["lists"].dump(), Not(HasSubstr("mirrored")));
   const auto holds = [&](const char* part, const Json& wanted) {
     for (const auto& one : data[part])
       if (one == wanted) return true;

@@ -140,7 +140,7 @@ void describe_other(const fs::path& path, TrialRow& row) {
   const auto info = pipeline::run_info(job);
   if (!info) return fail_row(info.error(), row);
   std::visit([&](const auto& facts) { describe_facts(facts, row); }, info->facts);
-  say_first(info->warnings, row);
+  say_first(info->contradicted.empty() ? info->warnings : info->contradicted, row);
 }
 
 Json or_null(const auto& value) { return value ? Json(*value) : Json(); }

@@ -64,7 +64,7 @@ Result<ArmOutcome> study_arm(const CalibratedRig& rig) {
   const auto& counts = recorded->counts;
   const auto start = reconstruction::reconstruct(counts, rig.bundle.rig);
   if (!start) return std::unexpected(start.error());
-  const auto smooth = trajectory::smooth_counts(counts, rig.bundle.rig, start->points);
+  const auto smooth = trajectory::smooth_counts(counts, start->rigs, start->points);
   if (!smooth) return std::unexpected(smooth.error());
   const auto classic = classic_paths(counts, rig.classic, {start->used.begin(), start->used.end()});
 

@@ -89,7 +89,7 @@ Result<WheelOutcome> study_wheel(const CalibratedRig& rig, const simulation::Whe
   if (!recorded) return std::unexpected(recorded.error());
   const auto start = reconstruction::reconstruct(recorded->counts, rig.bundle.rig);
   if (!start) return std::unexpected(start.error());
-  const auto smooth = trajectory::smooth_counts(recorded->counts, rig.bundle.rig, start->points);
+  const auto smooth = trajectory::smooth_counts(recorded->counts, start->rigs, start->points);
   if (!smooth) return std::unexpected(smooth.error());
 
   WheelOutcome out;

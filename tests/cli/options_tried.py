@@ -36,7 +36,7 @@ TREE = ["grid_A.mcap", "grid_B.mcap", "tree_poses.mcap", "--nominal", "rig.toml"
 # Of a command: words, and the value of each option.
 TRIED = {
     "info": (["legs.trc"], RECORDING),
-    "validate": (["legs.trc"], {}),
+    "validate": (["legs.trc"], {"--model": "absent.osim"}),
     "convert": (["legs.trc", "o.csv"],
                 {**RECORDING, **SEVERAL, "--skeleton": "absent.asf", "--merge": None, "--resample": 60, "--model": "absent.osim",
                  "--ndx-pose": None, "--orientations": None, "--to": "trc"}),

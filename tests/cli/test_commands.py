@@ -103,8 +103,8 @@ class SimulateInfoValidate(CommandTest):
         self.assertRegex(self.good("info", self.truth).out, r"(?m)^rows +100$")
 
     def test_info_of_every_kind_has_its_keys_and_no_others(self):
-        table_keys = "file kind rows columns first_time_s last_time_s in_degrees labels warnings".split()
-        model_keys = "file kind name bodies joints coordinates markers couplings point_constraints mass_kg labels body_names warnings".split()
+        table_keys = "file kind rows columns first_time_s last_time_s in_degrees labels warnings contradicted".split()
+        model_keys = "file kind name bodies joints coordinates markers couplings point_constraints mass_kg labels body_names warnings contradicted".split()
         self.assertEqual(list(json.loads(self.good("info", self.truth, "--json").out)), table_keys)
         model = json.loads(self.good("info", self.model, "--json").out)
         self.assertEqual(list(model), model_keys)

@@ -61,5 +61,5 @@ class MotionMeasuresTest(CommandTest):
                      "--couple", "hip_flexion_r,knee_angle_r")
         self.refused(3, "'cycle' is not within", *self.measure("--region", "cycle=50-500"))
         self.refused(3, "there are no force plates", "analyze", "in/markers.c3d", "--measures", "plates")
-        self.refused(3, "name the channels", "analyze", "in/markers.c3d", "--measures", "emg")
+        self.refused(3, "there are no analog channels, and so no EMG", "analyze", "in/markers.c3d", "--measures", "emg")
         self.refused(2, "no analog channel 'EMG9'", "analyze", "in/markers.c3d", "--emg", "EMG9")

@@ -117,7 +117,7 @@ class VendorExports(CommandTest):
                         self.assertEqual(a is None, b is None)
                         if a is not None:
                             self.assertLess(max(abs(p - q) for p, q in zip(a, b, strict=True)), 1e-9)
-        self.write("timed.csv", self.frames_alone("time"))
+        self.write("timed.csv", self.frames_alone("time_s"))
         self.refused(2, "the file stores its own rate", "info", "timed.csv", "--rate", "100", "--unit", "mm")
 
     def test_each_holds_what_the_c3d_holds(self):

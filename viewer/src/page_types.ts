@@ -905,10 +905,11 @@ export interface ReconstructResult {
   /** File of the points. */ written: string;
   /** One sentence each. */ warnings: string[];
   /** One per LED. */ leds: Led[];
+  /** Light as each camera sees it, one per LED whose light is known; on pages alone. */ light_curves?: LightCurves[];
   /** Along y and along z; null: the method states no covariance. */ precision: (PrecisionMap | null)[];
 }
 
-/** What became of an LED. The last six are of the method `smoother` alone. */
+/** What became of an LED. Its light is not there by the method `classic`; the last six are of the method `smoother` alone. */
 export interface Led {
   /** Its name. */ name: string;
   /** Frames. */ frames: number;
@@ -917,12 +918,24 @@ export interface Led {
   /** Frames in which cameras stood at their highest code. */ saturated: number;
   /** Frames in which cameras contradict each other. */ inconsistent: number;
   /** Frames located near a detector's edge. */ near_edge: number;
+  /** Light relative to the LEDs of the calibration; null: not known, taken for 1. */ light?: number | null;
+  /** Its standard deviation. */ light_sd?: number | null;
+  /** What it stands on: `direction` (strengths, the LED keeps its direction), `turning` (strengths of an LED that turns), `stray` (the stray light alone), `unknown`. */ light_source?: string;
+  /** Median of the counts that it makes, one per camera; 0: not seen. */ strength_counts?: (number | null)[];
   /** Integrations of the smoother. */ order?: number;
   /** Frequency of half gain, Hz. */ cutoff_hz?: number | null;
   /** 1 where noise explains the residuals. */ chi2_per_dof?: number | null;
   /** Counts left out. */ rejected?: number;
   /** Counts that weigh less than one half. */ held_down?: number;
   /** Amplitude of the room's light, counts, one per camera. */ flicker_counts?: (number | null)[];
+}
+
+/** Light of an LED over time: relative to the LEDs of the calibration, times the cosine of the LED's direction to the camera. */
+export interface LightCurves {
+  /** Its name. */ led: string;
+  /** Names of the cameras. */ cameras: string[];
+  /** Times of the samples. */ time_s: number[];
+  /** Of each camera: a number a time; null: not looked at, or not seen. */ seen: ((number | null)[])[];
 }
 
 /** Median standard deviation of a point over a plane. */

@@ -10,7 +10,7 @@ namespace kinemark::camera {
 
 std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_share) {
   constexpr std::uint8_t kDarkened = data::kCountOccluded | data::kCountLost;
-  constexpr std::uint8_t kUnusable = data::kCountSaturated | kDarkened;
+  constexpr double kFewestKept = 3.0;  // channels below the highest code: what a point needs
   constexpr double kDark = 60.0;  // counts of all four channels: reached by offsets and stray light alone
   std::vector<std::uint8_t> out(counts.flags.size(), 0);
   std::vector<double> light;
@@ -24,7 +24,11 @@ std::vector<std::uint8_t> usable_views(const data::Counts& counts, double dim_sh
       const double least = std::max(dim_share * math::upper_median(light), kDark);
       for (std::int64_t f = 0; f < counts.frames(); ++f) {
         const auto i = counts.index(f, led, c);
-        out[i] = (counts.flags[i] & kUnusable) == 0 && counts.at(f, led, c).sum() > least;
+        const Eigen::Vector4d read = counts.at(f, led, c);
+        const double kept = kept_channels(read, counts.highest_code).sum();
+        const bool saturated = (counts.flags[i] & data::kCountSaturated) != 0;
+        out[i] = (counts.flags[i] & kDarkened) == 0 && read.sum() > least &&
+                 (saturated ? kept == kFewestKept : kept > kFewestKept);
       }
     }
   return out;

@@ -34,6 +34,9 @@ struct Recording {
   EditsInForce edits = {};        ///< that were applied
   std::optional<Eigen::Vector3d> up = {};  ///< which way is up as it was stated, length 1; none: nobody did
   std::vector<std::string> notes = {};     ///< what was done to it, one sentence each
+  std::vector<std::string> contradicted =
+      {};  ///< its numbers that contradict what else is known, one sentence each: a verb that rests on them
+           ///< misses the gate `contradictions`
 };
 
 }  // namespace kinemark::data

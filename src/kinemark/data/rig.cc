@@ -74,6 +74,12 @@ Status check_detector(const Camera& camera) {
   if (!all_finite(d.warp_x) || !all_finite(d.warp_y) || !all_finite(d.generic) || !d.crosstalk.allFinite() ||
       !d.gain.allFinite() || !d.offset_counts.allFinite())
     return wrong(camera, "the detector has a number that is not finite");
+  if (!d.knows_dark() && !d.dark_counts.array().isNaN().all())
+    return wrong(camera, "dark_counts of some channels; need all four, or none");
+  if (!(d.dark_sd_counts >= 0.0) || !std::isfinite(d.dark_sd_counts))
+    return wrong(camera, fmt::format("dark_sd_counts {}; need 0 or more", d.dark_sd_counts));
+  if (!std::isnan(d.light_counts) && !(d.light_counts > 0.0 && std::isfinite(d.light_counts)))
+    return wrong(camera, fmt::format("light_counts {}; need a positive number", d.light_counts));
   if (!(d.gain.minCoeff() > 0.0))
     return wrong(camera, fmt::format("a gain of {}; need positive ones", d.gain.minCoeff()));
   return {};

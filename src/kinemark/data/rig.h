@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/result.h"
 #include "kinemark/math/se3.h"
 
@@ -63,8 +64,19 @@ struct Detector {
   int generic_degree = 0;
   std::vector<double> generic;                     ///< coefficients, half-sides in, share of the current out
   Eigen::Vector4d gain = Eigen::Vector4d::Ones();  ///< > 0, of channels +x, -x, +y, -y
-  Eigen::Vector4d offset_counts = Eigen::Vector4d::Zero();  ///< stray light included
+  /// What a channel reads beside the LED's direct light: the electronics, and what the room returns of the
+  /// light of an LED of light 1.
+  Eigen::Vector4d offset_counts = Eigen::Vector4d::Zero();
+  /// The part of the electronics: what a channel reads while no LED shines. NaN: not known. The rest of the
+  /// offset, the stray light, grows with an LED's light; see camera::with_light().
+  Eigen::Vector4d dark_counts = Eigen::Vector4d::Constant(kNaN);
+  double dark_sd_counts = 0.0;  ///< >= 0; of each channel's dark counts
+  /// Sum of the channels' counts by an LED of light 1 on the axis, facing the camera from 1 m. NaN: not
+  /// known.
+  double light_counts = kNaN;
 
+  /// whether the electronics' part of the offset is known
+  [[nodiscard]] bool knows_dark() const { return dark_counts.allFinite(); }
   /// size of warp_x and of warp_y
   [[nodiscard]] int warp_terms() const { return monomial_count(2, warp_degree); }
 };

@@ -84,6 +84,11 @@ TEST(Rig, EachBrokenRuleIsNamed) {
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.kind = DetectorKind::generic; }),
               HasSubstr("has 0 terms; need 3"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.gain[2] = 0.0; }), HasSubstr("a gain of 0"));
+  EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.dark_counts[1] = 16.0; }),
+              HasSubstr("need all four, or none"));
+  EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.dark_sd_counts = -1.0; }),
+              HasSubstr("dark_sd_counts -1"));
+  EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.light_counts = 0.0; }), HasSubstr("light_counts 0"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].detector.crosstalk(1, 2) = NAN; }), HasSubstr("not finite"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].table.nodes = 2; }), HasSubstr("table of 2 nodes"));
   EXPECT_THAT(message([](Rig& r) { r.cameras[0].table.nodes = 15; }), HasSubstr("need 450"));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -141,6 +142,7 @@ struct Dialect {
   Between between = Between::commas;
   bool decimal_commas = false;
   bool quoted_numbers = false;
+  bool table_of_blanks = false;
 };
 
 std::size_t count_outside_quotes(std::string_view line, char wanted) {
@@ -153,7 +155,29 @@ std::size_t count_outside_quotes(std::string_view line, char wanted) {
   return count;
 }
 
+/// Below titles with commas: half of all lines hold the same number of semicolons, two or more, and one of
+/// them fewer commas.
+bool is_table_of_semicolons(std::string_view sample) {
+  std::map<std::size_t, std::size_t> lines_with;  // a number of semicolons
+  std::size_t lines = 0;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    if (trim(line).empty()) return;
+    ++lines;
+    ++lines_with[count_outside_quotes(line, ';')];
+  });
+  const auto most =
+      std::ranges::max_element(lines_with, {}, [](const auto& counted) { return counted.second; });
+  if (most == lines_with.end() || most->first < 2 || 2 * most->second < lines) return false;
+  bool fewer_commas = false;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    fewer_commas = fewer_commas || (count_outside_quotes(line, ';') == most->first &&
+                                    count_outside_quotes(line, ',') < most->first);
+  });
+  return fewer_commas;
+}
+
 bool has_semicolons(std::string_view sample) {
+  if (is_table_of_semicolons(sample)) return true;
   std::size_t lines = 0, with = 0;
   bool settled = false, more = false;
   for_lines(sample, [&](std::string_view line, std::string_view) {
@@ -203,25 +227,6 @@ void judge_rows(std::string_view sample, Dialect& dialect) {
   dialect.decimal_commas = commas > 0 && points == 0;
 }
 
-Dialect dialect_of(std::string_view text) {
-  auto sample = text.substr(0, kLookedAt);
-  // A row that is cut may end in half a number.
-  if (sample.size() < text.size())
-    sample = sample.substr(0, std::min(sample.find_last_of("\r\n"), sample.size()));
-  Dialect out;
-  if (has_semicolons(sample))
-    out.between = Between::semicolons;
-  else if (has_tabs(sample))
-    out.between = Between::tabs;
-  else if (sample.find(',') == std::string_view::npos || sample.find("endheader") != std::string_view::npos ||
-           sample.starts_with("PathFileType"))
-    out.between = Between::blanks;
-  judge_rows(sample, out);
-  // Rows of pairs: "1,2" is no number there.
-  if (sample.find("DataType=Vec") != std::string_view::npos) out.decimal_commas = false;
-  return out;
-}
-
 /// What stands between the cells of its format; nothing: either may.
 std::optional<char> separator_of(std::string_view text) {
   for (const std::string_view before : {"\xEF\xBB\xBF", "\""})
@@ -236,6 +241,50 @@ std::optional<char> separator_of(std::string_view text) {
     return '\t';
   if (std::ranges::any_of(kCommas, begins)) return ',';
   return std::nullopt;
+}
+
+/// Rows of as many numbers between blanks, four or more, below a line of as many labels, perhaps behind a
+/// '#': as numpy.savetxt() writes them.
+bool is_table_of_blanks(std::string_view sample) {
+  std::size_t width = 0, rows = 0, labels = 0, others = 0;
+  for_lines(sample, [&](std::string_view line, std::string_view) {
+    std::size_t cells = 0;
+    bool all = true;
+    for_cells(line, Between::blanks, [&](std::string_view cell) {
+      ++cells;
+      all = all && number_in(cell) != Number::none;
+    });
+    if (cells == 0) return;
+    if (!all && rows == 0) labels = cells - (line.starts_with("# ") ? 1 : 0);
+    if (!all) {
+      others += rows > 0 ? 1 : 0;
+      return;
+    }
+    if (rows == 0) width = cells;
+    others += cells == width ? 0 : 1;
+    ++rows;
+  });
+  return width >= 4 && rows >= 2 && others == 0 && labels == width;
+}
+
+Dialect dialect_of(std::string_view text) {
+  auto sample = text.substr(0, kLookedAt);
+  // A row that is cut may end in half a number.
+  if (sample.size() < text.size())
+    sample = sample.substr(0, std::min(sample.find_last_of("\r\n"), sample.size()));
+  Dialect out;
+  if (has_semicolons(sample))
+    out.between = Between::semicolons;
+  else if (has_tabs(sample))
+    out.between = Between::tabs;
+  else if (sample.find(',') == std::string_view::npos || sample.find("endheader") != std::string_view::npos ||
+           sample.starts_with("PathFileType"))
+    out.between = Between::blanks;
+  judge_rows(sample, out);
+  out.table_of_blanks = out.between == Between::blanks && !separator_of(text) && is_table_of_blanks(sample);
+  // Rows of pairs: "1,2" is no number there.
+  if (sample.find("DataType=Vec") != std::string_view::npos) out.decimal_commas = false;
+  return out;
 }
 
 /// One cell as it is written again.
@@ -282,7 +331,8 @@ std::string in_plain_dialect(std::string text) {
   if (text.starts_with("\xEF\xBB\xBF") && text.find('"') == 3)
     text.erase(0, 3);  // else it is no quote that begins the cell
   const bool moved = dialect.between == Between::semicolons ||
-                     (dialect.between == Between::tabs && separator_of(text) == ',');
+                     (dialect.between == Between::tabs && separator_of(text) == ',') ||
+                     dialect.table_of_blanks;
   if (!moved && !dialect.decimal_commas && !dialect.quoted_numbers) return text;
   return rewritten(text, dialect);
 }

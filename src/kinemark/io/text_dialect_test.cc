@@ -41,6 +41,24 @@ TEST(TextDialect, SemicolonsBecomeCommasOrTabs) {
             "nRows=2\nendheader\ntime\ta\tb\n0\t1\t2\n1\t3\t4\n");
 }
 
+TEST(TextDialect, SemicolonsAreKnownBelowTitlesWithCommas) {
+  EXPECT_EQ(in_plain_dialect("On Monday, 3 May\nt;x;y\n0,00;1,5;2\n0,01;1;2\n"),
+            "\"On Monday, 3 May\"\nt,x,y\n0.00,1.5,2\n0.01,1,2\n");
+  // A list in a cell of each row makes no table of semicolons.
+  const std::string lists = "frame,list,a,b\n1,1;2;3,0,0\n2,4;5;6,0,0\n";
+  EXPECT_EQ(in_plain_dialect(lists), lists);
+}
+
+TEST(TextDialect, TablesOfBlanksGetTabs) {
+  EXPECT_EQ(in_plain_dialect("# t A_x A_y A_z\n0.00 1 2 3\n0.01  4 5 6\n"),
+            "#\tt\tA_x\tA_y\tA_z\n0.00\t1\t2\t3\n0.01\t4\t5\t6\n");
+  EXPECT_EQ(in_plain_dialect("t A_x A_y A_z\n0 1 2 3\n1 4 5 6\n"),
+            "t\tA_x\tA_y\tA_z\n0\t1\t2\t3\n1\t4\t5\t6\n");
+  for (const std::string text : {"t a x y z w\n0 1 2 3\n1 4 5 6\n", "t x y z\n0 1 2 3\n1 4 5\n",
+                                 "t x y z\n0 1 2 3\n", "Frame Time: 0.01\n0 1 2 3\n1 4 5 6\n"})
+    EXPECT_EQ(in_plain_dialect(text), text) << "labels and rows differ";
+}
+
 TEST(TextDialect, TextWithACommaIsQuotedWhereCommasSeparate) {
   EXPECT_EQ(in_plain_dialect("t;name;x\n0;knee, left;1\n"), "t,name,x\n0,\"knee, left\",1\n");
   EXPECT_EQ(in_plain_dialect("t;name;x\n0;\"so \"\"big\"\"\";1\n"), "t,name,x\n0,\"so \"\"big\"\"\",1\n");

@@ -6,7 +6,9 @@ import { number, percent, plural } from "../format.ts";
 import { forest, type Estimate } from "../plots/forest.ts";
 import { heatMap } from "../plots/heat_map.ts";
 import { svgFigure } from "../plots/svg_figure.ts";
+import { TimePlot } from "../plots/time_plot.ts";
 import { unpackScene } from "../scene/scene.ts";
+import { palette } from "../theme.ts";
 import { median, numeric, resultFindings, resultHeader, resultRun, table, text, withSd } from "../sections/result_parts.ts";
 import { space } from "../sections/space.ts";
 import { timeBar } from "../sections/time_bar.ts";
@@ -80,6 +82,33 @@ export async function calibratePage(data: CalibratePage): Promise<Content> {
 
 type Led = ReconstructResult["leds"][number];
 
+/** How brightly each camera sees each LED over time; null where no light is known. */
+function lightOf(result: ReconstructResult, view: View): { node: HTMLElement; start: () => void } | null {
+  const curves = result.light_curves ?? [];
+  if (curves.length === 0) return null;
+  const boxes = curves.map((curve) => ({ curve, box: el("div", { class: "plot axis" }) }));
+  const cameras = curves[0]!.cameras;
+  const node = section(
+    "light",
+    "Light",
+    "Light of each LED as each camera sees it: 1 is an LED of the calibration that faces the camera. An LED that turns away shows less.",
+    el("div", { class: "controls" }, el("span", { class: "keys" }, ...cameras.map((name, c) => el("span", { class: `key axis-${c % 3}` }, name)))),
+    ...boxes.map(({ curve, box }) => el("figure", {}, el("figcaption", {}, curve.led), box)),
+  );
+  const start = (): void => {
+    for (const { curve, box } of boxes)
+      new TimePlot(box, view, {
+        label: `Light of ${curve.led} over time as each camera sees it`,
+        height: 160,
+        series: curve.cameras.map((name, c) => ({ name, stroke: () => palette().axes[(c % 3) as 0], width: 1.4 })),
+        unit: () => "light",
+        fromZero: true,
+        hatched: () => [],
+      }).setData([curve.time_s, ...curve.seen]);
+  };
+  return { node, start };
+}
+
 /** Points from counts: what became of each LED, and how certain a point is where. */
 export async function reconstructPage(data: ReconstructPage): Promise<Content> {
   const { summary, result } = data;
@@ -90,6 +119,7 @@ export async function reconstructPage(data: ReconstructPage): Promise<Content> {
   const share = (n: number): string => percent(frames === 0 ? null : n / frames);
   const maps = result.precision.filter((m) => m !== null);
   const sds = maps[0]?.sd_mm ?? [];
+  const light = lightOf(result, view);
   return {
     skip: ["leds", "Skip to the LEDs"],
     header: resultHeader("reconstruction", `Method ${result.method}`, summary, [
@@ -100,7 +130,7 @@ export async function reconstructPage(data: ReconstructPage): Promise<Content> {
       [share(sum((l) => l.inconsistent)), "contradicted", "the cameras disagree"],
       [number(median(leds.map((l) => l.chi2_per_dof)), 2), "chi² per degree of freedom", "median of the LEDs"],
     ]),
-    bar: timeBar(view, [["attention", "Attention"], ["space", "Space"], ["precision", "Precision"], ["leds", "LEDs"], ["settings", "Run"]]),
+    bar: timeBar(view, [["attention", "Attention"], ["space", "Space"], ["precision", "Precision"], ["leds", "LEDs"], ...(light === null ? [] : [["light", "Light"] as [string, string]]), ["settings", "Run"]]),
     sections: [
       resultFindings(summary, "Nothing. Every LED was located in nearly every frame, and the cameras agree."),
       part.node,
@@ -124,14 +154,19 @@ export async function reconstructPage(data: ReconstructPage): Promise<Content> {
             numeric("Saturated", "", 0, (l) => l.saturated),
             numeric("Contradicted", "", 0, (l) => l.inconsistent),
             numeric("Near the edge", "", 0, (l) => l.near_edge),
+            withSd<Led>("Light", "", 3, (l) => l.light, (l) => l.light_sd),
             numeric("chi²/dof", "", 2, (l) => l.chi2_per_dof),
             numeric("Cut-off", "Hz", 1, (l) => l.cutoff_hz),
           ],
           leds,
         ),
       ),
+      ...(light === null ? [] : [light.node]),
       resultRun(summary, [["Method", result.method]]),
     ],
-    start: () => part.start(),
+    start: () => {
+      part.start();
+      light?.start();
+    },
   };
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/io/c3d/internal/count.h"
+#include "kinemark/io/c3d/internal/plate_corners.h"
 
 namespace kinemark::io {
 namespace {
@@ -103,7 +104,7 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   const C3dParameter* channels = p.find("FORCE_PLATFORM", "CHANNEL");
   const C3dParameter* calibrations = p.find("FORCE_PLATFORM", "CAL_MATRIX");
   const std::vector<double> types = p.numbers("FORCE_PLATFORM", "TYPE");
-  const std::vector<double> corners = p.numbers("FORCE_PLATFORM", "CORNERS");
+  const C3dParameter* corners = p.find("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
   const C3dParameter* polynomials = p.find("FORCE_PLATFORM", "FPCOPPOLY");
   std::vector<data::ForcePlate> plates;
@@ -117,8 +118,9 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
       continue;
     }
     for (std::size_t c = 0; c < 4; ++c)
-      plate.corners_in_world[c] = metres3(corners, 12 * i + 3 * c, layout.metres_per_unit);
+      plate.corners_in_world[c] = layout.metres_per_unit * internal::plate_corner(corners, i, c);
     plate.origin_in_plate = metres3(origins, 3 * i, layout.metres_per_unit);
+    internal::settle_plate_unit(plate, layout.metres_per_unit, warnings);
     read_calibration(calibrations, i, plate);
     read_pressure_correction(polynomials, i, plate, warnings);
     if (!std::ranges::all_of(plate.corners_in_world, near) || !near(plate.origin_in_plate))
@@ -126,6 +128,7 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
           fmt::format("force plate {} has corners or an origin that are not plausible", i + 1));
     plates.push_back(std::move(plate));
   }
+  internal::settle_corner_order(plates, warnings);
   return plates;
 }
 

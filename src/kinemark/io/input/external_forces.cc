@@ -25,7 +25,10 @@ Result<ExternalForces> read_plates(const std::filesystem::path& path, const Time
   if (!trial) return std::unexpected(trial.error());
   auto plates = plate_forces(*trial, {.contact_force_n = contact_force_n});
   if (!plates) return std::unexpected(plates.error());
-  ExternalForces out{.wrenches = data::resample(plates->wrenches, time), .files = {path}, .warnings = {}};
+  ExternalForces out{.wrenches = data::resample(plates->wrenches, time),
+                     .files = {path},
+                     .warnings = {},
+                     .contradicted = std::move(plates->contradicted)};
   // Of its other irregularities, those of its markers, nothing is used here.
   std::ranges::copy_if(trial->warnings, std::back_inserter(out.warnings),
                        [](const std::string& warning) { return warning.starts_with("force plate "); });
@@ -48,8 +51,10 @@ Result<ExternalForces> read_loads(const std::filesystem::path& path, const TimeB
                 fmt::format("{} (the <datafile> of {})", table.error().message, path.string()));
   auto wrenches = sample_external_loads(*loads, *table, time);
   if (!wrenches) return std::unexpected(wrenches.error());
-  return ExternalForces{
-      .wrenches = std::move(*wrenches), .files = {path, loads->data_file}, .warnings = table->warnings};
+  return ExternalForces{.wrenches = std::move(*wrenches),
+                        .files = {path, loads->data_file},
+                        .warnings = table->warnings,
+                        .contradicted = {}};
 }
 
 Result<ExternalForces> read_columns(const std::filesystem::path& path, const TimeBase& time) {
@@ -59,7 +64,8 @@ Result<ExternalForces> read_columns(const std::filesystem::path& path, const Tim
   if (!loads) return std::unexpected(loads.error());
   auto wrenches = sample_external_loads(*loads, *table, time);
   if (!wrenches) return std::unexpected(wrenches.error());
-  return ExternalForces{.wrenches = std::move(*wrenches), .files = {path}, .warnings = table->warnings};
+  return ExternalForces{
+      .wrenches = std::move(*wrenches), .files = {path}, .warnings = table->warnings, .contradicted = {}};
 }
 
 }  // namespace

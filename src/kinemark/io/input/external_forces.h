@@ -17,6 +17,7 @@ struct ExternalForces {
   data::Wrenches wrenches;                   ///< on the recording's clock
   std::vector<std::filesystem::path> files;  ///< all that were read, the named one first
   std::vector<std::string> warnings;         ///< one sentence each
+  std::vector<std::string> contradicted;     ///< as PlateForces::contradicted
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d or .mat file, an OpenSim ExternalLoads

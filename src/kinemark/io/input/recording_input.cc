@@ -29,6 +29,7 @@ void take_plates(const ForcesSource& forces, RecordingInput& input) {
   }
   input.plates = std::move(found->wrenches);
   std::ranges::move(found->warnings, std::back_inserter(input.notes));
+  input.contradicted = std::move(found->contradicted);
 }
 
 /// Forces of a file of their own, on the recording's frames.
@@ -42,6 +43,8 @@ Status take_forces(const ForcesSource& forces, RecordingInput& input) {
   }
   for (const auto& warning : found->warnings)
     input.notes.push_back(fmt::format("{}: {}", forces.file.string(), warning));
+  for (const auto& one : found->contradicted)
+    input.contradicted.push_back(fmt::format("{}: {}", forces.file.string(), one));
   input.notes.push_back(fmt::format("forces are those of {}", forces.file.string()));
   input.plates = std::move(found->wrenches);
   return {};
@@ -60,18 +63,17 @@ Result<MarkerInput> read_marker_input(const MarkerSource& source) {
   const double rate_hz = unknown                                                ? 1.0
                          : source.rate == RateRule::where_needed && !tells_none ? 0.0
                                                                                 : source.rate_hz;
-  std::string unit = source.unit;
-  if (!unit.empty() && !may_lack_unit(source.path)) {
-    if (source.rate != RateRule::where_needed)
-      return fail(
-          Code::usage,
-          fmt::format("{}: the file states the unit of its coordinates; one (--unit) is given only for "
-                      "tables of coordinates that state none",
-                      source.path.string()));
-    unit.clear();
-  }
-  auto trial = read_markers(source.path, {.rate_hz = rate_hz, .unit = unit, .skeleton = source.skeleton});
+  // Of a file that nothing reads, the reader's own sentence says more than one on units.
+  const bool states_unit = !source.unit.empty() && !may_lack_unit(source.path);
+  auto trial = read_markers(
+      source.path,
+      {.rate_hz = rate_hz, .unit = states_unit ? std::string() : source.unit, .skeleton = source.skeleton});
   if (!trial) return std::unexpected(trial.error());
+  if (states_unit && source.rate != RateRule::where_needed)
+    return fail(Code::usage,
+                fmt::format("{}: the file states the unit of its coordinates; one (--unit) is given only for "
+                            "tables of coordinates that state none",
+                            source.path.string()));
   MarkerInput input{.trial = std::move(*trial), .file = {}, .rate_known = !unknown};
   const auto& markers = input.trial.markers;
   if (source.needs_samples && (markers.markers() == 0 || markers.frames() == 0))

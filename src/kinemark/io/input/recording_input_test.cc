@@ -12,7 +12,6 @@
 namespace kinemark::io {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -66,6 +65,18 @@ TEST_F(ReadMarkerInput, ARateForAFileThatTellsItsOwn) {
   const auto passed_over =
       read_marker_input({.path = trc_, .rate_hz = 100.0, .rate = RateRule::where_needed}).value();
   EXPECT_EQ(passed_over.trial.markers.time.rate_hz, 50.0);
+}
+
+TEST_F(ReadMarkerInput, AUnitOrARateForAFileThatIsNotReadIsNotWhatIsWrong) {
+  const auto odd = scratch_ / "odd.csv";
+  ASSERT_TRUE(write_text(odd, "t,alpha,beta\n0,1,2\n0.01,1,2\n", false));
+  for (const auto& refused :
+       {read_marker_input({.path = odd, .unit = "mm"}), read_marker_input({.path = odd, .rate_hz = 50.0})}) {
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Code::bad_input);
+    EXPECT_THAT(refused.error().message, HasSubstr("none of its 3 columns is a position of a marker"));
+  }
+  EXPECT_THAT(read_marker_input({.path = trc_, .unit = "mm"}).error().message, HasSubstr("states the unit"));
 }
 
 TEST_F(ReadMarkerInput, TheRecordHoldsSizeAndChecksum) {

@@ -41,8 +41,20 @@ Result<Writer> writer_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+/// Whether the third line or the fourth of a table of DeepLabCut says z: points in space, no points in
+/// images.
+bool has_depth(std::string_view begin) {
+  for (int line = 0; line < 4 && !begin.empty(); ++line) {
+    const auto cells = begin.substr(0, begin.find('\n'));
+    if (cells.starts_with("coords,")) return cells.find(",z") != std::string_view::npos;
+    begin.remove_prefix(std::min(cells.size() + 1, begin.size()));
+  }
+  return false;
+}
+
 bool begins_keypoints(std::string_view begin) {
-  if (begin.starts_with("scorer,") || begin.starts_with("track,frame_idx,")) return true;
+  if (begin.starts_with("scorer,")) return !has_depth(begin);
+  if (begin.starts_with("track,frame_idx,")) return true;
   constexpr std::array<std::string_view, 6> kKeys = {"\"people\"",      "\"instance_info\"", "\"meta_info\"",
                                                      "\"annotations\"", "\"keypoints\"",     "\"images\""};
   return begins_json(begin) && std::ranges::any_of(kKeys, [&](std::string_view key) {

@@ -54,11 +54,14 @@ TEST_F(KeypointsFile, FilesThatAreReadAreNamed) {
 }
 
 TEST_F(KeypointsFile, ItsBeginningTellsAFileOfPoints) {
-  for (const char* begin : {"scorer,net,net\n", R"({"version":1.3,"people":[]})", R"({"meta_info": {)",
-                            R"([{"frame_id": 0, "instances": [{"keypoints": [)", R"( {"images": [)"})
+  for (const char* begin :
+       {"scorer,net,net\n", "scorer,net,net\nindividuals,a,a\nbodyparts,A,A\ncoords,x,y\n",
+        R"({"version":1.3,"people":[]})", R"({"meta_info": {)",
+        R"([{"frame_id": 0, "instances": [{"keypoints": [)", R"( {"images": [)"})
     EXPECT_TRUE(begins_keypoints(begin)) << begin;
   for (const char* begin :
-       {"", "frame,time_s,marker,x_m,y_m,z_m\n", R"({"SamplingFrequency": 100})", "scorers\n", R"("people")"})
+       {"", "scorer,net,net,net\nbodyparts,A,A,A\ncoords,x,y,z\n", "frame,time_s,marker,x_m,y_m,z_m\n",
+        R"({"SamplingFrequency": 100})", "scorers\n", R"("people")"})
     EXPECT_FALSE(begins_keypoints(begin)) << begin;
 }
 

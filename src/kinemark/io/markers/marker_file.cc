@@ -13,6 +13,7 @@
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
+#include "kinemark/io/markers/foreign_text.h"
 #include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/markers/plausible.h"
@@ -68,18 +69,19 @@ std::string names_of_read_formats() {
 /// The beginning of a file, that of a text in the form that readers expect.
 Result<std::string> read_plain_begin(const std::filesystem::path& path) {
   auto begin = read_begin(path);
-  const bool is_text = begin && (begin->find('\0') == std::string::npos || is_utf16(*begin));
-  if (is_text) *begin = in_plain_dialect(std::move(*begin));
+  if (begin && (begin->find('\0') == std::string::npos || is_utf16(*begin)))
+    *begin = in_plain_dialect(std::move(*begin));
   return begin;
 }
+
+bool is_text(std::string_view begin) { return begin.find('\0') == std::string_view::npos; }
 
 /// What a text is that no reader knows, and what would bring it in; empty: it is no text. Nothing of it is
 /// quoted: a page of `serve` shows this, and the file may be anybody's.
 std::string describe_text(std::string_view begin) {
-  if (begin.find('\0') != std::string_view::npos) return {};
+  if (!is_text(begin)) return {};
   const auto line = begin.substr(0, begin.find_first_of("\r\n"));
-  if (line.find("Kinovea") != std::string_view::npos)
-    return ": it holds paths that Kinovea followed in the image of one camera, and no positions in space";
+  if (const auto foreign = foreign_text(begin); !foreign.empty()) return ": " + foreign;
   const auto tabs = std::ranges::count(line, '\t'), commas = std::ranges::count(line, ',');
   const std::string cells = tabs > 0     ? fmt::format("{} cells between tabs", tabs + 1)
                             : commas > 0 ? fmt::format("{} cells between commas", commas + 1)
@@ -112,10 +114,18 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
     return fail(Code::not_supported,
                 fmt::format("{}: {} is not read as a marker file{}; supported are {}", path.string(),
                             named(extension), describe_text(*begin), names_of_read_formats()));
-  if (format->stores_rate && options.rate_hz != 0.0)
+  const bool by_ending = format->begins == nullptr || !format->begins(*begin);
+  if (const auto foreign = by_ending && is_text(*begin) ? foreign_text(*begin) : std::string();
+      !foreign.empty())
+    if (auto trial = format->read(path, options, box_m); !trial)
+      return fail(Code::not_supported, fmt::format("{}: {}", path.string(), foreign));
+  if (format->stores_rate && options.rate_hz != 0.0) {
+    // Of a file that cannot be read, the reader's own sentence says more.
+    if (auto trial = format->read(path, options, box_m); !trial) return trial;
     return fail(Code::usage,
                 fmt::format("{}: the file stores its own rate; a rate (--rate) is given only for {}",
                             path.string(), names_without_rate()));
+  }
   return format->read(path, options, box_m);
 }
 

@@ -166,6 +166,17 @@ TEST(MarkerFile, ATableWithoutTimesNeedsARateAndOneWithTimesRefusesIt) {
               HasSubstr("stores its own rate"));
 }
 
+TEST(MarkerFile, TextsOfOtherKindsAreRefusedWithWhatTheyHold) {
+  const testing_support::ScratchFolder scratch;
+  for (const char* name : {"k.csv", "k.txt"}) {
+    ASSERT_TRUE(write_text(scratch / name, "Time (ms);Trajectory 1/0/X;Trajectory 1/0/Y\n0;1;2\n", false));
+    const auto refused = read_markers(scratch / name);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Code::not_supported);
+    EXPECT_THAT(refused.error().message, HasSubstr("paths that Kinovea followed in the image of one camera"));
+  }
+}
+
 TEST(MarkerFile, AnglesOfAVisual3dTextGoAlongAsChannels) {
   const testing_support::ScratchFolder scratch;
   const std::string head =
@@ -174,6 +185,10 @@ TEST(MarkerFile, AnglesOfAVisual3dTextGoAlongAsChannels) {
       "\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\tPROCESSED\nITEM\tX\tY\tZ\tX\tY\tZ\n";
   ASSERT_TRUE(
       write_text(scratch / "a.v3d", head + "1\t1\t2\t3\t90.1\t0.2\t-45.3\n2\t4\t5\t6\t7\t\t9\n", false));
+  ASSERT_TRUE(write_text(scratch / "a.txt", head + "1\t1\t2\t3\t90.1\t0.2\t-45.3\n", false));
+  EXPECT_EQ(read_markers(scratch / "a.txt", {.rate_hz = 100.0}).value().format,
+            read_markers(scratch / "a.v3d", {.rate_hz = 100.0}).value().format)
+      << "known by its content";
   const auto trial = read_markers(scratch / "a.v3d", {.rate_hz = 100.0});
   ASSERT_TRUE(trial) << trial.error().message;
   EXPECT_THAT(trial->channels.names, testing::ElementsAre("Hip_angles_XYZ"));

@@ -50,6 +50,16 @@ bool begins_amc(std::string_view begin) {
   return begin.starts_with("#!OML:ASF") || begin.find(":FULLY-SPECIFIED") != std::string_view::npos;
 }
 
+/// The fifth line of Visual3D's text is that of its axes.
+bool begins_v3d(std::string_view begin) {
+  for (int line = 1; line < 5; ++line) {
+    const auto end = begin.find('\n');
+    if (end == std::string_view::npos) return false;
+    begin.remove_prefix(end + 1);
+  }
+  return begin.starts_with("ITEM\t");
+}
+
 bool begins_bvh(std::string_view begin) { return begins_with(begin, "HIERARCHY"); }
 
 bool begins_nwb(std::string_view begin) { return begin.starts_with("\x89HDF\r\n\x1a\n"); }
@@ -158,9 +168,10 @@ constexpr std::array kFormats = {
         .name = "MAT",
         .extension = ".mat",
         .begins = is_mat,
-        .read = [](const fs::path& path, ReadOptions, Box) { return read_mat(path); },
+        .read = [](const fs::path& path, ReadOptions o, Box) { return read_mat(path, o.unit); },
         .write = [](const fs::path& path, const data::Trial& trial,
                     WriteOptions o) { return write_mat(path, trial, {.force = o.force, .set = o.set}); },
+        .may_lack_unit = true,
         .kept = kOfMat,
         .precision = "double, m"},
     MarkerFormat{.name = "NPZ",
@@ -216,19 +227,25 @@ constexpr std::array kFormats = {
                  .begins = begins_export<VendorExport::coordinates>,
                  .read = read_export<VendorExport::coordinates>,
                  .may_lack_unit = true},
-    MarkerFormat{.name = "CSV",
-                 .extension = ".csv",
-                 .read = [](const fs::path& path, ReadOptions, Box) { return read_trajectories_csv(path); },
-                 .write = [](const fs::path& path, const data::Trial& trial,
-                             WriteOptions o) { return write_trajectories_csv(path, trial, o.force); },
-                 .kept = kOfCsv,
-                 .precision = "double, m"},
+    MarkerFormat{
+        .name = "CSV",
+        .extension = ".csv",
+        .read = [](const fs::path& path, ReadOptions o, Box) { return read_trajectories_csv(path, o.unit); },
+        .write = [](const fs::path& path, const data::Trial& trial,
+                    WriteOptions o) { return write_trajectories_csv(path, trial, o.force); },
+        .may_lack_unit = true,
+        .kept = kOfCsv,
+        .precision = "double, m"},
     MarkerFormat{.name = "OpenSim table of markers",
                  .extension = ".sto",
                  .begins = begins_marker_table,
                  .read = [](const fs::path& path, ReadOptions, Box) { return read_marker_table(path); },
                  .mostly_others = true},
-    MarkerFormat{.name = "Visual3D text", .extension = ".v3d", .read = read_v3d_trial, .stores_rate = false},
+    MarkerFormat{.name = "Visual3D text",
+                 .extension = ".v3d",
+                 .begins = begins_v3d,
+                 .read = read_v3d_trial,
+                 .stores_rate = false},
     MarkerFormat{.name = "BVH",
                  .extension = ".bvh",
                  .begins = begins_bvh,

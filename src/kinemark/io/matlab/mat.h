@@ -21,13 +21,16 @@ namespace kinemark::io {
 
 /// Read the trial of a file that write_mat() made (to the last bit) or that Qualisys Track Manager exported:
 /// labelled and unidentified trajectories, what of them was filled, residuals, analog channels, forces as
-/// channels, events. Code::not_supported for version 7.3 (HDF5), saying how to save again, and for a file
-/// that holds neither; Code::bad_input, with the field, for one that is damaged; Code::io when it cannot be
-/// read. Memory: the file, what is compressed in it (at most 256 MB and 64 times the file) and the trial.
-[[nodiscard]] Result<data::Trial> read_mat(const std::filesystem::path& path);
+/// channels, events. Of a file that holds neither, plain arrays are read, alone or in structs, as those of an
+/// .npz are (read_npz()); `unit` is theirs. Code::not_supported for version 7.3 (HDF5), saying how to save
+/// again; Code::usage for a unit beside a struct that states its own; Code::bad_input, with the field, for
+/// one that is damaged, and for arrays that hold no recording; Code::io when it cannot be read. Memory: the
+/// file, what is compressed in it (at most 256 MB and 64 times the file) and the trial.
+[[nodiscard]] Result<data::Trial> read_mat(const std::filesystem::path& path, std::string_view unit = {});
 
 /// The same from memory; `name` stands for the file in messages and in Trial::source.
-[[nodiscard]] Result<data::Trial> parse_mat(std::span<const std::byte> bytes, std::string_view name);
+[[nodiscard]] Result<data::Trial> parse_mat(std::span<const std::byte> bytes, std::string_view name,
+                                            std::string_view unit = {});
 
 /// Options of write_mat().
 struct MatWriteOptions {

@@ -66,7 +66,7 @@ TEST(MatTable, AnInvalidTableIsRefusedAndATableIsNoTrial) {
   ASSERT_TRUE(write_mat(scratch / "b.mat", sample(), false));
   const auto trial = read_mat(scratch / "b.mat");
   ASSERT_FALSE(trial);
-  EXPECT_EQ(trial.error().code, Code::not_supported);
+  EXPECT_EQ(trial.error().code, Code::bad_input);
   EXPECT_THAT(trial.error().message, HasSubstr("b.mat"));
 }
 

@@ -168,9 +168,21 @@ void measure(const data::Trial& trial, std::int64_t S, Plate& plate) {
   }
 }
 
+/// Where no marker tells on which side the body is: laboratories have an axis that points up, and none that
+/// points down.
+double side_of_up(const Plate& plate, std::vector<std::string>& warnings) {
+  const Vector3d z = plate.pose.world_from_plate.col(2);
+  Eigen::Index up = 0;
+  z.cwiseAbs().maxCoeff(&up);
+  warnings.push_back(fmt::format("no marker tells on which side of {} the body is; {} is taken as up",
+                                 plate.name, "xyz"[up]));
+  return z[up] > 0.0 ? 1.0 : -1.0;
+}
+
 /// +1 when the body is on the side of the plate's z, else -1 (as it should be: z points into the plate).
 double side_of_body(const Plate& plate, const Vector3d& markers, std::vector<std::string>& warnings) {
   const double height = (markers - plate.pose.centre).dot(plate.pose.world_from_plate.col(2));
+  if (std::isnan(height)) return side_of_up(plate, warnings);
   if (!(height > 0.0)) return -1.0;
   warnings.push_back(
       fmt::format("{} has corners in the opposite order (its z axis points at the body); its axes are "
@@ -205,8 +217,7 @@ Vector3d corrected(const Vector3d& point, const std::vector<double>& numbers) {
   return {1e-3 * (x - error_mm(0, x, y)), 1e-3 * (y - error_mm(1, y, x)), point.z()};
 }
 
-data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options,
-                     std::vector<std::string>& warnings) {
+data::Wrench on_body(const Plate& plate, double side, const PlateOptions& options, PlateForces& out) {
   data::Wrench wrench{.name = plate.name,
                       .body = "",
                       .force = {},
@@ -243,10 +254,11 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
     wrench.point.insert(wrench.point.end(), point.data(), point.data() + 3);
   }
   if (20 * off > loaded)
-    warnings.push_back(
+    out.warnings.push_back(
         fmt::format("the centre of pressure leaves {} in {} of {} frames with {:.0f} N or more; its "
                     "ORIGIN, CORNERS or the unit of its moments may be wrong",
                     plate.name, off, loaded, kSurelyLoaded));
+  if (4 * off > loaded) out.contradicted.push_back(out.warnings.back());
   return wrench;
 }
 
@@ -274,7 +286,7 @@ Result<PlateForces> plate_forces(const data::Trial& trial, const PlateOptions& o
     measure(trial, per_frame, plate);
     const double side = side_of_body(plate, markers, forces.warnings);
     settle_sign(plate, side, forces.warnings);
-    forces.wrenches.items.push_back(on_body(plate, side, options, forces.warnings));
+    forces.wrenches.items.push_back(on_body(plate, side, options, forces));
   }
   return forces;
 }

@@ -28,7 +28,8 @@ struct PlateForces {
   /// axes: force on the body (N), moment about the centre of pressure (N m, along the plate's normal), centre
   /// of pressure on the plate's surface (m; NaN where the plate is empty). Bodies are left open.
   data::Wrenches wrenches;
-  std::vector<std::string> warnings;  ///< irregularities and repairs, one sentence each
+  std::vector<std::string> warnings;      ///< irregularities and repairs, one sentence each
+  std::vector<std::string> contradicted;  ///< those of them that no force on these plates has
 };
 
 /// Forces of the plates of types 1, 2, 3, 4, 6 and 7, from any format that keeps their channels. Each frame

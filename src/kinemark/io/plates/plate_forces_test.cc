@@ -464,6 +464,25 @@ TEST(PlateForces, CornersTheWrongWayRoundAreReported) {
   EXPECT_GT(-of_frame(forces.wrenches.items.at(0).force, 2).z(), 600.0);  // towards the markers
 }
 
+TEST(PlateForces, WithoutMarkersAnAxisOfTheLaboratoryPointsUp) {
+  Setting down, up;
+  up.world_from_plate = Eigen::AngleAxisd(0.7, Vector3d::UnitZ()).toRotationMatrix();
+  up.force.z() = 700.0;
+  for (const Setting& setting : {down, up}) {
+    auto trial = setting.trial(5, [](double) { return 1.0; });
+    for (std::int64_t f = 0; f < 5; ++f) trial.markers.set_missing(f, 0);
+    const auto forces = through_a_file(trial).value();
+    expect_truth(setting, forces.wrenches.items.at(0), 2);
+    EXPECT_NEAR(of_frame(forces.wrenches.items.at(0).force, 2).z(), 700.0, 1e-3);
+    EXPECT_THAT(
+        forces.warnings,
+        Contains(HasSubstr("no marker tells on which side of plate 1 the body is; z is taken as up")));
+  }
+  // With a marker nothing is said of it.
+  EXPECT_THAT(through_a_file(down.trial(5, [](double) { return 1.0; })).value().warnings,
+              Not(Contains(HasSubstr("no marker tells"))));
+}
+
 TEST(PlateForces, BaselineOfTheFramesThatZeroNames) {
   Setting setting;
   // 28 N of drift all the time, and a step from frame 10.
@@ -506,6 +525,8 @@ TEST(PlateForces, AWrongUnitShowsAtTheCentreOfPressure) {
   const auto forces = through_a_file(setting.trial(6, [](double) { return 1.0; })).value();
   EXPECT_THAT(forces.warnings,
               ElementsAre(HasSubstr("the centre of pressure leaves plate 1 in 6 of 6 frames")));
+  EXPECT_EQ(forces.contradicted, forces.warnings);
+  EXPECT_THAT(through_a_file(Setting().trial(6, [](double) { return 1.0; })).value().contradicted, IsEmpty());
 }
 
 TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "kinemark/core/random.h"
@@ -106,6 +107,22 @@ TEST(RigFile, ReadsBackToTheSameBits) {
   }
   EXPECT_EQ(back->covariance, rig.covariance);
   EXPECT_EQ(format_rig(*back), format_rig(rig));
+}
+
+TEST(RigFile, KeepsDarkCountsAndTheConstantOfTheLightWhereTheyAreKnown) {
+  auto rig = odd_rig();
+  EXPECT_EQ(format_rig(rig).find("dark_counts"), std::string::npos);
+  EXPECT_EQ(format_rig(rig).find("light_counts"), std::string::npos);
+  const auto lateral = std::ranges::find(rig.cameras, data::CameraKind::lateral_effect, &data::Camera::kind);
+  lateral->detector.dark_counts << 16.25, 17.0, 15.5, 16.0;
+  lateral->detector.dark_sd_counts = 0.04;
+  lateral->detector.light_counts = 26179.7;
+  const auto back = parse_rig(format_rig(rig), "rig.toml");
+  ASSERT_TRUE(back) << back.error().message;
+  const auto& found = back->cameras[static_cast<std::size_t>(lateral - rig.cameras.begin())].detector;
+  EXPECT_EQ(found.dark_counts, lateral->detector.dark_counts);
+  EXPECT_EQ(found.dark_sd_counts, 0.04);
+  EXPECT_EQ(found.light_counts, 26179.7);
 }
 
 TEST(RigFile, AHandWrittenRigNeedsLittle) {

@@ -32,7 +32,10 @@ Status read_detector(const toml::table& table, const std::string& where, data::D
       .integer("generic_degree", out.generic_degree)
       .numbers("generic", out.generic)
       .vector("gain", out.gain)
-      .vector("offset_counts", out.offset_counts);
+      .vector("offset_counts", out.offset_counts)
+      .vector("dark_counts", out.dark_counts)
+      .number("dark_sd_counts", out.dark_sd_counts)
+      .number("light_counts", out.light_counts);
   if (auto s = fields.finish(); !s) return s;
   const auto parsed = data::parse_detector_kind(kind);
   if (!parsed) return fail_at(fields.where(), parsed.error());

@@ -101,6 +101,11 @@ void add_camera(TomlText& out, const data::Camera& camera) {
   }
   out.list("gain", detector.gain);
   out.list("offset_counts", detector.offset_counts);
+  if (detector.knows_dark()) {
+    out.list("dark_counts", detector.dark_counts);
+    out.number("dark_sd_counts", detector.dark_sd_counts);
+  }
+  if (!std::isnan(detector.light_counts)) out.number("light_counts", detector.light_counts);
   if (camera.table.nodes == 0) return;
   out.line("[camera.table]");
   out.line(fmt::format("nodes = {}", camera.table.nodes));

@@ -8,9 +8,11 @@
 #include "kinemark/io/text/trajectories_csv.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto trial =
-      kinemark::io::parse_trajectories_csv({reinterpret_cast<const char*>(data), size}, "fuzz.csv");
-  if (trial ? !trial->validate() : trial.error().message.find('\n') != std::string::npos) std::abort();
-  if (trial && trial->markers.state.size() > 4 * size + 1'000'000) std::abort();
+  for (const std::string_view unit : {"", "mm"}) {  // with one, columns are other people's
+    const auto trial =
+        kinemark::io::parse_trajectories_csv({reinterpret_cast<const char*>(data), size}, "fuzz.csv", unit);
+    if (trial ? !trial->validate() : trial.error().message.find('\n') != std::string::npos) std::abort();
+    if (trial && trial->markers.state.size() > 4 * size + 1'000'000) std::abort();
+  }
   return 0;
 }

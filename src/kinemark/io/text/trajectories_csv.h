@@ -22,10 +22,13 @@ namespace kinemark::io {
 
 /// Read such a file; columns in any order, lines in any order. Needed are frame, time_s, marker, x_m, y_m and
 /// z_m; a sample without a state is measured where it has coordinates and missing where it has none. The
-/// clock is the even one that describes time_s best. Anything that makes no sense: Code::bad_input with the
-/// line.
-[[nodiscard]] Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path);
+/// clock is the even one that describes time_s best. Tables of one line a sample under other people's labels
+/// ("Time (ms),Name,X,Y,Z") are read too, with `unit` where their labels state none. Anything that makes no
+/// sense: Code::bad_input with the line; Code::usage for a unit beside columns of our own.
+[[nodiscard]] Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path,
+                                                        std::string_view unit = {});
 /// The same from memory; `name` stands in messages. Memory is bounded by a multiple of the text.
-[[nodiscard]] Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::string& name);
+[[nodiscard]] Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::string& name,
+                                                         std::string_view unit = {});
 
 }  // namespace kinemark::io

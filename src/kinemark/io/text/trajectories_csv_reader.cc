@@ -11,12 +11,13 @@
 #include <span>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/length_unit.h"
 #include "kinemark/core/missing.h"
-#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
+#include "kinemark/io/text/internal/long_labels.h"
 #include "kinemark/io/text/internal/time_column.h"
 #include "kinemark/io/text/trajectories_csv.h"
 #include "kinemark/io/text_input.h"
@@ -87,7 +88,7 @@ struct FrameTime {
 
 class Parser {
  public:
-  explicit Parser(data::Trial& trial) : trial_(trial) {}
+  Parser(data::Trial& trial, std::string_view unit) : trial_(trial), unit_(unit) {}
 
   Status header(std::string_view line) {
     if (!split_csv(line, cells_)) return fail(Code::bad_input, "line 1: a quote is not closed");
@@ -102,6 +103,13 @@ class Parser {
       at = c;
     }
     columns_ = cells_.size();
+    if (const auto labels = internal::long_labels(cells_); labels.is_whole() && !is_own())
+      return take_labels(labels);
+    if (is_own() && !unit_.empty())
+      return fail(
+          Code::usage,
+          "the file states the unit of its coordinates; one (--unit) is given only for tables of coordinates "
+          "that state none");
     if (std::ranges::none_of(std::array{marker, x, y, z},
                              [&](Kind kind) { return column_[kind].has_value(); }))
       return fail(
@@ -131,9 +139,9 @@ class Parser {
       return wrong(fmt::format("has {} cells; the header has {}", cells_.size(), columns_));
     error_.reset();
     Sample s{};
-    const double frame_number = number_in(frame, true);
-    const double time = number_in(time_s, true);
-    s.x = {number_in(x), number_in(y), number_in(z)};
+    const double time = number_in(time_s, true) / units_per_second_;
+    const double frame_number = column_[frame] ? number_in(frame, true) : error_ ? kNaN : frame_at(time);
+    s.x = {number_in(x) / units_per_metre_, number_in(y) / units_per_metre_, number_in(z) / units_per_metre_};
     s.offset_s = number_in(offset);
     const double sd[] = {number_in(sd_x), number_in(sd_y), number_in(sd_z)};
     const std::array<double, 6> covariance = {sd[0] * sd[0], number_in(xy), number_in(xz),
@@ -172,13 +180,57 @@ class Parser {
     return fail(Code::bad_input, fmt::format("line {}: {}", line_, what));
   }
 
+  /// Whether the columns are called as we call them.
+  [[nodiscard]] bool is_own() const {
+    return std::ranges::all_of(std::array{frame, time_s, marker, x, y, z},
+                               [&](Kind kind) { return column_[kind].has_value(); });
+  }
+
+  /// The columns of a table whose labels are other people's.
+  Status take_labels(const internal::LongLabels& labels) {
+    trial_.warnings.clear();
+    column_.fill(std::nullopt);
+    column_[frame] = labels.frame;
+    column_[time_s] = labels.time;
+    column_[marker] = labels.marker;
+    for (const auto& [kind, axis] : {std::pair{x, 0U}, {y, 1U}, {z, 2U}})
+      column_[kind] = labels.coordinate[axis];
+    const std::string_view unit = labels.unit.empty() ? unit_ : std::string_view(labels.unit);
+    if (unit.empty())
+      return fail(
+          Code::bad_input,
+          "line 1: no unit of length is stated; give it with --unit mm, cm or m, or in the labels: 'X (mm)'");
+    const auto metres = metres_per_unit(unit);
+    if (!metres)
+      return fail(Code::bad_input,
+                  fmt::format("line 1: length unit '{}' is unknown; expected mm, cm or m", excerpt(unit)));
+    units_per_metre_ = 1.0 / *metres;
+    units_per_second_ = labels.units_per_second;
+    trial_.units_in_file = unit;
+    std::vector<std::string> unread;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      if (std::ranges::find(column_, std::optional(c)) == column_.end() && !cells_[c].empty())
+        unread.push_back(fmt::format("'{}'", excerpt(cells_[c])));
+    if (!unread.empty())
+      trial_.warnings.push_back(
+          fmt::format("columns that are not read: {}", join_some(unread, kShownColumns)));
+    return {};
+  }
+
+  /// Of a table without frame numbers: times in the order in which they come.
+  double frame_at(double time) {
+    const auto count = static_cast<double>(frame_of_time_.size());
+    return frame_of_time_.try_emplace(time, count + 1.0).first->second;
+  }
+
   /// The number in a column, NaN where blank or where there is no such column.
   double number_in(Kind kind, bool needed = false) {
     if (!column_[kind]) return kNaN;
     const std::string& cell = cells_[*column_[kind]];
     if (cell.empty() && !needed) return kNaN;
-    const auto value = parse_number(cell);
-    if (value && (std::isfinite(*value) || (!needed && std::isnan(*value)))) return *value;
+    double value = kNaN;
+    if (internal::parse_odd_number(cell, value) && (std::isfinite(value) || (!needed && std::isnan(value))))
+      return value;
     error_ = fmt::format("{} is '{}'; need a number", kNames[kind], excerpt(cell));
     return kNaN;
   }
@@ -244,6 +296,9 @@ class Parser {
   }
 
   data::Trial& trial_;
+  std::string_view unit_;  // that the user gives
+  double units_per_metre_ = 1.0, units_per_second_ = 1.0;
+  std::map<double, double> frame_of_time_;
   std::array<std::optional<std::size_t>, kinds> column_;
   std::size_t columns_ = 0;
   std::vector<std::string> cells_;
@@ -352,7 +407,8 @@ Status Parser::finish() {
 
 }  // namespace
 
-Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::string& name) {
+Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::string& name,
+                                           std::string_view unit) {
   data::Trial trial;
   trial.source = name;
   trial.format = "CSV";
@@ -361,7 +417,7 @@ Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::str
   std::string_view line;
   if (!lines.next(line)) return fail(Code::bad_input, name + ": is empty; expected a CSV of trajectories");
   if (auto status = internal::check_header_line(line, 1); !status) return fail_at(name, status.error());
-  Parser parser(trial);
+  Parser parser(trial, unit);
   if (auto status = parser.header(line); !status) return fail_at(name, status.error());
   while (lines.next(line)) {
     if (internal::is_blank(line)) continue;
@@ -371,10 +427,10 @@ Result<data::Trial> parse_trajectories_csv(std::string_view text, const std::str
   return trial;
 }
 
-Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path) {
+Result<data::Trial> read_trajectories_csv(const std::filesystem::path& path, std::string_view unit) {
   const auto text = read_lines_of_text(path);
   if (!text) return std::unexpected(text.error());
-  return parse_trajectories_csv(*text, path.string());
+  return parse_trajectories_csv(*text, path.string(), unit);
 }
 
 }  // namespace kinemark::io

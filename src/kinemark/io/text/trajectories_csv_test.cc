@@ -93,6 +93,30 @@ TEST(TrajectoriesCsv, AnyOrderOfColumnsAndLinesAndNoStates) {
   EXPECT_THAT(trial->warnings, ElementsAre(HasSubstr("column 'colour' is not known")));
 }
 
+TEST(TrajectoriesCsv, LabelsOfOtherPeopleAreUnderstood) {
+  const std::string rows = "1,0,A,250,1,2\n1,0,B,NA,,\n2,10,A,251,1,2\n2,10,B,3,4,5\n";
+  const auto trial =
+      parse_trajectories_csv("Frame,Time (ms),Name,X (mm),Y (mm),Z (mm)\n" + rows, "t").value();
+  EXPECT_THAT(trial.markers.names, ElementsAre("A", "B"));
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 2}));
+  EXPECT_DOUBLE_EQ(trial.markers.x(1, 0).x(), 0.251);
+  EXPECT_FALSE(trial.markers.present(0, 1));
+  // Without frame numbers, marker after marker, and a unit that is given.
+  const auto counted =
+      parse_trajectories_csv(
+          "t,bodypart,x,y,z,score\n0,A,1,2,3,1\n0.5,A,2,2,3,1\n0,B,1,1,1,1\n0.5,B,2,1,1,1\n", "t", "m")
+          .value();
+  EXPECT_EQ(counted.markers.time, (TimeBase{2.0, 0.0, 2}));
+  EXPECT_EQ(counted.markers.x(1, 1), Eigen::Vector3d(2.0, 1.0, 1.0));
+  EXPECT_THAT(counted.warnings, ElementsAre("columns that are not read: 'score'"));
+  EXPECT_THAT(parse_trajectories_csv("t,bodypart,x,y,z\n0,A,1,2,3\n", "t").error().message,
+              HasSubstr("no unit of length is stated; give it with --unit mm, cm or m"));
+  EXPECT_THAT(parse_trajectories_csv("t,point,x (ell),y (ell),z (ell)\n0,A,1,2,3\n", "t").error().message,
+              HasSubstr("length unit 'ell' is unknown"));
+  const auto own = parse_trajectories_csv("frame,time_s,marker,x_m,y_m,z_m\n1,0,A,1,2,3\n", "t", "mm");
+  EXPECT_EQ(own.error().code, Code::usage) << "ours are metres";
+}
+
 TEST(TrajectoriesCsv, TimeThatLiesIsRefused) {
   const auto with_times = [](const std::vector<std::pair<int, double>>& frames) {
     std::string text = "frame,time_s,marker,x_m,y_m,z_m\n";

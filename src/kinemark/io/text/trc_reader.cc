@@ -39,6 +39,7 @@ struct Tally {
   double resolution_s = std::numeric_limits<double>::infinity();  ///< of the time column
   std::int64_t part_blank = 0;  ///< samples with some cells blank or NaN, not all
   std::int64_t infinite = 0;
+  std::int64_t marked = 0;  ///< 9999 and the like in all coordinates
   std::int64_t short_rows = 0;
   std::int64_t extra_rows = 0;        ///< rows with numbers beyond the last marker
   std::int64_t frame_jumps = 0;       ///< rows whose frame number does not follow the one before
@@ -95,10 +96,11 @@ Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header
     const std::int32_t marker = header.marker[slot];
     std::array<double, 3> p{};
     int numbers = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t axis = header.axes.empty() ? k : header.axes[slot][k];
       const Cell kind = cells.next(p[axis]);
       if (kind == Cell::text && marker >= 0)
-        return bad_cell(line, static_cast<std::int64_t>(3 + 3 * slot + axis),
+        return bad_cell(line, static_cast<std::int64_t>(3 + 3 * slot + k),
                         fmt::format("{} of marker '{}'", "xyz"[axis], excerpt(header.names[marker])),
                         cells.text());
       if (kind == Cell::number && !std::isnan(p[axis])) ++numbers;
@@ -109,6 +111,10 @@ Status read_row_samples(Cells& cells, std::int64_t line, const TrcHeader& header
     if (!seen && numbers > 0) ++tally.part_blank;
     if (seen && !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))) {
       ++tally.infinite;
+      seen = false;
+    }
+    if (seen && internal::marks_missing(p[0], p[1], p[2])) {
+      ++tally.marked;
       seen = false;
     }
     double* out = x + 3 * marker;
@@ -192,6 +198,8 @@ void judge_rows(data::Trial& trial, const TrcHeader& header, const Tally& tally,
                      tally.extra_rows, rows, trial.markers.names.size()));
   if (tally.part_blank > 0)
     warn(fmt::format("{} samples have one or two blank coordinates, taken as not seen", tally.part_blank));
+  if (tally.marked > 0)
+    warn(fmt::format("{} samples are 999, 9999, ... in all coordinates, taken as not seen", tally.marked));
   if (tally.infinite > 0) warn(fmt::format("{} samples are infinite, taken as not seen", tally.infinite));
 }
 

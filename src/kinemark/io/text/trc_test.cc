@@ -54,6 +54,37 @@ std::string replace(std::string text, const std::string& what, const std::string
   return text.replace(at, what.size(), with);
 }
 
+TEST(ParseTrc, LabelsTellTheOrderOfTheAxes) {
+  const std::string labels = "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n";
+  const auto turned = good(replace(text_with(kRows), labels, "\t\tX1\tZ1\tY1\tZ2\tX2\tY2\n"));
+  EXPECT_LT((turned.markers.x(0, 0) - Eigen::Vector3d(0.001, 0.003, 0.002)).norm(), 1e-15);
+  EXPECT_LT((turned.markers.x(1, 1) - Eigen::Vector3d(0.011, 0.012, 0.010)).norm(), 1e-15);
+  for (const char* usual : {"\t\tX0\tY0\tZ1\tX1\tY1\tZ2\n", "\t\tX5\tY5\tZ5\tX6\tY6\tZ6\n", "\t\tx\ty\tz\n",
+                            "\t\tlat\tap\tup\tlat\tap\tup\n"})
+    EXPECT_LT((good(replace(text_with(kRows), labels, usual)).markers.x(0, 0) -
+               Eigen::Vector3d(0.001, 0.002, 0.003))
+                  .norm(),
+              1e-15)
+        << usual;
+  for (const char* odd : {"\t\tX1\tX1\tY1\tX2\tY2\tZ2\n", "\t\tX1\tZ1\tY1\n"})
+    EXPECT_THAT(
+        bad(replace(text_with(kRows), labels, odd)),
+        HasSubstr("line 5: does not name x, y and z of each of the 2 markers; expected X1, Y1, Z1, X2"))
+        << odd;
+}
+
+TEST(ParseTrc, NinesMarkWhatWasNotSeenAndAHeaderMayHaveCommas) {
+  const auto marked = good(text_with("1\t0.00\t9999\t9999\t9999\t4\t5\t6\n2\t0.01\t7\t8\t9\t10\t11\t12\n"));
+  EXPECT_FALSE(marked.markers.present(0, 0));
+  EXPECT_TRUE(marked.markers.present(0, 1));
+  EXPECT_THAT(marked.warnings,
+              Contains("1 samples are 999, 9999, ... in all coordinates, taken as not seen"));
+  EXPECT_THAT(good(text_with(kRows)).warnings, IsEmpty());
+  EXPECT_EQ(
+      good(text_with(kRows, "A\t\t\tB\t\t", "100,00\t100,00\t2\t2\tmm\t100,00\t1\t2")).markers.time.rate_hz,
+      100.0);
+}
+
 TEST(ParseTrc, ReadsAPlainFile) {
   const auto trial = good(text_with(kRows));
   EXPECT_THAT(trial.markers.names, ElementsAre("A", "B"));

@@ -167,7 +167,7 @@ bool begins_phasespace(std::string_view begin) {
 std::optional<VendorExport> vendor_export_of(std::string_view begin) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (begin.starts_with(kByteOrderMark)) begin.remove_prefix(kByteOrderMark.size());
-  for (const std::string_view key : {"NO_OF_FRAMES\t", "FILE_VERSION\t", "NO_OF_CAMERAS\t"})
+  for (const std::string_view key : {"NO_OF_FRAMES\t", "FILE_VERSION\t", "NO_OF_CAMERAS\t", "MARKER_NAMES\t"})
     if (begin.starts_with(key)) return VendorExport::qtm;
   if (begin.starts_with("Format Version,")) return VendorExport::motive;
   const auto first = internal::lower(begin.substr(0, begin.find_first_of(",\r\n")));

@@ -98,12 +98,28 @@ std::optional<Eigen::Vector3d> position_of(std::string_view text) {
   return trim(text).empty() ? std::optional(out) : std::nullopt;
 }
 
-Status take_markers(const pugi::xml_node& set, const Index& segments, Index& index, Vsk& out) {
-  for (const pugi::xml_node node : set.child("Markers").children("Marker")) {
-    VskMarker marker{.name = named(node), .x_in_segment = position_of(node.attribute("POSITION").value())};
+/// Newer files say where a marker is in a target of its own: the first of each.
+std::map<std::string, pugi::xml_node, std::less<>> targets_of(const pugi::xml_node& root) {
+  std::map<std::string, pugi::xml_node, std::less<>> out;
+  for (const pugi::xml_node node : root.child("TargetSet").child("Targets").children())
+    if (node.attribute("SEGMENT")) out.emplace(named(node, "MARKER"), node);
+  return out;
+}
+
+Status take_markers(const pugi::xml_node& root, const Index& segments, Index& index, Vsk& out) {
+  const auto targets = targets_of(root);
+  for (pugi::xml_node node : root.child("MarkerSet").child("Markers").children("Marker")) {
+    VskMarker marker{.name = named(node), .x_in_segment = std::nullopt};
     marker.required = std::string_view(node.attribute("STATUS").value()) != "optional";
     if (auto s = enter(index, marker.name, static_cast<int>(out.markers.size()), "Marker"); !s) return s;
+    const auto target = targets.find(marker.name);
+    if (!node.attribute("SEGMENT") && target != targets.end()) node = target->second;
+    marker.x_in_segment = position_of(node.attribute("POSITION").value());
     const std::string segment = named(node, "SEGMENT");
+    if (segment.empty())
+      return fail(Code::bad_input,
+                  fmt::format("marker {} is on no segment, neither by itself nor by a target",
+                              in_quotes(marker.name)));
     const auto found = segments.find(segment);
     if (found == segments.end())
       return fail(Code::bad_input, fmt::format("marker {} is on segment {}, which is not there",
@@ -170,7 +186,7 @@ Result<Vsk> parse(std::string_view xml) {
     return std::unexpected(s.error());
   if (out.segments.empty()) return fail(Code::bad_input, "has no <Segment> in a <Skeleton>");
   const pugi::xml_node set = root.child("MarkerSet");
-  if (auto s = take_markers(set, segments, markers, out); !s) return std::unexpected(s.error());
+  if (auto s = take_markers(root, segments, markers, out); !s) return std::unexpected(s.error());
   take_sticks(set, markers, out);
   if (auto s = take_parameters(root, out); !s) return std::unexpected(s.error());
   return out;

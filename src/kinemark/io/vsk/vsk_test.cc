@@ -101,6 +101,31 @@ TEST(Vsk, MeasuresAreInUnits) {
   EXPECT_EQ(vsk->parameters[4].value, -226.5);
 }
 
+TEST(Vsk, ATargetTellsWhereAMarkerIsThatDoesNotSaySo) {
+  const auto vsk = parse_vsk(R"(<KinematicModel MODEL="New">
+  <Skeleton><Segment NAME="Pelvis"><JointFree/><Segment NAME="Femur"><JointBall NAME="Hip"/></Segment></Segment></Skeleton>
+  <MarkerSet><Markers>
+    <Marker NAME="ASI" STATUS="required"/><Marker NAME="THI" STATUS="optional"/>
+    <Marker NAME="SAC" SEGMENT="Pelvis" POSITION="1 2 3"/></Markers></MarkerSet>
+  <TargetSet><Targets>
+    <TargetLocalPointToWorldPoint MARKER="THI" SEGMENT="Femur" POSITION="10 20 30"/>
+    <TargetLocalPointToWorldPoint MARKER="THI" SEGMENT="Pelvis" POSITION="0 0 0"/>
+    <TargetLocalPointToWorldPoint MARKER="SAC" SEGMENT="Femur" POSITION="0 0 0"/>
+    <TargetLocalPointToWorldPoint MARKER="ASI" SEGMENT="Pelvis" POSITION="ASI_X 0 0"/></Targets></TargetSet>
+</KinematicModel>)",
+                             "new.vst");
+  ASSERT_TRUE(vsk) << vsk.error().message;
+  ASSERT_EQ(vsk->markers.size(), 3U);
+  EXPECT_EQ(vsk->markers[0].segment, 0);
+  EXPECT_FALSE(vsk->markers[0].x_in_segment) << "an expression";
+  EXPECT_TRUE(vsk->markers[0].required);
+  EXPECT_EQ(vsk->markers[1].segment, 1);
+  EXPECT_EQ(vsk->markers[1].x_in_segment.value(), Eigen::Vector3d(0.01, 0.02, 0.03));
+  EXPECT_FALSE(vsk->markers[1].required);
+  EXPECT_EQ(vsk->markers[2].segment, 0) << "its own word goes before a target's";
+  EXPECT_EQ(vsk->markers[2].x_in_segment.value(), Eigen::Vector3d(0.001, 0.002, 0.003));
+}
+
 TEST(Vsk, SaysWhatIsWrong) {
   EXPECT_THAT(bad("<KinematicModel"), HasSubstr("is not XML that can be read"));
   EXPECT_THAT(bad(""), HasSubstr("is not XML that can be read"));
@@ -114,6 +139,8 @@ TEST(Vsk, SaysWhatIsWrong) {
               HasSubstr("segment 'Tibia' has a <JointGlue>, which is none of Vicon's joints"));
   EXPECT_THAT(bad(with(kLeg, "SEGMENT=\"Femur\"", "SEGMENT=\"Thigh\"")),
               HasSubstr("marker 'THI' is on segment 'Thigh', which is not there"));
+  EXPECT_THAT(bad(with(kLeg, " SEGMENT=\"Femur\"", "")),
+              HasSubstr("marker 'THI' is on no segment, neither by"));
   EXPECT_THAT(bad(with(kLeg, "\"THI\" POS", "\"ASI\" POS")),
               HasSubstr("two elements <Marker> are called 'ASI'"));
   EXPECT_THAT(bad(with(kLeg, "VALUE=\"75\"", "VALUE=\"heavy\"")),

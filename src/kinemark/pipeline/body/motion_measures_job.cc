@@ -33,6 +33,7 @@
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/measures/regions.h"
 #include "kinemark/workflow/motion/dynamics.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
 namespace kinemark::pipeline {
@@ -96,20 +97,28 @@ analysis::BodyStretch stretch_of(const data::Region& region, const TimeBase& tim
           .count = region.last_frame - region.first_frame + 1};
 }
 
-/// The recording that the motion is of, whose events and plates count.
+/// The recording that the motion is of, whose events and plates count; the plates are held against the rest
+/// with the motion.
 RecordingSource recording_of(const MotionMeasuresJob& job) {
   return {.path = job.forces,
           .needs_samples = true,
           .plates = true,
+          .facts = {.size = false,
+                    .sides = false,
+                    .pairs = false,
+                    .plates = false,
+                    .events = !job.between.empty()},
           .force = job.force,
           .seed = job.seed,
           .threads = job.threads};
 }
 
 /// Events of the recording on the motion's clock: its own, or those of its feet where a label has none.
-Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, std::vector<std::string>& warnings) {
+Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, workflow::Remarks& remarks) {
   auto recording = open_recording(recording_of(job), {});
   if (!recording) return std::unexpected(recording.error());
+  std::ranges::copy(recording->contradicted, std::back_inserter(remarks.warnings));
+  workflow::add_contradictions(recording->contradicted, remarks.gates);
   auto& trial = recording->trial;
   const auto two = [&](const std::string& label) {
     return std::ranges::count(trial.events, label, &data::Event::label) > 1;
@@ -118,7 +127,7 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, std::ve
     if (auto gait = workflow::measure_gait(*recording, {.refits = 0})) {
       const auto of_feet = pipeline::events_of(*gait, trial.markers.time);
       trial = with_events(std::move(trial), of_feet);
-      warnings.push_back(
+      remarks.warnings.push_back(
           fmt::format("the events of feet are those that were found in {}", job.forces.filename().string()));
     }
   }
@@ -126,9 +135,9 @@ Result<std::vector<data::Event>> events_of(const MotionMeasuresJob& job, std::ve
 }
 
 /// Stretches between events: "Foot Strike Left 2" is cycle 1 of the left.
-Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, std::vector<std::string>& warnings,
+Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, workflow::Remarks& remarks,
                   std::vector<analysis::BodyStretch>& stretches) {
-  auto events = events_of(job, warnings);
+  auto events = events_of(job, remarks);
   if (!events) return std::unexpected(events.error());
   data::Trial clock;
   clock.markers.time = time;
@@ -154,7 +163,7 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, std::vecto
       return fail(Code::bad_input, fmt::format("{}: no span between events '{}' lies within the motion",
                                                job.forces.string(), label));
     if (outside > 0)
-      warnings.push_back(
+      remarks.warnings.push_back(
           fmt::format("{} of {} spans between events '{}' reach beyond the motion and "
                       "are left out",
                       outside, cycles->size(), label));
@@ -163,7 +172,7 @@ Status add_cycles(const MotionMeasuresJob& job, const TimeBase& time, std::vecto
 }
 
 Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob& job, const TimeBase& time,
-                                                        std::vector<std::string>& warnings) {
+                                                        workflow::Remarks& remarks) {
   std::vector<analysis::BodyStretch> stretches;
   for (const auto& text : job.regions) {
     const auto region = workflow::parse_region(text, time);
@@ -175,7 +184,7 @@ Result<std::vector<analysis::BodyStretch>> stretches_of(const MotionMeasuresJob&
                                                region->name, time.frames));
   }
   if (!job.between.empty())
-    if (auto s = add_cycles(job, time, warnings, stretches); !s) return std::unexpected(s.error());
+    if (auto s = add_cycles(job, time, remarks, stretches); !s) return std::unexpected(s.error());
   if (!stretches.empty()) return stretches;
   const auto last = static_cast<double>(time.frames - 1);
   const double begin = std::clamp((job.first_time_s - time.t0_s) * time.rate_hz, 0.0, last),
@@ -221,6 +230,7 @@ Result<std::vector<ResultFile>> draw_walking(const MotionMeasuresJob& job,
   }
   const auto& gait = *drawing.gait();
   std::ranges::copy(gait.notes, std::back_inserter(out.warnings));
+  workflow::add_contradictions(gait.contradicted, out.gates);
   std::vector<SheetInput> inputs;
   std::vector<data::CycleCurves> curves;
   add_motion_cycles(measured, gait.cycles, inputs);
@@ -314,13 +324,15 @@ Result<MotionMeasuresOutcome> run_motion_measures(const MotionMeasuresJob& job) 
   auto& time = read->given.motion.time;
   time.first_number = 1;
   std::ranges::move(read->inputs, std::back_inserter(out.inputs));
-  std::vector<std::string> of_spans;
+  workflow::Remarks of_spans;
   auto stretches = stretches_of(job, time, of_spans);
   if (!stretches) return std::unexpected(stretches.error());
   auto measured = workflow::measure_motion(*model, read->given, options_of(job, std::move(*stretches)));
   if (!measured) return std::unexpected(measured.error());
   out.measures = std::move(measured->measures);
-  for (auto* sentences : {&read->notes, &measured->remarks.warnings, &of_spans, &measured->left_out})
+  out.gates = std::move(of_spans.gates);
+  std::ranges::move(measured->remarks.gates, std::back_inserter(out.gates));
+  for (auto* sentences : {&read->notes, &measured->remarks.warnings, &of_spans.warnings, &measured->left_out})
     std::ranges::move(*sentences, std::back_inserter(out.warnings));
   std::vector<ResultFile> files;
   if (drawing) {

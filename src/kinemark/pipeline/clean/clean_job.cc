@@ -121,6 +121,8 @@ Result<CleanOutcome> run_clean(const CleanJob& job) {
   if (!repaired) return fail_at(job.input.string(), repaired.error());
   report.account = std::move(repaired->account);
   outcome.warnings = std::move(repaired->remarks.warnings);
+  report.run.gates = outcome.gates = std::move(repaired->remarks.gates);
+  report.run.exit_status = outcome.exit_status();
   // Smooth: each marker goes into the output as soon as it is done.
   auto& trial = outcome.trial = std::move(repaired->recording.trial);
   report.time = trial.markers.time;

@@ -29,6 +29,8 @@
 #include "kinemark/pipeline/files/motion_bids_files.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/files/resample.h"
+#include "kinemark/stages/analysis/consistency/table_facts.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/turn.h"
 #include "kinemark/workflow/prepare/vertical.h"
@@ -57,13 +59,17 @@ bool is_robot(const std::string& ending) {
   return ending == ".urdf" || ending == ".xml" || ending == ".mjcf";
 }
 
-Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
+/// @param gates  get `contradictions`
+Result<std::vector<std::string>> convert_model(const ConvertJob& job, std::vector<data::Gate>& gates) {
   const auto document = io::OsimDocument::read(job.in);
   if (!document) return std::unexpected(document.error());
+  const auto contradicted = workflow::contradicted_model(document->model());
+  workflow::add_contradictions(contradicted, gates);
   if (is_robot(ending_of(job.out))) {
     auto lost = io::write_robot(job.out, document->model(), job.force);
     if (!lost) return std::unexpected(lost.error());
     auto notes = document->model().warnings;
+    notes.insert(notes.end(), contradicted.begin(), contradicted.end());
     notes.insert(notes.end(), lost->begin(), lost->end());
     return notes;
   }
@@ -72,13 +78,18 @@ Result<std::vector<std::string>> convert_model(const ConvertJob& job) {
   if (auto s = io::write_osim_text(job.out, text->text, {.force = job.force}); !s)
     return std::unexpected(s.error());
   std::vector<std::string> notes = document->model().warnings;
+  notes.insert(notes.end(), contradicted.begin(), contradicted.end());
   notes.insert(notes.end(), text->lost.begin(), text->lost.end());
   return notes;
 }
 
-Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
+/// @param gates  get `contradictions`
+Result<std::vector<std::string>> convert_table(const ConvertJob& job, std::vector<data::Gate>& gates) {
   auto table = io::read_table(job.in);
   if (!table) return std::unexpected(table.error());
+  const auto contradicted = analysis::contradicted_values(*table, job.in.filename().string());
+  workflow::add_contradictions(contradicted, gates);
+  std::ranges::copy(contradicted, std::back_inserter(table->warnings));
   if (ending_of(job.out) == ".mat") {
     const bool degrees = io::angles_are_degrees(*table);
     if (auto s = io::write_mat(job.out, *table, degrees, {.force = job.force}); !s)
@@ -90,9 +101,12 @@ Result<std::vector<std::string>> convert_table(const ConvertJob& job) {
 }
 
 /// The motion of a model's bodies.
-Result<std::vector<std::string>> convert_motion(const ConvertJob& job) {
+/// @param gates  get `contradictions`
+Result<std::vector<std::string>> convert_motion(const ConvertJob& job, std::vector<data::Gate>& gates) {
   auto motion = read_model_motion(job.model, job.in);
   if (!motion) return std::unexpected(motion.error());
+  workflow::add_contradictions(motion->contradicted, gates);
+  std::ranges::copy(motion->contradicted, std::back_inserter(motion->notes));
   const bool is_bvh = ending_of(job.out) == ".bvh";
   const auto write =
       is_bvh
@@ -144,6 +158,7 @@ Result<Recording> read_merged(const ConvertJob& job, const std::vector<std::file
   for (const auto& file : files) {
     auto one = open_recording({.path = file,
                                .skeleton = job.skeleton,
+                               .facts = workflow::HeldFacts::none(),
                                .force = job.force,
                                .seed = job.seed,
                                .threads = job.threads},
@@ -178,9 +193,8 @@ Result<Recording> read_prepared(const ConvertJob& job, const std::vector<std::fi
   return recording;
 }
 
-/// @param written  gets the files of a format that has several
-Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
-                                                 std::vector<std::filesystem::path>& written) {
+/// @param out  gets the gate `contradictions`, and the files of a format that has several
+Result<std::vector<std::string>> convert_markers(const ConvertJob& job, ConvertOutcome& out) {
   std::vector<std::filesystem::path> files{job.in};
   files.insert(files.end(), job.merged.begin(), job.merged.end());
   const auto recording = read_prepared(job, files);
@@ -188,10 +202,11 @@ Result<std::vector<std::string>> convert_markers(const ConvertJob& job,
   const auto& trial = recording->trial;
   auto notes = trial.warnings;
   notes.insert(notes.end(), recording->notes.begin(), recording->notes.end());
+  workflow::add_contradictions(recording->contradicted, out.gates);
   if (ending_of(job.out) == ".tsv") {
     auto made = write_motion_bids(job.out, trial, job, files_of(job));
     if (!made) return std::unexpected(made.error());
-    written = std::move(*made);
+    out.written = std::move(*made);
     const auto lost = io::lost_in(*io::written_format(".tsv"), trial);
     notes.insert(notes.end(), lost.begin(), lost.end());
     return notes;
@@ -243,7 +258,7 @@ Result<ConvertOutcome> convert_orientations(const ConvertJob& job) {
 constexpr double kContact_n = 20.0;  ///< of OpenSim's users; a plate that bears less is empty
 
 /// Forces of the plates of a recording, as OpenSim reads them.
-Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
+Result<std::vector<std::string>> convert_forces(const ConvertJob& job, std::vector<data::Gate>& gates) {
   if (!job.merged.empty() || job.resample_hz)
     return fail(Code::usage, fmt::format("{}: forces are those of one recording, at the rate of its markers",
                                          job.out.string()));
@@ -256,6 +271,7 @@ Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
                                    .skeleton = job.skeleton,
                                    .plates = true,
                                    .contact_force_n = kContact_n,
+                                   .facts = {.size = false, .sides = false, .pairs = false},
                                    .force = job.force,
                                    .seed = job.seed,
                                    .threads = job.threads},
@@ -271,6 +287,7 @@ Result<std::vector<std::string>> convert_forces(const ConvertJob& job) {
                                                          : "joint angles are made by kinemark ik"));
   if (auto s = io::write_table(job.out, io::table_of_forces(*recording->plates), {.force = job.force}); !s)
     return std::unexpected(s.error());
+  workflow::add_contradictions(recording->contradicted, gates);
   auto notes = std::move(recording->trial.warnings);
   std::ranges::move(recording->notes, std::back_inserter(notes));
   return notes;
@@ -341,23 +358,22 @@ Result<ConvertOutcome> run_convert(const ConvertJob& job) {
   if (auto s = check_each_once(job); !s) return std::unexpected(s.error());
   if (auto s = check_apart(job, {job.out}, files_of(job)); !s) return std::unexpected(s.error());
   Result<std::vector<std::string>> warnings;
-  std::vector<std::filesystem::path> written = {job.out};
+  ConvertOutcome out;
+  out.written = {job.out};
   switch (kind_of_input(job)) {
     case Kind::model:
-      warnings = convert_model(job);
+      warnings = convert_model(job, out.gates);
       break;
     case Kind::table:
-      warnings = job.model.empty() ? convert_table(job) : convert_motion(job);
+      warnings = job.model.empty() ? convert_table(job, out.gates) : convert_motion(job, out.gates);
       break;
     case Kind::markers:
-      warnings =
-          kind_of(ending_of(job.out)) == Kind::table ? convert_forces(job) : convert_markers(job, written);
+      warnings = kind_of(ending_of(job.out)) == Kind::table ? convert_forces(job, out.gates)
+                                                            : convert_markers(job, out);
       break;
   }
   if (!warnings) return std::unexpected(warnings.error());
-  ConvertOutcome out;
   out.warnings = std::move(*warnings);
-  out.written = std::move(written);
   return out;
 }
 

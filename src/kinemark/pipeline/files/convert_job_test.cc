@@ -11,6 +11,7 @@
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/testing/shared_folder.h"
 #include "kinemark/pipeline/testing/test_files.h"
+#include "kinemark/stages/motion/foundations/testing/walking_body.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -53,6 +54,37 @@ TEST_F(ConvertFile, MarkersKeepPositionsAndGapsFromC3dToTrc) {
       if (!before.present(f, m)) continue;
       EXPECT_LT((after.x(f, m) - before.x(f, m)).norm(), 1e-6);
     }
+}
+
+TEST_F(ConvertFile, ABodyThatIsMirroredIsWrittenAndMissesABound) {
+  data::Trial trial;
+  trial.markers = motion::testing::walking_body(
+      {"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"}, 40);
+  ASSERT_TRUE(io::write_markers(at("body.trc"), trial, true));
+  const auto good = convert(at("body.trc"), at("good.csv"), true);
+  ASSERT_TRUE(good) << good.error().message;
+  EXPECT_EQ(good->exit_status(), 0);
+  for (std::size_t i = 2; i < trial.markers.x_in_world.size(); i += 3) trial.markers.x_in_world[i] *= -1.0;
+  ASSERT_TRUE(io::write_markers(at("mirrored.trc"), trial, true));
+  const auto mirrored = convert(at("mirrored.trc"), at("mirrored.csv"), true);
+  ASSERT_TRUE(mirrored) << mirrored.error().message;
+  EXPECT_EQ(mirrored->exit_status(), 1);
+  EXPECT_THAT(mirrored->warnings, Contains(HasSubstr("shows a mirrored body")));
+  EXPECT_TRUE(std::filesystem::exists(at("mirrored.csv")));
+}
+
+TEST_F(ConvertFile, ATableThatContradictsItselfIsWrittenAndMissesABound) {
+  for (const double turn : {60.0, 4000.0}) {
+    data::Table table{.name = "Coordinates", .in_degrees = true, .columns = {"knee_angle_r"}};
+    for (int r = 0; r < 20; ++r) {
+      table.time_s.push_back(0.01 * r);
+      table.values.push_back(turn * r / 19.0);
+    }
+    ASSERT_TRUE(io::write_table(at("turning.mot"), table, {.force = true}));
+    const auto out = convert(at("turning.mot"), at("turning.sto"), true);
+    ASSERT_TRUE(out) << out.error().message;
+    EXPECT_EQ(out->exit_status(), turn > 1000.0 ? 1 : 0);
+  }
 }
 
 TEST_F(ConvertFile, ChannelsGoFromC3dToC3dAndAreMissedElsewhere) {

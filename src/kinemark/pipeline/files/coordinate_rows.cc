@@ -20,6 +20,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/workspace.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/stages/analysis/consistency/table_facts.h"
 #include "kinemark/workflow/prepare/turn.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
@@ -214,6 +215,7 @@ Result<ModelMotion> read_model_motion(const std::filesystem::path& model,
   auto motion = move_model(std::move(*description), *read);
   if (!motion) return fail_at(table.string(), motion.error());
   motion->notes.insert(motion->notes.begin(), read->warnings.begin(), read->warnings.end());
+  motion->contradicted = analysis::contradicted_values(*read, table.filename().string());
   return motion;
 }
 

@@ -22,9 +22,10 @@ namespace kinemark::pipeline {
 
 /// Bodies in motion, y up where the model has gravity.
 struct ModelMotion {
-  io::PoseTree poses;              ///< a body each, at its origin
-  bool y_is_up = true;             ///< false: the model has no gravity, and its axes are as they were
-  std::vector<std::string> notes;  ///< what was filled, taken or turned, one sentence each
+  io::PoseTree poses;                     ///< a body each, at its origin
+  bool y_is_up = true;                    ///< false: the model has no gravity, and its axes are as they were
+  std::vector<std::string> notes;         ///< what was filled, taken or turned, one sentence each
+  std::vector<std::string> contradicted;  ///< values that are no coordinates of a body, one sentence each
 };
 
 /// Poses of all bodies, row by row. A coordinate without a column keeps its default value; one that is

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/filtering.h"
+#include "kinemark/data/motion_coordinates.h"
 #include "kinemark/io/markers/orientation_file.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/recording/counts_recording.h"
@@ -18,16 +19,13 @@
 #include "kinemark/io/recording/mcap_markers.h"
 #include "kinemark/io/recording/survey.h"
 #include "kinemark/io/text/table_file.h"
-#include "kinemark/model/model.h"
-#include "kinemark/stages/analysis/consistency/model_facts.h"
+#include "kinemark/pipeline/files/coordinate_rows.h"
+#include "kinemark/stages/analysis/consistency/motion_facts.h"
 #include "kinemark/stages/analysis/consistency/table_facts.h"
-#include "kinemark/stages/analysis/gait/gait.h"
-#include "kinemark/stages/motion/dynamics/masses.h"
-#include "kinemark/stages/motion/foundations/standing_body.h"
-#include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/measures/emg_channels.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
-#include "kinemark/workflow/prepare/stated_mass.h"
 #include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::pipeline {
@@ -87,25 +85,32 @@ Status describe_orientations(const InfoJob& job, InfoOutcome& out) {
   return {};
 }
 
-/// Names of two markers of pelvis or legs that are exchanged throughout.
-Status note_exchanged_pairs(const data::Trajectories& markers, InfoOutcome& out) {
-  workflow::Remarks remarks;
-  const auto found = workflow::judge_recording("the recording", markers, "nothing was changed", remarks);
-  if (!found) return std::unexpected(found.error());
-  std::ranges::move(remarks.warnings, std::back_inserter(out.warnings));
-  return {};
+/// A recording, held against all that is known of it; what its plates are like is for who checks it.
+Result<Recording> open_whole(const InfoJob& job) {
+  const RecordingSource source{.path = job.file,
+                               .rate = io::RateRule::or_unknown,
+                               .plates = true,
+                               .facts = workflow::HeldFacts::all(),
+                               .force = job.force};
+  auto recording = read_recording(source, job);
+  if (!recording) return recording;
+  if (!job.find_exchanges) recording->notes.clear();
+  if (auto s = prepare_recording(source, job, *recording); !s) return std::unexpected(s.error());
+  return recording;
 }
 
 Status describe_markers(const InfoJob& job, InfoOutcome& out) {
-  auto recording = open_recording(
-      {.path = job.file, .rate = io::RateRule::or_unknown, .plates = job.find_exchanges, .force = job.force},
-      job);
+  auto recording = open_whole(job);
   const bool turned = io::has_orientations(job.file);
   if (!recording && turned && job.RecordingOptions::empty() && describe_orientations(job, out)) return {};
   if (!recording) return std::unexpected(recording.error());
   auto& trial = recording->trial;
   out.warnings = trial.warnings;
-  std::ranges::move(recording->notes, std::back_inserter(out.warnings));
+  for (const auto& note : recording->notes)
+    if (std::ranges::find(recording->contradicted, note) == recording->contradicted.end())
+      out.warnings.push_back(note);
+  out.contradicted = std::move(recording->contradicted);
+  std::ranges::move(workflow::contradicted_channels(trial), std::back_inserter(out.contradicted));
   if (job.drops_doubtful(false))
     if (auto s = workflow::leave_out_defects(trial, false, recording->edits.swapped, out.warnings); !s)
       return fail_at(job.file.string(), s.error());
@@ -142,18 +147,24 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
   out.facts = std::move(facts);
   if (!job.find_exchanges) return {};
   if (!recording->plates_fault.empty()) out.warnings.push_back(recording->plates_fault);
-  workflow::note_mirrored("the recording", motion::body_of_names(markers.names), markers, out.warnings);
-  if (auto s = note_exchanged_pairs(markers, out); !s) return s;
   if (!recording->rate_known) return {};
   const auto swaps = workflow::find_label_swaps(trial);
   if (!swaps) return std::unexpected(swaps.error());
   for (const auto& swap : workflow::sure_swaps(*swaps))
     out.warnings.push_back(sentence_of(swap, markers.time));
-  const analysis::GaitEvidence evidence{.plates = recording->plates ? &*recording->plates : nullptr,
-                                        .events = trial.events,
-                                        .mass_kg = workflow::stated_mass_kg(trial)};
-  std::ranges::move(analysis::contradictions_of(markers, evidence), std::back_inserter(out.warnings));
   return {};
+}
+
+/// A table of coordinates beside the model that it is of; another one says nothing of it.
+void hold_beside_model(const model::Model& model, const data::Table& table, InfoOutcome& out) {
+  const auto rows = coordinate_rows(model, table);
+  if (!rows) return;
+  data::JointMotion motion;
+  motion.time = rows->time;
+  data::set_coordinates(model.description(), motion);
+  for (const auto& q : rows->q) motion.q.insert(motion.q.end(), q.begin(), q.end());
+  std::ranges::move(analysis::coordinates_out_of_range(model.description(), motion),
+                    std::back_inserter(out.contradicted));
 }
 
 Status describe_table(const InfoJob& job, InfoOutcome& out) {
@@ -168,8 +179,8 @@ Status describe_table(const InfoJob& job, InfoOutcome& out) {
   }
   out.facts = std::move(facts);
   out.warnings = std::move(table->warnings);
-  std::ranges::move(analysis::contradicted_values(*table, job.file.filename().string()),
-                    std::back_inserter(out.warnings));
+  out.contradicted = analysis::contradicted_values(*table, job.file.filename().string());
+  if (job.model != nullptr) hold_beside_model(*job.model, *table, out);
   return {};
 }
 
@@ -187,10 +198,7 @@ Status describe_model(const InfoJob& job, InfoOutcome& out) {
   }
   for (const auto& coordinate : model->coordinates) facts.labels.push_back(coordinate.name);
   out.warnings = std::move(model->warnings);
-  std::ranges::move(analysis::contradicted_joints(*model), std::back_inserter(out.warnings));
-  if (const auto compiled = model::Model::compile(std::move(*model)))
-    for (const auto& fault : motion::find_mass_faults(*compiled))
-      (fault.matters ? out.warnings : facts.notes).push_back(fault.sentence());
+  out.contradicted = workflow::contradicted_model(*model, &facts.notes);
   out.facts = std::move(facts);
   return {};
 }

@@ -14,6 +14,7 @@
 #include "kinemark/data/marker_sets.h"
 #include "kinemark/io/recording/reader.h"
 #include "kinemark/io/vsk/vsk.h"
+#include "kinemark/model/model.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/recording.h"
 
@@ -23,8 +24,10 @@ namespace kinemark::pipeline {
 /// one that tells none stays unknown where none is given, and doubtful samples are kept unless they are to be
 /// dropped.
 struct InfoJob : JobSettings, RecordingOptions {
-  std::filesystem::path file;   ///< to look at
-  bool find_exchanges = false;  ///< warn of labels of markers and events that are not theirs
+  std::filesystem::path file;           ///< to look at
+  const model::Model* model = nullptr;  ///< beside which tables of its coordinates are held; null: none
+  bool find_exchanges = false;  ///< warn of labels of markers that are not theirs in some frames, and of what
+                                ///< is odd about force plates
 };
 
 /// Of points that are no markers.
@@ -113,8 +116,9 @@ using FileFacts =
 
 /// What `kinemark info` found.
 struct InfoOutcome : JobOutcome {
-  std::filesystem::path file;  ///< as asked
-  FileFacts facts;             ///< what it holds
+  std::filesystem::path file;             ///< as asked
+  FileFacts facts;                        ///< what it holds
+  std::vector<std::string> contradicted;  ///< its numbers against what else is known, the worst first
 };
 
 /// Read a file, by its ending, and say what it holds and what is odd about it. Writes nothing. Fails as the

@@ -17,6 +17,7 @@ namespace kinemark::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Result<nlohmann::ordered_json> facts_of(const std::filesystem::path& file, double rate_hz = 0.0) {
   InfoJob job;
@@ -205,6 +206,21 @@ TEST(InfoText, OneFactALineAndEveryWarning) {
   EXPECT_THAT(text, HasSubstr("labels            A B\n"));
   EXPECT_THAT(text, HasSubstr("rate_hz           null\n")) << "not known";
   EXPECT_THAT(text, HasSubstr("warning           first oddity\nwarning           second oddity\n"));
+}
+
+TEST(InfoText, TheWorstThatIsContradictedInOneLine) {
+  InfoOutcome outcome;
+  outcome.file = "a.c3d";
+  outcome.facts = MarkerFileFacts{.points = 3, .labels = {"A", "B"}};
+  EXPECT_THAT(info_text(outcome), Not(HasSubstr("contradicted")));
+  outcome.contradicted = {"the body is mirrored"};
+  EXPECT_THAT(info_text(outcome), HasSubstr("contradicted      the body is mirrored\n"));
+  EXPECT_THAT(info_text(outcome), Not(HasSubstr("more, which 'kinemark validate' says")));
+  outcome.contradicted.insert(outcome.contradicted.end(), {"a plate is empty", "an event is missing"});
+  EXPECT_THAT(info_text(outcome), HasSubstr("contradicted      the body is mirrored (and 2 more, which "
+                                            "'kinemark validate' says)\n"));
+  EXPECT_THAT(info_text(outcome), Not(HasSubstr("a plate is empty")));
+  EXPECT_EQ(info_json(outcome)["contradicted"].size(), 3U);
 }
 
 TEST(InfoText, ManyNamesTakeSeveralLines) {

@@ -232,6 +232,14 @@ void add(const io::Vsk& vsk, Json& to) {
   for (const auto& marker : vsk.markers) to["labels"].push_back(marker.name);
 }
 
+/// The first finding, and how many there are besides; nothing where there is none.
+std::string worst_of(const std::vector<std::string>& contradicted) {
+  if (contradicted.empty()) return {};
+  const auto more = contradicted.size() - 1;
+  return fmt::format("{:<17} {}{}\n", "contradicted", printable_sentence(contradicted.front()),
+                     more > 0 ? fmt::format(" (and {} more, which 'kinemark validate' says)", more) : "");
+}
+
 }  // namespace
 
 Json outcome_json(const JobOutcome& outcome) {
@@ -270,6 +278,7 @@ Json info_json(const InfoOutcome& outcome) {
   json["file"] = outcome.file.string();
   std::visit([&json](const auto& facts) { add(facts, json); }, outcome.facts);
   json["warnings"] = outcome.warnings;
+  json["contradicted"] = outcome.contradicted;
   return json;
 }
 
@@ -280,6 +289,8 @@ std::string info_text(const InfoOutcome& outcome) {
     if (key == "warnings") {
       for (const auto& warning : outcome.warnings)
         text += fmt::format("warning           {}\n", printable_sentence(warning));
+    } else if (key == "contradicted") {
+      text += worst_of(outcome.contradicted);
     } else if (value.is_object()) {
       text += fmt::format("{:<17} {}\n", key, printable_sentence(value["said"].get<std::string>()));
     } else if (value.is_array()) {

@@ -27,7 +27,8 @@ namespace kinemark::pipeline {
 
 /// The facts of a file.
 ///
-/// Every answer has "file", "kind" and "warnings". Markers: format, points, frames, rate_hz (null: unknown),
+/// Every answer has "file", "kind", "warnings" and "contradicted" (what contradicts what else is known of it:
+/// all in JSON, the worst in text). Markers: format, points, frames, rate_hz (null: unknown),
 /// first_frame, last_frame, units, missing (marker frames), analog_channels, analog_rate_hz, force_plates,
 /// events, software, labels (of markers), computed (those of them that a model made of others), unlabelled
 /// (those that nobody named), marker_set (name, part, markers, missing, and said: all of it in words; absent

@@ -81,6 +81,7 @@ Status prepare_recording(const RecordingSource& source, const RecordingOptions& 
   const workflow::PrepareOptions asked{
       .selection = options.selection,
       .axes = source.turns ? options.axes : workflow::AxesChoice{},
+      .facts = source.facts,
   };
   auto prepared = workflow::prepare(std::move(static_cast<data::Recording&>(recording)), asked);
   if (!prepared) return fail_at(source.path.string(), prepared.error());

@@ -16,7 +16,8 @@ namespace kinemark::pipeline {
 /// What `kinemark validate` is asked to do.
 struct ValidateJob : JobSettings {
   std::vector<std::filesystem::path> files;  ///< to look at
-  RecordingOptions recording;  ///< of those that are recordings; the rate: of those that tell none
+  std::filesystem::path model;  ///< .osim beside which tables of its coordinates are held; empty: none
+  RecordingOptions recording;   ///< of those that are recordings; the rate: of those that tell none
 };
 
 /// One file that was looked at.
@@ -40,7 +41,8 @@ struct ValidateOutcome : JobOutcome {
 };
 
 /// Read every file as run_info() does, and look for markers that carry each other's label. Succeeds whatever
-/// the files are like; progress counts files, and a caller that stops it ends with Code::cancelled.
+/// the files are like, and fails where the model cannot be read or no file is a table; progress counts files,
+/// and a caller that stops it ends with Code::cancelled.
 [[nodiscard]] Result<ValidateOutcome> run_validate(const ValidateJob& job);
 
 }  // namespace kinemark::pipeline

@@ -9,10 +9,13 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
+#include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/files/info_json.h"
 #include "kinemark/pipeline/testing/test_files.h"
 #include "kinemark/stages/analysis/gait/testing/known_walk.h"
 #include "support/scratch.h"
+#include "support/test_data.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -108,6 +111,36 @@ TEST(OutcomeJson, TellsWhatWasWrittenAndWarned) {
   outcome.written = {"a/b.trc"};
   outcome.warnings = {"odd"};
   EXPECT_EQ(outcome_json(outcome).dump(), R"({"written":["a/b.trc"],"warnings":["odd"]})");
+}
+
+TEST_F(RunValidate, ATableIsHeldBesideAModel) {
+  const auto model = testing_support::project_folder() / "models" / "human.osim";
+  data::Table table{.name = "Coordinates", .in_degrees = true, .columns = {"knee_angle_r"}};
+  for (int r = 0; r < 40; ++r) {
+    table.time_s.push_back(0.01 * r);
+    table.values.push_back(r < 20 ? 5.0 : 0.0);
+  }
+  ValidateJob job;
+  job.files = {scratch_ / "q.mot"};
+  ASSERT_TRUE(io::write_table(job.files[0], table, {.force = true}));
+  job.model = model;
+  EXPECT_EQ(run_validate(job).value().exit_status(), 0);
+  const auto description = io::read_osim(model).value();
+  const auto& knee =
+      description.coordinates[static_cast<std::size_t>(description.find_coordinate("knee_angle_r"))];
+  for (int r = 0; r < 20; ++r) table.values[static_cast<std::size_t>(r)] = knee.range_max * 57.2957795 + 30.0;
+  ASSERT_TRUE(io::write_table(job.files[0], table, {.force = true}));
+  const auto outcome = run_validate(job).value();
+  EXPECT_EQ(outcome.exit_status(), 1);
+  EXPECT_THAT(
+      outcome.files[0].warnings,
+      ::testing::ElementsAre(HasSubstr("'knee_angle_r' lies up to 30 deg above its range in the model")));
+  job.model.clear();
+  EXPECT_EQ(run_validate(job).value().exit_status(), 0) << "without a model nobody knows";
+  job.model = scratch_ / "absent.osim";
+  EXPECT_EQ(run_validate(job).error().code, Code::io);
+  job.files = {model};
+  EXPECT_EQ(run_validate(job).error().code, Code::usage);
 }
 
 TEST_F(RunValidate, ThatARecordingWasSmoothedIsANoteAndNotOdd) {

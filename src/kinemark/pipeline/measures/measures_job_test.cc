@@ -107,6 +107,31 @@ TEST_F(MeasuresJobTest, SamplesThatScreeningRejectsAreNotMeasured) {
   EXPECT_EQ(run_measures(job_)->measures[1].share_not_measured, 0.0);
 }
 
+TEST_F(MeasuresJobTest, EmgAloneIsMeasuredAndPathsNeedMarkers) {
+  data::Trial trial;
+  trial.markers = data::Trajectories::all_missing({}, {.rate_hz = 100.0, .frames = 300});
+  trial.analog = {.names = {"EMG1"}, .units = {"V"}, .rate_hz = 1000.0, .samples = 3000};
+  Random random(5, 0);
+  for (int i = 0; i < 3000; ++i)
+    trial.analog.values.push_back(1e-4 * random.gaussian() * (i % 1000 < 300 ? 5.0 : 1.0));
+  const auto emg = scratch_ / "emg.c3d";
+  ASSERT_TRUE(io::write_markers(emg, trial, false));
+  MeasuresJob job{.input = emg};
+  job.refits = 0;
+  for (const auto of : {workflow::MeasuresOf::muscles, workflow::MeasuresOf::everything}) {
+    job.of = of;
+    const auto outcome = run_measures(job);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    ASSERT_FALSE(outcome->measures.empty());
+    EXPECT_EQ(outcome->measures[0].subject, "EMG1");
+  }
+  job.of = workflow::MeasuresOf::paths;
+  const auto refused = run_measures(job);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("holds 0 markers and 300 frames; need at least one of each"));
+}
+
 TEST_F(MeasuresJobTest, SaysInOneSentenceWhatIsWrong) {
   const auto says = [this](const auto& change) {
     MeasuresJob job = job_;

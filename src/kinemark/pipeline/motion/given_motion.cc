@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <system_error>
@@ -20,12 +21,16 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/pipeline/files/motion_tables.h"
+#include "kinemark/pipeline/files/recording.h"
+#include "kinemark/stages/analysis/consistency/table_facts.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr workflow::HeldFacts kPlatesAlone{.size = false, .sides = false, .pairs = false};
 
 Status record(const char* role, const fs::path& path, MotionOfFiles& out) {
   auto input = io::record_input(role, path);
@@ -74,6 +79,18 @@ void take_rows(CoordinateRows rows, const model::Model& model, workflow::GivenMo
   given.is_filled = std::move(rows.is_filled);
 }
 
+/// Plates of a recording against the feet and the mass of who stands on them.
+Status hold_plates(const fs::path& path, MotionOfFiles& out) {
+  if (ending_of(path) != ".c3d" && ending_of(path) != ".mat") return {};
+  const auto recording = open_recording(
+      {.path = path, .rate = io::RateRule::or_unknown, .plates = true, .facts = kPlatesAlone}, {});
+  if (!recording) return {};  // it holds forces alone, and these are there
+  for (const auto& one : recording->contradicted)
+    if (std::ranges::find(out.given.contradicted, one) == out.given.contradicted.end())
+      out.given.contradicted.push_back(one);
+  return {};
+}
+
 Status read_forces(const fs::path& path, MotionOfFiles& out) {
   const double contact_force_n = motion::DynamicsOptions{}.contact_force_n;
   auto read = io::read_external_forces(path, out.given.motion.time, contact_force_n);
@@ -83,7 +100,8 @@ Status read_forces(const fs::path& path, MotionOfFiles& out) {
   for (const auto& warning : read->warnings)
     out.notes.push_back(fmt::format("{}: {}", path.filename().string(), warning));
   out.given.forces = std::move(read->wrenches);
-  return {};
+  std::ranges::move(read->contradicted, std::back_inserter(out.given.contradicted));
+  return hold_plates(path, out);
 }
 
 }  // namespace
@@ -99,6 +117,8 @@ Result<MotionOfFiles> read_motion(const fs::path& path, const fs::path& forces, 
   if (!table) return std::unexpected(table.error());
   if (auto s = record("motion", path, out); !s) return std::unexpected(s.error());
   out.notes = table->warnings;
+  auto& contradicted = out.given.contradicted;
+  contradicted = analysis::contradicted_values(*table, path.filename().string());
   auto rows = coordinate_rows(model, *table);
   if (!rows) return fail_at(path.string(), rows.error());
   out.notes.insert(out.notes.end(), rows->notes.begin(), rows->notes.end());
@@ -106,6 +126,10 @@ Result<MotionOfFiles> read_motion(const fs::path& path, const fs::path& forces, 
   if (!(cutoff_hz > 0.0)) {
     const auto deviations = read_deviations(path, *table, out);
     if (!deviations) return std::unexpected(deviations.error());
+    if (*deviations)
+      std::ranges::move(
+          analysis::contradicted_values(**deviations, beside(path, "_sd.sto").filename().string()),
+          std::back_inserter(contradicted));
     if (*deviations) set_deviations(**deviations, model.description(), out.given.motion);
   }
   if (!forces.empty())

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/rig/reconstruct_job.h"
 
+#include <cmath>
 #include <utility>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/io/rig/rig_file.h"
@@ -30,6 +32,17 @@ void add_fit(const trajectory::LedFit& fit, Json& to) {
   to["flicker_counts"] = fit.flicker_counts;
 }
 
+/// Numbers that were not found are null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+void add_light(const reconstruction::LedLight& found, Json& to) {
+  const bool known = found.source != reconstruction::LightSource::unknown;
+  to["light"] = number(known ? found.light : kNaN);
+  to["light_sd"] = number(known ? found.light_sd : kNaN);
+  to["light_source"] = to_string(found.source);
+  to["strength_counts"] = found.strength_counts;
+}
+
 }  // namespace
 
 Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
@@ -50,6 +63,8 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   out.frames = recording->counts.frames();
   out.found = std::move(*found);
   out.warnings = std::move(recording->warnings);
+  out.warnings.insert(out.warnings.end(), out.found.remarks.warnings.begin(),
+                      out.found.remarks.warnings.end());
   data::Trial trial;
   trial.source = job.recording.string();
   trial.markers = std::move(out.found.markers);
@@ -67,6 +82,7 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
 Json reconstruct_json(const ReconstructOutcome& outcome) {
   Json leds = Json::array();
   for (const auto& led : outcome.found.leds) leds.push_back(summary_of(led));
+  for (std::size_t i = 0; i < outcome.found.lights.size(); ++i) add_light(outcome.found.lights[i], leds[i]);
   for (std::size_t i = 0; i < outcome.found.fits.size(); ++i) add_fit(outcome.found.fits[i], leds[i]);
   return Json{{"method", to_string(outcome.method)},
               {"frames", outcome.frames},

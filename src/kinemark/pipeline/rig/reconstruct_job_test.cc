@@ -165,6 +165,18 @@ TEST(ReconstructJson, HasTheFitOnlyWhereThereIsOne) {
   EXPECT_EQ(reconstruct_json(outcome).dump(),
             R"({"method":"classic","frames":7,"written":"p.csv","warnings":["odd"],"leds":[{"name":"hand",)"
             R"("frames":7,"located":5,"occluded":2,"saturated":0,"inconsistent":0,"near_edge":0}]})");
+  outcome.found.lights.emplace_back();
+  EXPECT_EQ(reconstruct_json(outcome)["leds"][0]["light"], nullptr) << "unknown is not 1";
+  outcome.found.lights[0] = {.source = reconstruction::LightSource::turning,
+                             .light = 0.5,
+                             .light_sd = 0.05,
+                             .strength_counts = {800.0, 900.0},
+                             .seen = {}};
+  const auto lit = reconstruct_json(outcome)["leds"][0];
+  EXPECT_EQ(lit["light"], 0.5);
+  EXPECT_EQ(lit["light_sd"], 0.05);
+  EXPECT_EQ(lit["light_source"], "turning");
+  EXPECT_EQ(lit["strength_counts"], nlohmann::json({800.0, 900.0}));
   outcome.found.fits.emplace_back().chi2_per_dof = 1.5;
   outcome.found.fits[0].bandwidth.order = 3;
   outcome.found.fits[0].flicker_counts = {0.5, 0.25};

@@ -122,6 +122,31 @@ Json map_json(const PrecisionMap& map) {
           {"rows", map.rows}, {"sd_mm", std::move(cells)}, {"samples", map.samples}};
 }
 
+/// Light as each camera sees it, of LEDs whose light is known; frames that no camera was looked at in left
+/// out.
+Json light_curves(const ReconstructOutcome& outcome, const data::Rig& rig, const data::Trajectories& points) {
+  Json out = Json::array();
+  for (std::size_t led = 0; led < outcome.found.lights.size(); ++led) {
+    const auto& found = outcome.found.lights[led];
+    if (found.source == reconstruction::LightSource::unknown) continue;
+    Json names = Json::array(), time = Json::array(), seen = Json::array();
+    const auto cameras = rig.cameras.size();
+    for (const auto& camera : rig.cameras) {
+      names.push_back(camera.name);
+      seen.push_back(Json::array());
+    }
+    for (std::int64_t f = 0; f < points.frames(); ++f) {
+      const double* row = found.seen.data() + static_cast<std::size_t>(f) * cameras;
+      if (std::all_of(row, row + cameras, [](double v) { return std::isnan(v); })) continue;
+      time.push_back(points.time.time_s(f));
+      for (std::size_t c = 0; c < cameras; ++c) seen[c].push_back(number(row[c], 1.0));
+    }
+    if (!time.empty())
+      out.push_back({{"led", points.names[led]}, {"cameras", names}, {"time_s", time}, {"seen", seen}});
+  }
+  return out;
+}
+
 /// Where a camera's lens and axes are known to, from the rig's covariance.
 Json cameras_json(const data::Rig& rig) {
   Json out = Json::array();
@@ -211,6 +236,7 @@ std::string reconstruct_page(const ReconstructJob& job, const ReconstructOutcome
                             .command_line = job.command_line,
                             .groups = groups_of(outcome),
                             .result = reconstruct_json(outcome)};
+  if (!outcome.found.lights.empty()) page.result["light_curves"] = light_curves(outcome, rig, points);
   page.result["precision"] = Json::array();
   for (const int along : {1, 2}) page.result["precision"].push_back(map_json(precision_map(points, along)));
   report::Scene scene{.markers = &points};

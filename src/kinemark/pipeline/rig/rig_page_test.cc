@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "kinemark/core/missing.h"
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -107,6 +109,14 @@ TEST(RigPage, AReconstructionJudgesEachLed) {
   EXPECT_THAT(page,
               HasSubstr("wrist: the cameras contradict each other in 5 of 100 frames; no point there."));
   EXPECT_THAT(page, HasSubstr(R"("precision":[null,null])"));
+  EXPECT_THAT(page, Not(HasSubstr("light_curves")));
+  outcome.found.lights.resize(3);
+  for (auto& light : outcome.found.lights) light.seen.assign(100, kNaN);
+  outcome.found.lights[0].source = reconstruction::LightSource::direction;
+  outcome.found.lights[0].seen[50] = 0.5;
+  EXPECT_THAT(
+      reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points),
+      HasSubstr(R"("light_curves":[{"led":"hand","cameras":["left"],"time_s":[0.5],"seen":[[0.5]]}])"));
   outcome.found.leds.resize(1);
   EXPECT_THAT(reconstruct_page({}, outcome, one_camera({0.0, 0.0, 0.0}), points),
               HasSubstr(R"("verdict":"good")"));

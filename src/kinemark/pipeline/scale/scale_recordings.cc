@@ -40,9 +40,11 @@ std::size_t count_recordings(const ScaleJob& job, const io::ScaleSetup* setup) {
 }
 
 Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, const fs::path& path) {
+  const bool moves = path == job.markers;  // static trials are judged by a gate of their own
   const RecordingSource source{.path = path,
                                .rate = count > 1 ? io::RateRule::where_needed : io::RateRule::given,
                                .record = !job.joints.empty(),
+                               .facts = {.sides = moves, .pairs = moves},
                                .turns = false,
                                .force = job.force,
                                .seed = job.seed,

@@ -43,16 +43,25 @@ RecordingOptions beside_options(const SegmentsJob& job) {
   return out;
 }
 
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
 /// @param options  those of the recording, or beside_options()
 Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const RecordingOptions& options,
                            SegmentsOutcome& outcome) {
   const bool alone = job.static_trial.empty() && job.trials.empty();
+  // Static trials and pairs are judged by gates of their own.
+  const bool judged =
+      path == job.static_trial || (!job.static_trial.empty() && same_file(path, job.static_trial));
   auto read = open_recording({.path = path,
                               .rate = alone ? io::RateRule::given : io::RateRule::where_needed,
                               .needs_samples = true,
                               .record = true,
                               .plates = path == job.input,
                               .forces = path == job.input ? job.forces : fs::path{},
+                              .facts = {.sides = !judged, .pairs = false},
                               .force = job.force,
                               .seed = job.seed,
                               .threads = job.threads},
@@ -62,11 +71,6 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
   if (read->journal.file) outcome.inputs.push_back(*read->journal.file);
   std::ranges::move(read->forces, std::back_inserter(outcome.inputs));
   return read;
-}
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) && !error;
 }
 
 /// Every file that the job reads, but those that it finds beside and in others.

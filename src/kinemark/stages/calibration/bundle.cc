@@ -14,6 +14,7 @@
 #include "kinemark/stages/calibration/internal/bundle_problem.h"
 #include "kinemark/stages/calibration/internal/gauge.h"
 #include "kinemark/stages/calibration/internal/rays.h"
+#include "kinemark/stages/calibration/light.h"
 
 namespace kinemark::calibration {
 namespace {
@@ -39,6 +40,14 @@ std::vector<Eigen::Vector3d> positions(const data::Rig& rig, const StillPoses& t
     const auto at = internal::meet(rays);
     out.push_back(at ? *at : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
+  return out;
+}
+
+/// Poses that served; NaN for all others.
+std::vector<math::SE3> only_used(const std::vector<math::SE3>& all, const std::vector<int>& used) {
+  std::vector<math::SE3> out(all.size());
+  for (auto& pose : out) pose.translation.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (const int pose : used) out[static_cast<std::size_t>(pose)] = all[static_cast<std::size_t>(pose)];
   return out;
 }
 
@@ -271,6 +280,7 @@ Result<BundleResult> calibrate_bundle(const data::Rig& nominal, const StillPoses
   result.rig = std::move(state.rig);
   result.rig.method = "bundle";
   result.rig.chi2_per_dof = misfit.chi2_per_dof;
+  find_light_counts(tree, only_used(result.report.world_from_tree, problem.poses()), result.rig);
   result.rig.covariance =
       internal::hold_the_cloud(result.rig, problem, result.report.world_from_tree, tree.tree);
   return result;

@@ -29,8 +29,10 @@ Normal linearize(const data::Rig& rig, std::span<const CountObservation> observa
   for (const auto& s : observations) {
     const auto& camera = rig.cameras[static_cast<std::size_t>(s.camera)];
     const auto response = camera::respond(camera, x);
-    const auto left = math::eliminate_scale(s.counts - camera.detector.offset_counts, response.phi);
-    const Eigen::Matrix3d j = -left.scale * (left.basis * response.d_point);
+    // A channel with neither reading nor share adds a residual of 0.
+    const auto left = math::eliminate_scale(s.keep.cwiseProduct(s.counts - camera.detector.offset_counts),
+                                            s.keep.cwiseProduct(response.phi));
+    const Eigen::Matrix3d j = -left.scale * (left.basis * s.keep.asDiagonal() * response.d_point);
     out.h += j.transpose() * j / s.variance;
     out.g += j.transpose() * left.residual / s.variance;
     out.chi2 += left.residual.squaredNorm() / s.variance;

@@ -16,6 +16,8 @@ struct CountObservation {
   int camera = 0;          ///< index in the rig
   Eigen::Vector4d counts;  ///< as converted, offset included
   double variance = 0.0;   ///< of each count, > 0
+  /// 0 for a channel that says nothing (camera::kept_channels()), 1 for the others; three are needed
+  Eigen::Vector4d keep = Eigen::Vector4d::Ones();
 };
 
 /// A point and its uncertainty.

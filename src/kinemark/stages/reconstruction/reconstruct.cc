@@ -12,11 +12,13 @@
 #include <map>
 #include <vector>
 
+#include "kinemark/camera/light.h"
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/usable.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
+#include "kinemark/stages/reconstruction/light.h"
 #include "kinemark/stages/reconstruction/locate.h"
 
 namespace kinemark::reconstruction {
@@ -58,31 +60,50 @@ void add_covariance(data::Trajectories& points, std::size_t index, const Eigen::
 using Cell = std::array<std::int64_t, 4>;
 constexpr double kCell_m = 0.02;
 
-Cell cell_of(const data::Counts& counts, const Reconstruction& r, std::int64_t f, std::int64_t led) {
-  const auto x = r.points.x(f, led);
+Cell cell_of(const data::Counts& counts, const Reconstruction& r, const data::Trajectories& points,
+             std::int64_t f, std::int64_t led) {
+  const auto x = points.x(f, led);
   Cell cell{};
   for (std::size_t a = 0; a < 3; ++a) cell[a] = std::llround(x[static_cast<Eigen::Index>(a)] / kCell_m);
-  for (std::int64_t c = 0; c < counts.camera_count(); ++c)
-    cell[3] = 2 * cell[3] + r.used[counts.index(f, led, c)];
+  std::int64_t seen = 0;
+  for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
+    const auto used = r.used[counts.index(f, led, c)];
+    cell[3] = 2 * cell[3] + used;
+    seen += used;
+  }
+  // A path carries a point through frames that fewer than two cameras saw, by frames that both did.
+  if (seen < 2) cell[3] = (std::int64_t{1} << counts.camera_count()) - 1;
   return cell;
 }
 
-/// Error of the calibration varies smoothly over the room: once for every cell is enough.
-void add_calibration_error(const data::Counts& counts, const data::Rig& rig, Reconstruction& r, int threads) {
+/// Counts that an LED makes in each camera.
+std::vector<double> strengths_of(const Reconstruction& r, std::size_t led, std::size_t cameras) {
+  constexpr double kUsual = 1000.0;  // where it is not known
+  std::vector<double> out(cameras, kUsual);
+  if (led < r.lights.size())
+    for (std::size_t c = 0; c < cameras; ++c)
+      if (r.lights[led].strength_counts[c] > 0.0) out[c] = r.lights[led].strength_counts[c];
+  return out;
+}
+
+/// Error of the calibration and of an LED's light varies smoothly over the room: once for every cell is
+/// enough.
+void add_error_of(const data::Counts& counts, const data::Rig& rig, std::int64_t led, const Reconstruction& r,
+                  data::Trajectories& points, int threads) {
   std::map<Cell, Eigen::Matrix3d> cells;
   for (std::int64_t f = 0; f < counts.frames(); ++f)
-    for (std::int64_t led = 0; led < counts.led_count(); ++led)
-      if (r.points.present(f, led)) cells.emplace(cell_of(counts, r, f, led), Eigen::Matrix3d::Zero());
+    if (points.present(f, led)) cells.emplace(cell_of(counts, r, points, f, led), Eigen::Matrix3d::Zero());
   std::vector<std::map<Cell, Eigen::Matrix3d>::iterator> list;
   for (auto it = cells.begin(); it != cells.end(); ++it) list.push_back(it);
   const auto cameras = static_cast<std::size_t>(rig.camera_count());
+  const auto strength = strengths_of(r, static_cast<std::size_t>(led), cameras);
   parallel_for(static_cast<std::int64_t>(list.size()), 8, threads,
                [&](std::int64_t first, std::int64_t last) {
-                 std::vector<double> strength(cameras, 1000.0), weight(cameras);
+                 std::vector<double> weight(cameras);
                  for (std::int64_t i = first; i < last; ++i) {
                    auto& [cell, covariance] = *list[static_cast<std::size_t>(i)];
                    for (std::size_t c = 0; c < cameras; ++c)
-                     weight[c] = (cell[3] >> (cameras - 1 - c)) & 1 ? 1.0 : 0.0;
+                     weight[c] = (cell[3] >> (cameras - 1 - c)) & 1 ? strength[c] * strength[c] : 0.0;
                    const Eigen::Vector3d x =
                        kCell_m * Eigen::Vector3d(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
                                                  static_cast<double>(cell[2]));
@@ -91,9 +112,8 @@ void add_calibration_error(const data::Counts& counts, const data::Rig& rig, Rec
                  }
                });
   for (std::int64_t f = 0; f < counts.frames(); ++f)
-    for (std::int64_t led = 0; led < counts.led_count(); ++led)
-      if (r.points.present(f, led))
-        add_covariance(r.points, r.points.index(f, led), cells.at(cell_of(counts, r, f, led)));
+    if (points.present(f, led))
+      add_covariance(points, points.index(f, led), cells.at(cell_of(counts, r, points, f, led)));
 }
 
 void summarise(const data::Counts& counts, Reconstruction& r) {
@@ -113,6 +133,49 @@ void summarise(const data::Counts& counts, Reconstruction& r) {
     }
     r.leds.push_back(std::move(s));
   }
+}
+
+const data::Rig& rig_of(const Reconstruction& r, std::int64_t led) {
+  return r.rigs.size() == 1 ? r.rigs.front() : r.rigs[static_cast<std::size_t>(led)];
+}
+
+/// Points of all LEDs, by the rig that each shows.
+void locate_all(const data::Counts& counts, const ReconstructOptions& options, Reconstruction& r) {
+  const Eigen::Vector3d middle = middle_of_view(r.rigs.front());
+  const double flicker = 0.5 * options.flicker_counts * options.flicker_counts;
+  parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
+    std::vector<Eigen::Vector3d> start(counts.leds.size(), middle);
+    std::vector<CountObservation> observations;
+    for (std::int64_t f = first; f < last; ++f)
+      for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+        const auto& rig = rig_of(r, led);
+        observations.clear();
+        for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
+          if (r.used[counts.index(f, led, c)] == 0) continue;
+          const Eigen::Vector4d read = counts.at(f, led, c);
+          observations.push_back({static_cast<int>(c), read,
+                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker,
+                                  camera::kept_channels(read, counts.highest_code)});
+        }
+        auto& from = start[static_cast<std::size_t>(led)];
+        auto located = locate(rig, observations, from);
+        if (!located && from != middle) located = locate(rig, observations, middle);
+        if (!located) {
+          r.points.set_missing(f, led, data::SampleState::missing);
+          continue;
+        }
+        const auto i = r.points.index(f, led);
+        if (located->chi2 > options.largest_chi2 * (static_cast<double>(observations.size()) - 1.0)) {
+          r.points.set_missing(f, led, data::SampleState::rejected);
+          continue;
+        }
+        from = located->x_in_world;
+        r.points.x(f, led) = located->x_in_world;
+        r.points.state[i] = data::SampleState::measured;
+        r.near_edge[i] = located->farthest_spot > options.edge;
+        put_covariance(r.points, i, located->information.inverse());
+      }
+  });
 }
 
 }  // namespace
@@ -135,40 +198,25 @@ Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& 
   if (!out) return out;
   Reconstruction& r = *out;
   r.points.covariance.assign(6 * r.points.state.size(), std::nan(""));
-  const Eigen::Vector3d middle = middle_of_view(rig);
-  const double flicker = 0.5 * options.flicker_counts * options.flicker_counts;
-  parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
-    std::vector<Eigen::Vector3d> start(counts.leds.size(), middle);
-    std::vector<CountObservation> observations;
-    for (std::int64_t f = first; f < last; ++f)
-      for (std::int64_t led = 0; led < counts.led_count(); ++led) {
-        observations.clear();
-        for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
-          if (r.used[counts.index(f, led, c)] == 0) continue;
-          const Eigen::Vector4d read = counts.at(f, led, c);
-          observations.push_back({static_cast<int>(c), read,
-                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker});
-        }
-        auto& from = start[static_cast<std::size_t>(led)];
-        auto located = locate(rig, observations, from);
-        if (!located && from != middle) located = locate(rig, observations, middle);
-        if (!located) continue;
-        const auto i = r.points.index(f, led);
-        if (located->chi2 > options.largest_chi2 * (static_cast<double>(observations.size()) - 1.0)) {
-          r.points.set_missing(f, led, data::SampleState::rejected);
-          continue;
-        }
-        from = located->x_in_world;
-        r.points.x(f, led) = located->x_in_world;
-        r.points.state[i] = data::SampleState::measured;
-        r.near_edge[i] = located->farthest_spot > options.edge;
-        put_covariance(r.points, i, located->information.inverse());
-      }
-  });
-  if (options.calibration_error && rig.covariance.size() > 0)
-    add_calibration_error(counts, rig, r, options.threads);
+  r.rigs = {rig};
+  locate_all(counts, options, r);
+  if (options.light) {
+    r.lights = find_lights(counts, rig, r.points, r.used, options.flicker_counts);
+    r.rigs.clear();
+    for (const auto& found : r.lights)
+      r.rigs.push_back(camera::with_light(rig, {.value = found.stray, .sd = found.stray_sd}));
+    locate_all(counts, options, r);
+  }
+  if (options.calibration_error) add_calibration_error(counts, r, r.points, options.threads);
   summarise(counts, r);
   return out;
+}
+
+void add_calibration_error(const data::Counts& counts, const Reconstruction& from, data::Trajectories& points,
+                           int threads) {
+  for (std::int64_t led = 0; led < counts.led_count(); ++led)
+    if (rig_of(from, led).covariance.size() > 0)
+      add_error_of(counts, rig_of(from, led), led, from, points, threads);
 }
 
 Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,

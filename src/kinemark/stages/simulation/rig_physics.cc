@@ -194,8 +194,12 @@ ExpectedCounts expected_counts(const PhysicalRig& rig, int camera_idx, const Led
 
 data::Rig rig_in_room(const PhysicalRig& rig) {
   data::Rig out = rig.rig;
-  for (int c = 0; c < out.camera_count(); ++c)
-    out.cameras[static_cast<std::size_t>(c)].detector.offset_counts += stray_counts(rig, c, 1.0);
+  for (int c = 0; c < out.camera_count(); ++c) {
+    auto& detector = out.cameras[static_cast<std::size_t>(c)].detector;
+    detector.dark_counts = detector.offset_counts;
+    detector.offset_counts += stray_counts(rig, c, 1.0);
+    detector.light_counts = photocurrent_a(rig.light, 1.0, 1.0, 1.0) / rig.rig.electronics.count_a();
+  }
   return out;
 }
 

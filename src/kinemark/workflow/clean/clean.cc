@@ -12,6 +12,7 @@
 #include "kinemark/stages/trajectory/gaps/fill_gaps.h"
 #include "kinemark/stages/trajectory/smoothing/smooth.h"
 #include "kinemark/workflow/clean/internal/settled.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -72,6 +73,7 @@ Result<Repaired> repair(data::Recording recording, const RepairOptions& options)
   if (auto s = options.gaps.check(); !s) return std::unexpected(s.error());
   Repaired repaired;
   repaired.recording = std::move(recording);
+  add_contradictions(repaired.recording.contradicted, repaired.remarks.gates);
   const auto& markers = repaired.recording.trial.markers;
   repaired.apart = find_points_apart(markers);
   if (const auto points = repaired.apart.describe(markers.names); !points.empty())

@@ -56,6 +56,16 @@ TEST(Clean, SmoothsWhatIsThereAndGivesRates) {
   EXPECT_THAT(cleaned.remarks.warnings, IsEmpty());
 }
 
+TEST(Clean, WhatWasFoundOnTheWayInMissesABound) {
+  auto recording = noisy();
+  EXPECT_TRUE(clean(recording).value().remarks.passed());
+  recording.contradicted = {"the recording shows a mirrored body"};
+  const auto cleaned = clean(recording).value();
+  ASSERT_EQ(cleaned.remarks.gates.size(), 1U);
+  EXPECT_EQ(cleaned.remarks.gates[0].name, "contradictions");
+  EXPECT_FALSE(cleaned.remarks.passed());
+}
+
 TEST(Clean, PointsThatAreNoMarkersStayAsTheyAre) {
   auto recording = noisy();
   recording.trial.markers.names[0] = "RHJC";

@@ -65,10 +65,8 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
   return judgement;
 }
 
-Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string& name,
-                                                               const data::Trajectories& recording,
-                                                               const std::string& consequence,
-                                                               Remarks& remarks) {
+Result<std::vector<motion::FoundationFinding>> find_exchanged_pairs(const std::string& name,
+                                                                    const data::Trajectories& recording) {
   std::vector<std::string> names;
   for (const auto& marker : recording.names)
     if (const auto landmark = motion::landmark_of(marker);
@@ -78,7 +76,15 @@ Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string
       names.push_back(marker);
   auto found = motion::judge_movement(motion::body_of_names(names), recording);
   if (!found) return fail_at(name, found.error());
-  if (found->empty()) return found;
+  return found;
+}
+
+Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string& name,
+                                                               const data::Trajectories& recording,
+                                                               const std::string& consequence,
+                                                               Remarks& remarks) {
+  auto found = find_exchanged_pairs(name, recording);
+  if (!found || found->empty()) return found;
   std::vector<std::string> sentences;
   for (const auto& finding : *found) sentences.push_back(motion::describe(finding, name));
   data::Gate gate{.name = "recording",

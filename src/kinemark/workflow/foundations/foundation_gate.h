@@ -23,6 +23,11 @@ namespace kinemark::workflow {
     const std::string& name, const motion::StandingBody& body, const data::Trajectories& still,
     std::span<const data::Trajectories* const> movements, Remarks& remarks);
 
+/// Pairs of pelvis and legs that are exchanged throughout a recording in which somebody moves. Fails as
+/// motion::judge_movement(), naming the recording.
+[[nodiscard]] Result<std::vector<motion::FoundationFinding>> find_exchanged_pairs(
+    const std::string& name, const data::Trajectories& recording);
+
 /// Judge pairs of pelvis and legs throughout a recording in which somebody moves, and add the gate
 /// `recording` to the remarks: missed where a pair is exchanged, with a warning that names it. No gate where
 /// too few markers are known, or nothing is found.

@@ -20,6 +20,7 @@
 #include "kinemark/stages/skeleton/functional/slip.h"
 #include "kinemark/workflow/joints/internal/joints_layout.h"
 #include "kinemark/workflow/joints/internal/joints_segmentation.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::workflow {
@@ -317,6 +318,7 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
   if (auto s = lay_out(options, found.used, found); !s) return std::unexpected(s.error());
   if (auto s = solve(options, found.used, found); !s) return std::unexpected(s.error());
   judge(options, found);
+  add_contradictions(recording.contradicted, found.remarks.gates);
   return found;
 }
 

@@ -17,9 +17,12 @@
 #include "kinemark/core/name_pattern.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/stages/analysis/emg/channel_facts.h"
 
 namespace kinemark::workflow {
 namespace {
+
+constexpr std::size_t kNamed = 12;
 
 std::string lowered(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -30,9 +33,14 @@ std::string lowered(std::string text) {
 // Volts of 1 in the unit; NaN where it is no voltage.
 double volts_of(const std::string& unit) {
   const auto name = lowered(unit);
-  if (name == "v" || name == "volt" || name == "volts") return 1.0;
-  if (name == "mv") return 1e-3;
-  if (name == "uv" || name == "\xc2\xb5v" || name == "\xce\xbcv") return 1e-6;
+  const auto is_voltage = [](std::string_view word) {
+    return word == "v" || word == "volt" || word == "volts";
+  };
+  using Prefix = std::pair<std::string_view, double>;
+  for (const auto& [prefix, volts] :
+       {Prefix{"", 1.0}, Prefix{"milli", 1e-3}, Prefix{"m", 1e-3}, Prefix{"micro", 1e-6}, Prefix{"u", 1e-6},
+        Prefix{"\xc2\xb5", 1e-6}, Prefix{"\xce\xbc", 1e-6}})
+    if (name.starts_with(prefix) && is_voltage(std::string_view(name).substr(prefix.size()))) return volts;
   return kNaN;
 }
 
@@ -168,13 +176,28 @@ Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
   return out;
 }
 
+std::vector<std::string> contradicted_channels(const data::Trial& trial) {
+  std::vector<std::string> out;
+  const auto which = emg_channels(trial);
+  if (!which) return out;
+  for (const auto& channel : channels_of(trial, *which))
+    if (auto why = analysis::why_rectified(channel); !why.empty()) out.push_back(std::move(why));
+  return out;
+}
+
 Result<analysis::EmgMeasures> measure_channels(const data::Trial& trial, const EmgChoice& choice,
                                                const std::vector<data::Region>& regions,
                                                analysis::EmgOptions options) {
   const auto which = emg_channels(trial, choice.channels);
   if (!which) return std::unexpected(which.error());
+  if (which->empty() && trial.analog.names.empty())
+    return fail(Code::bad_input, "there are no analog channels, and so no EMG");
   if (which->empty())
-    return fail(Code::bad_input, "no analog channel is known for an EMG by its name; name the channels");
+    return fail(
+        Code::bad_input,
+        fmt::format("no analog channel is known for an EMG by its name; name the channels, of which there "
+                    "are {}",
+                    join_some(trial.analog.names, kNamed)));
   auto channels = channels_of(trial, *which);
   options.envelope = choice.envelope;
   options.to_maximum = choice.to_maximum && choice.maximum == nullptr;

@@ -33,6 +33,9 @@ struct EmgChoice {
 [[nodiscard]] Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
                                                             const std::vector<std::string>& named = {});
 
+/// Sentences on the electromyograms of a recording, found by their names, that were rectified before.
+[[nodiscard]] std::vector<std::string> contradicted_channels(const data::Trial& trial);
+
 /// Electromyograms of a recording, prepared and measured: over `regions` in the numbers of its frames
 /// ("Foot Strike Left 2" is a cycle of the left), or over the whole of it. Code::bad_input as
 /// analysis::measure_emg(), and where the recording of maxima lacks a channel.

@@ -29,6 +29,22 @@ TEST(EmgChannels, ChannelsAreFoundByName) {
               HasSubstr("no analog channel 'RSQL' (nearest: RSOL"));
 }
 
+TEST(EmgChannels, VoltsAreWrittenInManyWays) {
+  auto trial = muscles();
+  const auto peak = [&](const std::string& unit) {
+    trial.analog.units[1] = unit;
+    const auto out = measure_channels(trial, {.channels = {trial.analog.names[1]}}, {},
+                                      {.measures = {"emg_rms"}, .refits = 0});
+    return out.value().measures.at(0).value;
+  };
+  const double volts = peak("V");
+  for (const char* unit : {"volt", "Volts", "VOLTS"}) EXPECT_EQ(peak(unit), volts) << unit;
+  for (const char* unit : {"mV", "millivolts", "Millivolt", "mVolts"})
+    EXPECT_NEAR(peak(unit), 1e-3 * volts, 1e-12 * volts) << unit;
+  for (const char* unit : {"uV", "\xc2\xb5V", "microvolts", "Microvolt"})
+    EXPECT_NEAR(peak(unit), 1e-6 * volts, 1e-12 * volts) << unit;
+}
+
 TEST(EmgChannels, AForceInVoltsIsNoMuscle) {
   auto trial = muscles();
   for (const auto* const name : {"Electric Potential.Fx", "Electric Potential.Mz2", "EMG plate.Fz", "F1X",

@@ -14,6 +14,7 @@
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/stated_mass.h"
 
@@ -59,6 +60,7 @@ Status measure_muscles(const AskedMeasures& asked, const data::Trial& trial, Mea
   if (!measured) return std::unexpected(measured.error());
   std::ranges::copy(measured->measures, std::back_inserter(found.measures));
   std::ranges::copy(measured->notes, std::back_inserter(found.remarks.warnings));
+  add_contradictions(measured->contradicted, found.remarks.gates);
   found.emg = std::move(*measured);
   return {};
 }
@@ -85,18 +87,6 @@ struct NoWalking {
   Status ends_all;             ///< a failure that ends it
   Status ends_without_plates;  ///< one that does so only where plates show nothing either
 };
-
-// A missed bound where walking rests on numbers that contradict each other.
-void add_contradictions(const std::vector<std::string>& contradicted, std::vector<data::Gate>& gates) {
-  if (contradicted.empty()) return;
-  gates.push_back(
-      {.name = "contradictions",
-       .passed = false,
-       .value = static_cast<double>(contradicted.size()),
-       .bound = 0.0,
-       .unit = "findings",
-       .sentence = fmt::format("What walking rests on is contradicted: {}.", join(contradicted, "; "))});
-}
 
 NoWalking measure_walking(const AskedMeasures& asked, const data::Recording& recording, Measured& found) {
   const auto& options = asked.options;
@@ -153,6 +143,11 @@ Status measure_all(const AskedMeasures& asked, const data::Recording& recording,
   // movements.
   const bool own = (needs.events || needs.own_movements) && !found.gait;
   if (!asked.paths && !own) return {};
+  if (trial.markers.markers() == 0) {  // plates or EMG alone
+    if (!found.measures.empty()) return {};
+    return fail(Code::bad_input, fmt::format("there are no markers to measure{}{}", plates ? "" : "; ",
+                                             plates ? "" : plates.error().message));
+  }
   auto of_paths = asked.path;
   of_paths.rhythms = own;
   if (!asked.paths)
@@ -208,6 +203,7 @@ Result<analysis::Gait> measure_gait(const data::Recording& recording, const anal
 Result<Measured> measure_recording(data::Recording recording, AskedMeasures asked) {
   Measured found;
   found.recording = std::move(recording);
+  add_contradictions(found.recording.contradicted, found.remarks.gates);
   leave_points_apart(found);
   if (auto s = leave_out_defects(found.recording.trial, asked.options.keep_doubtful,
                                  found.recording.edits.swapped, found.remarks.warnings);

@@ -129,7 +129,19 @@ TEST(Gait, SidesThatAreExchangedMissABound) {
   const auto found = gait(recording, options).value();
   ASSERT_EQ(found.remarks.gates.size(), 1U);
   EXPECT_FALSE(found.remarks.gates[0].passed);
-  EXPECT_THAT(found.remarks.gates[0].sentence, HasSubstr("What walking rests on is contradicted: the left "));
+  EXPECT_THAT(found.remarks.gates[0].sentence, HasSubstr("What this rests on is contradicted: the left "));
+}
+
+TEST(Measure, WhatWasFoundOnTheWayInMissesABound) {
+  MeasureOptions options;
+  options.refits = 0;
+  auto recording = circle();
+  EXPECT_THAT(measure(recording, options).value().remarks.gates, IsEmpty());
+  recording.contradicted = {"the recording shows a mirrored body"};
+  const auto found = measure(recording, options).value();
+  ASSERT_EQ(found.remarks.gates.size(), 1U);
+  EXPECT_EQ(found.remarks.gates[0].name, "contradictions");
+  EXPECT_FALSE(found.remarks.passed());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/internal/rated_motion.h"
 
 namespace kinemark::workflow {
@@ -88,6 +89,8 @@ Result<DynamicsFound> dynamics(const model::Model& model, const GivenMotion& giv
   DynamicsFound found;
   motion::BodyMotionOptions follow = options;
   follow.error_bars = options.error_bars && options.cutoff_hz == 0.0;
+  internal::hold_motion(model, given, options.mass_centre && !options.torques && !given.forces,
+                        found.remarks);
   describe_method(options, *rated, follow.error_bars, found);
   if (!follow.body_idx.empty() || !follow.points.empty() || options.mass_centre) {
     auto bodies = motion::body_motion(model, rated->motion, follow, rated->errors, rated->is_filled);

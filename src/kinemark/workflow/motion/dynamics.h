@@ -40,6 +40,8 @@ struct GivenMotion {
       {};  ///< F x n, 1: nobody measured it, and q is a number in between; or empty
   std::optional<data::Wrenches> forces = {};  ///< on the body, in the model's axes, on a clock of their own
   MotionNames names = {};                     ///< what errors and sentences call them
+  std::vector<std::string> contradicted =
+      {};  ///< what of it contradicts what else is known, one sentence each: misses the gate `contradictions`
 };
 
 /// What is asked of dynamics(): bodies and points to follow, by their indices in the model's description, and

@@ -89,6 +89,25 @@ TEST(Dynamics, APendulumsRatesAndTorqueWithTheirDeviations) {
   EXPECT_THAT(found.facts, Contains(Pair("deviations", "from those of the motion")));
 }
 
+TEST(Dynamics, WhatIsContradictedOfTheMotionMissesABoundAndRangesAreSaid) {
+  const Pendulum pendulum;
+  const auto said = [](const model::Model& model, GivenMotion given) {
+    return dynamics(model, given).value().remarks;
+  };
+  const auto clean = said(pendulum.model, {.motion = pendulum.motion(2e-3)});
+  EXPECT_TRUE(clean.passed());
+  EXPECT_THAT(clean.warnings, Not(Contains(HasSubstr("its range in the model"))));
+  const auto other =
+      said(pendulum.model, {.motion = pendulum.motion(2e-3), .contradicted = {"the knee spins"}});
+  EXPECT_FALSE(other.passed());
+  EXPECT_THAT(other.warnings, Contains("the knee spins"));
+  auto narrow = pendulum.model.description();
+  narrow.coordinates[0].range_min = 2.0, narrow.coordinates[0].range_max = 2.5;
+  const auto ranged = said(model::Model::compile(narrow).value(), {.motion = pendulum.motion(2e-3)});
+  EXPECT_THAT(ranged.warnings, Contains(HasSubstr("its range in the model, 114.6 to 143.2 deg")));
+  EXPECT_TRUE(ranged.passed()) << "a model may have narrower ones";
+}
+
 TEST(Dynamics, APointOnATurningBodyGoesRoundTheHinge) {
   const Pendulum pendulum;
   DynamicsOptions options;

@@ -12,11 +12,11 @@
 
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
-#include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
-#include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/used_markers.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/turn.h"
 
 namespace kinemark::workflow {
@@ -162,11 +162,12 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   found.used = solved_markers(markers, fit, motion);
   auto& [warnings, gates] = found.remarks;
   warnings = fit.warnings;
-  note_mirrored("the recording", motion::body_of_names(markers.names), markers, warnings);
   std::ranges::move(data::describe_all(fit.findings, motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(gates, options, model, markers, found.result);
   std::ranges::copy(found.torques.gates, std::back_inserter(gates));
+  add_contradictions(recording.contradicted, gates);
+  internal::hold_model(model, motion, found.remarks);
   return found;
 }
 

@@ -23,6 +23,7 @@
 #include "kinemark/stages/motion/dynamics/contacts.h"
 #include "kinemark/stages/motion/dynamics/whole_body.h"
 #include "kinemark/workflow/motion/dynamics.h"
+#include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/internal/rated_motion.h"
 #include "kinemark/workflow/prepare/vertical.h"
 
@@ -284,6 +285,7 @@ Result<MotionMeasured> measure_motion(const model::Model& model, const GivenMoti
   if (!input) return std::unexpected(input.error());
   MotionMeasured found;
   found.remarks.warnings = std::move(input->notes);
+  internal::hold_motion(model, given, !asked.torques && !given.forces, found.remarks);
   analysis::BodyMeasureOptions options{.measures = asked.measures,
                                        .stretches = asked.stretches,
                                        .normalized = asked.normalized,

@@ -13,7 +13,9 @@
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/used_markers.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -98,6 +100,8 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(found.remarks.gates, options.bounds, found.result);
   std::ranges::copy(found.torques.gates, std::back_inserter(found.remarks.gates));
+  add_contradictions(recording.contradicted, found.remarks.gates);
+  internal::hold_model(model, found.result.motion, found.remarks);
   return found;
 }
 

@@ -4,13 +4,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "kinemark/data/resample_forces.h"
-#include "kinemark/stages/motion/foundations/body_size.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 #include "kinemark/workflow/prepare/turn.h"
 
@@ -50,11 +51,12 @@ void turn_axes(const AxesChoice& axes, data::Recording& recording) {
   recording.notes.push_back(fmt::format("the recording was turned: {}", axes.rotate));
 }
 
-void note_size(data::Recording& recording) {
-  const auto& markers = recording.trial.markers;
-  if (const auto size = motion::size_of_body(motion::body_of_names(markers.names), markers);
-      size && size->is_nobodys())
-    recording.notes.push_back(size->sentence());
+Status hold(const HeldFacts& facts, data::Recording& recording) {
+  auto found = find_contradictions(recording, facts);
+  if (!found) return std::unexpected(found.error());
+  std::ranges::copy(*found, std::back_inserter(recording.notes));
+  std::ranges::move(*found, std::back_inserter(recording.contradicted));
+  return {};
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ Result<data::Recording> prepare(data::Recording recording, const PrepareOptions&
   if (auto s = take_selection(options.selection, recording.trial); !s) return std::unexpected(s.error());
   follow_frames(recording);
   turn_axes(options.axes, recording);
-  note_size(recording);
+  if (auto s = hold(options.facts, recording); !s) return std::unexpected(s.error());
   return recording;
 }
 

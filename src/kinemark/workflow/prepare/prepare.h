@@ -17,11 +17,24 @@
 
 namespace kinemark::workflow {
 
+/// What of a recording is held against what else is known of it: what the result of a verb rests on.
+struct HeldFacts {
+  bool size = true;     ///< of the body, against people's
+  bool sides = true;    ///< left and right by names, against where a body has them
+  bool pairs = true;    ///< markers of pelvis and legs by names, against where a body has them
+  bool plates = true;   ///< forces, where the recording has them, against feet and mass
+  bool events = false;  ///< the file's against each other and against the feet
+
+  [[nodiscard]] static HeldFacts none() { return {false, false, false, false, false}; }
+  [[nodiscard]] static HeldFacts all() { return {true, true, true, true, true}; }
+};
+
 /// What is done to a recording before anything is computed from it, in this order.
 struct PrepareOptions {
   std::vector<data::Edit> edits = {};  ///< operations of a person, undo and redo among them
   Selection selection = {};            ///< then markers, names, frames
   AxesChoice axes = {};                ///< then which way is up, or a rotation
+  HeldFacts facts = {};                ///< of what is left
   std::uint64_t seed = 1;              ///< of fills among the edits
   int threads = 1;                     ///< 0: all cores. Any number gives the same bits.
 
@@ -31,7 +44,8 @@ struct PrepareOptions {
 
 /// The recording as the options ask for it; forces of plates follow its frames and axes. What was done is
 /// added to its notes. Defects and samples that the recorder made are not looked for here: each verb does
-/// that by its own rules (screen_markers()), in what is left.
+/// that by its own rules (screen_markers()), in what is left. What contradicts what else is known goes into
+/// its notes and into `contradicted`.
 ///
 /// Code::usage as PrepareOptions::check(); Code::bad_input as trajectory::apply_edits() and take_selection().
 /// O(samples), a fill as trajectory::fill_gaps().

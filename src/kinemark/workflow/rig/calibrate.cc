@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/camera/light.h"
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
@@ -114,8 +115,8 @@ Result<data::Rig> with_tables(CalibrateMethod method, const data::Rig& nominal, 
 }
 
 /// Bundle adjustment of the tree or the scan; `rig` becomes the calibrated one.
-Status adjust(const CalibrateOptions& options, const data::Rig& nominal, const Evidence& evidence,
-              data::Rig& rig, Calibrated& out) {
+Status adjust(std::span<const ShownCounts> shown_counts, const CalibrateOptions& options,
+              const data::Rig& nominal, const Evidence& evidence, data::Rig& rig, Calibrated& out) {
   const bool by_scan = options.method == CalibrateMethod::scan;
   const auto& shown = by_scan ? evidence.scan : evidence.tree;
   if (!shown)
@@ -131,6 +132,9 @@ Status adjust(const CalibrateOptions& options, const data::Rig& nominal, const E
   if (!found) return std::unexpected(found.error());
   out.bundle = std::move(found->report);
   rig = std::move(found->rig);
+  for (const auto& one : shown_counts)
+    if (by_scan ? std::holds_alternative<ShownScan>(one.shows) : std::holds_alternative<ShownTree>(one.shows))
+      camera::find_dark_counts(one.counts, rig);
   rig.method = to_string(options.method);
   auto alignment = calibration::compare_alignment(nominal, rig);
   if (!alignment) return std::unexpected(alignment.error());
@@ -169,7 +173,7 @@ Result<Calibrated> calibrate(std::span<const ShownCounts> shown, const data::Rig
   auto rig = with_tables(options.method, nominal, *evidence);
   if (!rig) return std::unexpected(rig.error());
   if (options.method != CalibrateMethod::grid_lut) {
-    const auto adjusted = adjust(options, nominal, *evidence, *rig, out);
+    const auto adjusted = adjust(shown, options, nominal, *evidence, *rig, out);
     if (!adjusted && !is_contradicted(adjusted.error())) return std::unexpected(adjusted.error());
     if (!adjusted) add_gate(options, adjusted.error().message, out);
     if (!adjusted || options.align_only) return out;

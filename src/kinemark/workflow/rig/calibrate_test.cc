@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 /// A rig, what its operator believes of it, and what was held before it.
 struct Laboratory {
-  simulation::PhysicalRig drawn = simulation::draw_rig({.seed = 6}).value();
+  simulation::PhysicalRig drawn = simulation::draw_rig({.seed = 6, .dark_slot = true}).value();
   data::Rig nominal = drawn.nominal;
   ShownCounts tree, scan;
   std::vector<ShownCounts> grids;
@@ -70,6 +70,17 @@ TEST(Calibrate, TreeAndGridsGiveARigThatTheCountsDoNotContradict) {
   EXPECT_TRUE(found.remarks.passed());
   EXPECT_THAT(found.remarks.warnings, IsEmpty());
   ASSERT_EQ(found.alignment->cameras.size(), 2U);
+}
+
+TEST(Calibrate, DarkSlotsAndLightsOfTheTreeGoToTheRig) {
+  const auto found = calibrate(std::vector{laboratory().tree}, laboratory().nominal, quick()).value();
+  const auto truth = simulation::rig_in_room(laboratory().drawn);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto &is = found.rig->cameras[c].detector, &should = truth.cameras[c].detector;
+    EXPECT_NEAR(is.light_counts, should.light_counts, 0.01 * should.light_counts);
+    ASSERT_TRUE(is.knows_dark());
+    EXPECT_LT((is.dark_counts - should.dark_counts).cwiseAbs().maxCoeff(), 0.3);
+  }
 }
 
 TEST(Calibrate, GridsAloneGiveTheTableOf1986AndAScanItsOwnRig) {

@@ -2,9 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/workflow/rig/reconstruct.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
 #include <utility>
 
+#include "kinemark/camera/light.h"
+#include "kinemark/camera/usable.h"
 #include "kinemark/core/enum_names.h"
+#include "kinemark/core/index.h"
+#include "kinemark/core/utf8.h"
 
 namespace kinemark::workflow {
 
@@ -13,22 +21,91 @@ std::string_view to_string(ReconstructMethod method) {
   return kNames[method];
 }
 
+namespace {
+
+constexpr double kDim = 0.3, kDimmer = 0.8, kBrighter = 1.25;  // of the light of the calibration
+constexpr double kSure = 2.0;                                  // SD
+
+bool knows_dark(const data::Rig& rig) {
+  return std::ranges::all_of(rig.cameras, [](const auto& c) { return c.detector.knows_dark(); });
+}
+
+/// What there is to say of an LED's light.
+std::string light_sentence(const std::string& led, const reconstruction::LedLight& found, bool dark_known) {
+  const double off = found.light < 1.0 ? kDimmer - found.light : found.light - kBrighter;
+  if (found.source == reconstruction::LightSource::unknown ||
+      !(off > kSure * found.light_sd || (dark_known && off > 0.0)))
+    return {};
+  return fmt::format("LED '{}' shines with {:.2f} +- {:.2f} of the light of the calibration's LEDs{}; {}",
+                     printable(led, 60), found.light, found.light_sd, found.light < kDim ? ": it is dim" : "",
+                     dark_known
+                         ? "the offsets are those of its light"
+                         : "how much of the offsets goes with it is not known, and its positions' deviations "
+                           "say so; calibrate with a dark slot");
+}
+
+/// Observations of an LED that stand at the converter's highest code, in one channel and in more.
+std::string saturation_sentence(const data::Counts& counts, std::int64_t led) {
+  std::int64_t one = 0, more = 0;
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
+      const auto full = 4.0 - camera::kept_channels(counts.at(f, led, c), counts.highest_code).sum();
+      one += full == 1.0, more += full > 1.0;
+    }
+  if (one + more == 0) return {};
+  return fmt::format(
+      "LED '{}' is brighter than the detector: of {} observations {} have one channel at the highest "
+      "code, which is left out, and {} have more and are not used",
+      printable(counts.leds[at(led)], 60), counts.frames() * counts.camera_count(), one, more);
+}
+
+Remarks remarks_on(const data::Counts& counts, const data::Rig& rig,
+                   const std::vector<reconstruction::LedLight>& lights) {
+  Remarks out;
+  const bool dark_known = knows_dark(rig);
+  const auto add = [&](std::string sentence) {
+    if (!sentence.empty()) out.warnings.push_back(std::move(sentence));
+  };
+  for (std::int64_t led = 0; led < counts.led_count(); ++led) {
+    if (at(led) < lights.size()) add(light_sentence(counts.leds[at(led)], lights[at(led)], dark_known));
+    add(saturation_sentence(counts, led));
+  }
+  return out;
+}
+
+/// The rig with dark counts of the recording's own dark slots, where its calibration had none.
+data::Rig with_dark(const data::Counts& counts, const data::Rig& rig) {
+  data::Rig out = rig;
+  if (!knows_dark(rig)) camera::find_dark_counts(counts, out);
+  return out;
+}
+
+}  // namespace
+
 Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& rig,
                                   const ReconstructOptions& options) {
   auto frames = options.frames;
   frames.threads = options.threads;
-  auto found = options.method == ReconstructMethod::classic
-                   ? reconstruction::reconstruct_classic(counts, rig, frames)
-                   : reconstruction::reconstruct(counts, rig, frames);
+  const bool classic = options.method == ReconstructMethod::classic;
+  const auto known = with_dark(counts, rig);
+  auto found = classic ? reconstruction::reconstruct_classic(counts, rig, frames)
+                       : reconstruction::reconstruct(counts, known, frames);
   if (!found) return std::unexpected(found.error());
-  if (options.method != ReconstructMethod::smoother)
-    return Reconstructed{.markers = std::move(found->points), .leds = std::move(found->leds), .fits = {}};
-  auto smoother = options.smoother;
-  smoother.threads = options.threads;
-  auto smooth = trajectory::smooth_counts(counts, rig, found->points, smoother);
-  if (!smooth) return std::unexpected(smooth.error());
-  return Reconstructed{
-      .markers = std::move(smooth->points), .leds = std::move(found->leds), .fits = std::move(smooth->leds)};
+  Reconstructed out{.markers = {}, .leds = std::move(found->leds), .lights = {}, .fits = {}, .remarks = {}};
+  if (!classic) out.remarks = remarks_on(counts, known, found->lights);
+  if (options.method == ReconstructMethod::smoother) {
+    auto smoother = options.smoother;
+    smoother.threads = options.threads;
+    auto smooth = trajectory::smooth_counts(counts, found->rigs, found->points, smoother);
+    if (!smooth) return std::unexpected(smooth.error());
+    if (frames.calibration_error)
+      reconstruction::add_calibration_error(counts, *found, smooth->points, options.threads);
+    found->points = std::move(smooth->points);
+    out.fits = std::move(smooth->leds);
+  }
+  out.lights = std::move(found->lights);
+  out.markers = std::move(found->points);
+  return out;
 }
 
 }  // namespace kinemark::workflow

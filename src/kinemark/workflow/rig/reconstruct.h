@@ -13,6 +13,7 @@
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/trajectory/from_counts/smooth_counts.h"
+#include "kinemark/workflow/remarks.h"
 
 namespace kinemark::workflow {
 
@@ -37,7 +38,9 @@ struct Reconstructed {
   data::Trajectories
       markers;  ///< F x L with covariances, m, in the rig's world; missing where nothing was found
   std::vector<reconstruction::LedSummary> leds;  ///< what became of each LED's frames
+  std::vector<reconstruction::LedLight> lights;  ///< of each LED; empty by the classic method
   std::vector<trajectory::LedFit> fits;          ///< how each was smoothed; empty without the smoother
+  Remarks remarks;  ///< LEDs whose light is not that of the calibration, and what it changes
 };
 
 /// Positions of the LEDs of a recording. Fails as reconstruction::reconstruct(), reconstruct_classic() and

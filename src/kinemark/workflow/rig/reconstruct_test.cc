@@ -6,11 +6,17 @@
 
 #include <cmath>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
 
 namespace kinemark::workflow {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A wheel before two cameras, and the rig as it is.
 struct Wheel {
@@ -66,6 +72,74 @@ TEST(Reconstruct, OptionsOutOfRangeAreRefused) {
   ASSERT_FALSE(classic);
   EXPECT_THAT(classic.error().message, ::testing::HasSubstr("no look-up table"));
   EXPECT_EQ(to_string(ReconstructMethod::classic), "classic");
+}
+
+/// Four LEDs of a signing arm; the hand and the shoulder shine with another light.
+struct Sign {
+  simulation::PhysicalRig drawn;
+  data::Rig rig;
+  simulation::RigRecording recording;
+
+  Sign(double light, bool dark_slot)
+      : drawn(simulation::draw_rig({.seed = 9, .dark_slot = dark_slot}).value()),
+        rig(simulation::rig_in_room(drawn)) {
+    simulation::RigRecordingOptions how;
+    how.frames = 300;
+    how.intensity = {light, 1.0, 1.0, light};
+    recording = simulation::record(drawn, simulation::signing_arm(), how).value();
+    if (!dark_slot)
+      for (auto& camera : rig.cameras) camera.detector.dark_counts.setConstant(kNaN);
+  }
+};
+
+TEST(ReconstructLight, ADimLedIsNamedAndLiesWhereItIs) {
+  const Sign sign(0.22, true);
+  const auto found = reconstruct(sign.recording.counts, sign.rig).value();
+  ASSERT_EQ(found.lights.size(), 4U);
+  EXPECT_NEAR(found.lights[3].light, 0.22, 0.02 * 0.22);
+  EXPECT_THAT(found.remarks.warnings,
+              Contains(AllOf(HasSubstr("LED 'hand' shines with 0.22"), HasSubstr("it is dim"),
+                             HasSubstr("the offsets are those of its light"))));
+  EXPECT_THAT(found.remarks.warnings,
+              Contains(HasSubstr("of the light of the calibration's LEDs: it is dim")));
+  EXPECT_THAT(found.remarks.warnings,
+              Not(Contains(HasSubstr(
+                  "is not known, and its positions' deviations say so; calibrate with a dark slot"))));
+  auto without = ReconstructOptions{};
+  without.frames.light = false;
+  const auto biased = reconstruct(sign.recording.counts, sign.rig, without).value();
+  EXPECT_LT(rms_error_m(found.markers, sign.recording.truth),
+            0.5 * rms_error_m(biased.markers, sign.recording.truth));
+}
+
+TEST(ReconstructLight, LedsOfTheCalibrationsLightAreNotNamed) {
+  const Sign sign(1.0, true);
+  const auto found = reconstruct(sign.recording.counts, sign.rig).value();
+  EXPECT_THAT(found.remarks.warnings, Not(Contains(HasSubstr("of the light of the calibration's LEDs"))));
+  EXPECT_THAT(found.remarks.warnings, Not(Contains(HasSubstr("the offsets are those of its light"))));
+  EXPECT_THAT(found.remarks.warnings, Not(Contains(HasSubstr("is brighter than the detector"))));
+}
+
+TEST(ReconstructLight, WithoutDarkCountsTheWarningNamesTheCure) {
+  const Sign sign(0.5, false);
+  const auto found = reconstruct(sign.recording.counts, sign.rig).value();
+  EXPECT_THAT(found.remarks.warnings,
+              Contains(AllOf(HasSubstr("LED 'hand' shines with 0.50"),
+                             HasSubstr("positions' deviations say so; calibrate with a dark slot"))));
+  EXPECT_THAT(found.remarks.warnings, Not(Contains(HasSubstr("it is dim"))));
+}
+
+TEST(ReconstructLight, DarkSlotsOfTheRecordingServeARigWithoutThem) {
+  Sign sign(0.5, true);
+  for (auto& camera : sign.rig.cameras) camera.detector.dark_counts.setConstant(kNaN);
+  const auto found = reconstruct(sign.recording.counts, sign.rig).value();
+  EXPECT_THAT(found.remarks.warnings, Contains(HasSubstr("the offsets are those of its light")));
+}
+
+TEST(ReconstructLight, AnLedThatFillsADetectorIsNamed) {
+  const Sign sign(4.0, true);
+  const auto found = reconstruct(sign.recording.counts, sign.rig).value();
+  EXPECT_THAT(found.remarks.warnings, Contains(HasSubstr("LED 'hand' is brighter than the detector")));
 }
 
 }  // namespace

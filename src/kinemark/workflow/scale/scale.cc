@@ -19,6 +19,7 @@
 #include "kinemark/stages/motion/scaling/clavicles.h"
 #include "kinemark/stages/motion/scaling/measured_joints.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/scale/internal/grow.h"
 #include "kinemark/workflow/scale/internal/sizes.h"
@@ -66,9 +67,10 @@ Status judge_stills(const std::vector<const ScaleTrial*>& stills, const std::opt
   std::vector<const data::Trajectories*> movements;
   if (motion) {
     movements.push_back(&motion->recording.trial.markers);
-    note_mirrored(motion->name, *body, *movements.back(), found.remarks.warnings);
+    add_contradictions(motion->recording.contradicted, found.remarks.gates);
   }
   for (const auto* still : stills) {
+    add_contradictions(still->recording.contradicted, found.remarks.gates);
     auto judgement =
         judge_static_trial(still->name, *body, still->recording.trial.markers, movements, found.remarks);
     if (!judgement) return std::unexpected(judgement.error());
@@ -257,6 +259,11 @@ class Scaling {
     return {};
   }
 
+  void hold(const std::vector<std::string>& contradicted) {
+    std::ranges::copy(contradicted, std::back_inserter(found_.remarks.warnings));
+    add_contradictions(contradicted, found_.remarks.gates);
+  }
+
   ScaleFound take() { return std::move(found_); }
 
  private:
@@ -317,6 +324,7 @@ Result<ScaleFound> scale(const data::ModelDescription& model, ScaleInputs inputs
     return std::unexpected(s.error());
   if (auto s = check_inputs(inputs, options); !s) return std::unexpected(s.error());
   Scaling scaling(model, std::move(inputs), options);
+  scaling.hold(contradicted_model(model));
   for (const auto step :
        {&Scaling::begin, &Scaling::match_joints, &Scaling::judge_static_trials, &Scaling::scale_by_recipe,
         &Scaling::scale_by_static_trial, &Scaling::adapt_to_motion, &Scaling::judge_factors,

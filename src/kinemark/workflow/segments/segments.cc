@@ -21,6 +21,7 @@
 #include "kinemark/data/finding.h"
 #include "kinemark/stages/motion/foundations/standing_body.h"
 #include "kinemark/workflow/foundations/foundation_gate.h"
+#include "kinemark/workflow/prepare/contradictions.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/vertical.h"
@@ -127,8 +128,6 @@ Result<data::Trajectories> judge_moving(const data::Recording& recording, const 
                                         SegmentsFound& found) {
   auto& used = found.used.trial;
   if (is_own_static(recording, options)) return used.markers;
-  note_mirrored(options.name, motion::body_of_names(used.markers.names), used.markers,
-                found.remarks.warnings);
   const auto pairs = judge_recording(options.name, used.markers,
                                      options.drop_doubtful ? "all is computed with them exchanged back"
                                                            : "what is computed from them is not so",
@@ -270,6 +269,7 @@ Result<SegmentsFound> segments(const analysis::SegmentDefinition& definition,
                                const data::Recording& recording, const SegmentsOptions& options) {
   SegmentsFound found;
   SegmentTrials trials;
+  add_contradictions(recording.contradicted, found.remarks.gates);
   if (auto s = screen_all(recording, options, trials, found); !s) return std::unexpected(s.error());
   const auto named = judge_moving(recording, options, found);
   if (!named) return std::unexpected(named.error());

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #include "kinemark/core/number.h"
@@ -43,6 +45,13 @@ Status check_header_line(std::string_view line, std::int64_t number) {
 bool parse_odd_number(std::string_view cell, double& value) {
   if (const auto number = parse_number(cell)) {
     value = *number;
+    return true;
+  }
+  // What pandas, R and spreadsheets write for a number that is not there.
+  constexpr std::array<std::string_view, 10> kAbsent{"NA",   "N/A",  "n/a",  "#N/A", "#NA",
+                                                     "<NA>", "None", "NULL", "null", "-"};
+  if (std::ranges::find(kAbsent, cell) != kAbsent.end()) {
+    value = std::numeric_limits<double>::quiet_NaN();
     return true;
   }
   std::string_view digits = cell;

@@ -69,8 +69,9 @@ enum class Cell : std::uint8_t {
   none,    ///< the line holds no further cell
 };
 
-/// The numbers that fast_float does not read: a leading +, and what old C libraries print for NaN and
-/// infinity ("1.#QNAN", "-1.#IND00", "1.#INF").
+/// The numbers that fast_float does not read: a leading +, what old C libraries print for NaN and
+/// infinity ("1.#QNAN", "-1.#IND00", "1.#INF"), and words for a number that is not there ("NA", "#N/A",
+/// "None", "null", "-"), which are NaN.
 [[nodiscard]] bool parse_odd_number(std::string_view cell, double& value);
 
 /// ASCII letters in lower case.

@@ -86,8 +86,10 @@ TEST(Cells, ReadsEverySpellingOfANumber) {
 }
 
 TEST(Cells, ReadsEverySpellingOfNaN) {
-  for (const char* cell : {"NaN", "nan", "NAN", "Nan", "-nan", "+nan", "       NaN", "NaN   ", "nan(ind)",
-                           "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#SNAN0"}) {
+  for (const char* cell :
+       {"NaN",      "nan",       "NAN",     "Nan",       "-nan",     "+nan", "       NaN", "NaN   ",
+        "nan(ind)", "-nan(ind)", "1.#QNAN", "-1.#IND00", "1.#SNAN0", "NA",   "N/A",        "n/a",
+        "#N/A",     "None",      "NULL",    "null",      "<NA>",     "-"}) {
     std::vector<double> numbers;
     EXPECT_EQ(kinds(cell, Separator::tab, &numbers), "n") << cell;
     ASSERT_EQ(numbers.size(), 1U) << cell;

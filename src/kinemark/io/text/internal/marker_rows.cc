@@ -19,6 +19,7 @@ using Kind = MarkerColumns::Kind;
 
 constexpr double kNearOrigin_m = 0.005;
 constexpr double kLargestFrame = 9e15;
+constexpr double kSlowest_hz = 1.0;  // slower than this, times without a unit are asked about
 constexpr std::size_t kNamesInWarning = 8;
 // A row may stop early and still stands for all markers; this keeps a short text from asking for much memory.
 constexpr std::size_t kSamplesPerByte = 2;  // bytes per sample, at least
@@ -29,7 +30,7 @@ struct Rows {
   std::vector<double> time_s;                                     ///< where the file has times
   std::vector<std::int64_t> number;                               ///< frame numbers, where the file has them
   double resolution_s = std::numeric_limits<double>::infinity();  ///< of the times
-  std::int64_t part_blank = 0, infinite = 0, short_rows = 0, extra_rows = 0;
+  std::int64_t part_blank = 0, infinite = 0, marked = 0, short_rows = 0, extra_rows = 0;
 };
 
 /// A row with tabs between its cells.
@@ -62,8 +63,10 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
       case Kind::time:
         if (kind != Cell::number || !std::isfinite(number))
           return bad_cell(line, place, "the time", cells.text());
-        rows.time_s.push_back(number);
-        if (number != 0.0) rows.resolution_s = std::min(rows.resolution_s, resolution_of(cells.text()));
+        rows.time_s.push_back(number / columns.time_units_per_second);
+        if (number != 0.0)
+          rows.resolution_s =
+              std::min(rows.resolution_s, resolution_of(cells.text()) / columns.time_units_per_second);
         break;
       case Kind::condition:
         if (kind == Cell::text)
@@ -74,7 +77,7 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
         if (!(number > 0.0)) unseen = column.marker;
         break;
       case Kind::coordinate:
-        if (kind == Cell::text && lower(cells.text()) != "null")
+        if (kind == Cell::text)
           return bad_cell(line, place,
                           fmt::format("{} of marker '{}'", "xyz"[column.axis],
                                       excerpt(columns.names[static_cast<std::size_t>(column.marker)])),
@@ -96,10 +99,15 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
 }
 
 /// States of samples from their coordinates.
-void settle_samples(data::Trajectories& markers, Rows& rows) {
+void settle_samples(data::Trajectories& markers, const MarkerColumns& columns, Rows& rows) {
   for (std::int64_t f = 0; f < markers.frames(); ++f)
     for (std::int64_t m = 0; m < markers.markers(); ++m) {
-      const auto x = markers.x(f, m);
+      const Eigen::Vector3d x = markers.x(f, m), stored = x * columns.units_per_metre;
+      if (m < markers.markers() - columns.others && marks_missing(stored.x(), stored.y(), stored.z())) {
+        ++rows.marked;
+        markers.set_missing(f, m);
+        continue;
+      }
       if (x.allFinite()) {
         markers.state[markers.index(f, m)] = data::SampleState::measured;
         continue;
@@ -162,6 +170,12 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
                         .place = place},
                        trial.warnings);
   if (!clock) return std::unexpected(clock.error());
+  if (columns.is_time_unit_open && clock->time.rate_hz <= kSlowest_hz)
+    return fail(
+        Code::bad_input,
+        fmt::format("rows are {:.6g} s apart, if the times are in seconds; if they are in milliseconds, call "
+                    "their column 'time_ms', else 'time_s'",
+                    1.0 / clock->time.rate_hz));
   spread_rows(markers, *clock);
   return {};
 }
@@ -194,6 +208,8 @@ void warn(const MarkerColumns& columns, const Rows& rows, std::int64_t count, da
                     count));
   if (rows.part_blank > 0)
     say(fmt::format("{} samples have one or two blank coordinates, taken as not seen", rows.part_blank));
+  if (rows.marked > 0)
+    say(fmt::format("{} samples are 999, 9999, ... in all coordinates, taken as not seen", rows.marked));
   if (rows.infinite > 0) say(fmt::format("{} samples are infinite, taken as not seen", rows.infinite));
 }
 
@@ -202,6 +218,14 @@ void warn(const MarkerColumns& columns, const Rows& rows, std::int64_t count, da
 Status bad_cell(std::int64_t line, std::int64_t column, std::string_view what, std::string_view cell) {
   return fail(Code::bad_input, fmt::format("line {}, column {}: {} is {}; expected a number", line, column,
                                            what, cell.empty() ? "blank" : "'" + excerpt(cell) + "'"));
+}
+
+bool marks_missing(double x, double y, double z) {
+  const double size = std::abs(x);
+  if (!(size > 998.0) || std::abs(y - x) > 1e-9 * size || std::abs(z - x) > 1e-9 * size) return false;
+  for (double nines = 999.0; nines < 1e10; nines = 10.0 * nines + 9.0)
+    if (std::abs(size - nines) < 1e-9 * size) return true;
+  return false;
 }
 
 double largest_extent(const data::Trajectories& markers) {
@@ -280,7 +304,7 @@ Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t 
         !s)
       return s;
   }
-  settle_samples(trial.markers, rows);
+  settle_samples(trial.markers, columns, rows);
   warn(columns, rows, static_cast<std::int64_t>(count), trial);
   if (auto s = settle_time(columns, rows, first_line, static_cast<std::int64_t>(most_frames), trial); !s)
     return s;

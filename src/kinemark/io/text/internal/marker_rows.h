@@ -31,10 +31,12 @@ struct MarkerColumns {
     std::int8_t axis = 0;      ///< of a coordinate: 0, 1, 2
   };
 
-  char separator = '\t';            ///< tab or comma; cells may be blank
-  std::vector<Column> columns;      ///< of a row, from the left
-  std::vector<std::string> names;   ///< M marker names, unique
-  double units_per_metre = 1000.0;  ///< coordinates of the file are divided by it
+  char separator = '\t';               ///< tab or comma; cells may be blank
+  std::vector<Column> columns;         ///< of a row, from the left
+  std::vector<std::string> names;      ///< M marker names, unique
+  double units_per_metre = 1000.0;     ///< coordinates of the file are divided by it
+  double time_units_per_second = 1.0;  ///< times of the file are divided by it
+  bool is_time_unit_open = false;      ///< nothing says that times are in seconds
   std::vector<double> rates_hz;     ///< stated rates, in order of trust; without a time column, one at least
   std::int64_t stated_frames = -1;  ///< of the header; negative: not stated
   bool zeros_are_missing = false;   ///< (0, 0, 0) is not seen, except where a path goes through it
@@ -52,6 +54,10 @@ struct MarkerColumns {
 /// Samples that are (0, 0, 0) become missing, except where the marker passes through the origin: the samples
 /// before and after the zeros lie within 5 mm of it. How many of marker `m` were turned.
 std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m);
+
+/// Whether three coordinates, in the file's own unit, are one number by which programs mark what was not
+/// seen: 999, 9999, 99999, ... or its negative.
+[[nodiscard]] bool marks_missing(double x, double y, double z);
 
 /// The largest of the three extents of all samples, in the unit that they are in; 0 without any.
 [[nodiscard]] double largest_extent(const data::Trajectories& markers);

@@ -109,6 +109,28 @@ TEST(MarkerRows, WhatIsNotWholeIsMissingAndCounted) {
   EXPECT_THAT(trial.warnings, Contains(HasSubstr("1 of 5 rows hold cells beyond the last column")));
 }
 
+TEST(MarkerRows, NinesInAllCoordinatesMarkWhatWasNotSeen) {
+  const auto trial = rows_of(
+      "1\t0.00\t-9999\t-9999\t-9999\n2\t0.01\t9999\t1\t2\n3\t0.02\t999999\t999999\t999999\n4\t0."
+      "03\t99\t99\t99\n",
+      columns_of(1));
+  EXPECT_FALSE(trial.markers.present(0, 0));
+  EXPECT_TRUE(trial.markers.present(1, 0)) << "one of three is a place";
+  EXPECT_FALSE(trial.markers.present(2, 0));
+  EXPECT_TRUE(trial.markers.present(3, 0)) << "0.1 m from the origin";
+  EXPECT_THAT(trial.warnings,
+              testing::ElementsAre("2 samples are 999, 9999, ... in all coordinates, taken as not seen"));
+}
+
+TEST(MarkerRows, TimesMayBeInAnotherUnit) {
+  auto columns = columns_of(1);
+  columns.rates_hz.clear();
+  columns.time_units_per_second = 1000.0;
+  columns.is_time_unit_open = false;
+  const auto trial = rows_of("1\t0\t1\t2\t3\n2\t10\t1\t2\t3\n3\t20\t1\t2\t3\n", columns);
+  EXPECT_EQ(trial.markers.time, (TimeBase{100.0, 0.0, 3}));
+}
+
 TEST(MarkerRows, NumbersWithoutARowAreMissingFrames) {
   const auto trial = rows_of("11\t1\t2\t3\n12\t4\t5\t6\n15\t7\t8\t9\n", columns_of(1, true, false));
   EXPECT_EQ(trial.first_frame, 11);

@@ -175,7 +175,11 @@ Status read_labels(std::string_view line, std::int64_t number, TableHeader& head
   if (line.find('\t') == std::string_view::npos) header.separator = Separator::blanks;
   Cells cells(line, header.separator);
   std::vector<std::string> labels;
-  for (std::string_view label; cells.next_text(label);) labels.push_back(name_of_bytes(label));
+  for (std::string_view label; cells.next_text(label);) {
+    if (label.size() > 2 && label.front() == '"' && label.back() == '"')
+      label = label.substr(1, label.size() - 2);
+    labels.push_back(name_of_bytes(label));
+  }
   while (!labels.empty() && labels.back().empty()) labels.pop_back();
   if (labels.empty() || lower(labels[0]) != "time")
     return fail(Code::bad_input, fmt::format("line {}: the first column is '{}'; expected 'time'", number,

@@ -46,6 +46,11 @@ TEST(TableHeader, KeysValuesAndFreeTextAreKept) {
   EXPECT_THAT(h.warnings, IsEmpty());
 }
 
+TEST(TableHeader, LabelsInQuotesAreTheSame) {
+  EXPECT_THAT(header_of("endheader\n\"time\"\t\"hip_flexion\"\tknee\n").columns_named,
+              ElementsAre("hip_flexion", "knee"));
+}
+
 TEST(TableHeader, PathsOfStatesGetTheNamesOfTheirCoordinates) {
   const auto h = header_of(
       "endheader\ntime\t/jointset/hip/hip_flexion/value\t/jointset/hip/hip_flexion/speed\t/forceset/"

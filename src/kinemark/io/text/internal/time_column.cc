@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kJitterFrames = 0.02;       ///< an even column may jitter by this share of a frame
 constexpr double kMaxRoundingFrames = 0.35;  ///< more is not rounding: a lost frame moves its rows by 1/2
+constexpr double kSameMilliseconds = 0.01;   // of the steps that the header's rate has
 constexpr double kSameRate = 1e-5;           ///< relative; headers round 59.94006 to 59.94
 
 constexpr double kEvenStep = 0.2;        ///< share of the median by which steps of a table may differ
@@ -177,6 +178,18 @@ Result<EvenClock> clock_with_holes(const TimeColumn& column, double interval_s, 
   return clock;
 }
 
+/// A column whose steps are a thousand times those of the header's rate is in milliseconds.
+Result<EvenClock> clock_of_milliseconds(const TimeColumn& column, std::vector<std::string>& warnings) {
+  std::vector<double> seconds(column.time_s.begin(), column.time_s.end());
+  for (double& t : seconds) t /= 1e3;
+  auto scaled = column;
+  scaled.time_s = seconds;
+  scaled.resolution_s /= 1e3;
+  warnings.emplace_back(
+      "times are a thousand times those of the header's rate; they are taken for milliseconds");
+  return even_clock(scaled, warnings);
+}
+
 }  // namespace
 
 double resolution_of(std::string_view number) {
@@ -212,6 +225,9 @@ Result<EvenClock> even_clock(const TimeColumn& column, std::vector<std::string>&
   }
   if (!rounding_explains(column, header_hz))
     if (auto s = check_increase(column); !s) return std::unexpected(s.error());
+  if (header_hz > 0.0 && std::abs(1e-3 * median_step(time_s) * header_hz - 1.0) <
+                             kSameMilliseconds + 0.5e-3 * resolution_s * header_hz)
+    return clock_of_milliseconds(column, warnings);
 
   for (const double rate_hz : column.stated) {
     if (!is_rate(rate_hz) || spread(time_s, rate_hz) > tolerance(resolution_s, rate_hz)) continue;

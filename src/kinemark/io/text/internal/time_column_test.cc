@@ -99,6 +99,15 @@ TEST(EvenTime, BelievesAnEvenColumnAgainstTheHeader) {
   EXPECT_THAT(ntsc.warnings, IsEmpty());
 }
 
+TEST(EvenTime, AColumnAThousandTimesTheHeadersIsInMilliseconds) {
+  const auto found = fit({0.0, 10.0, 20.0, 30.0}, 10.0, {100.0});
+  EXPECT_EQ(found.time, (TimeBase{100.0, 0.0, 4}));
+  EXPECT_THAT(found.warnings, ElementsAre(HasSubstr("a thousand times those of the header's rate")));
+  EXPECT_EQ(fit({500.0, 508.0, 517.0, 525.0}, 1.0, {120.0}).time.t0_s, 0.5) << "rounded to whole ones";
+  // Of another factor the column is taken at its word.
+  EXPECT_EQ(fit({0.0, 5.0, 10.0, 15.0}, 5.0, {100.0}).time.rate_hz, 0.2);
+}
+
 TEST(EvenTime, PrefersAnotherStatedRateThatFits) {
   const auto out = fit(clock(50, 120.0, 0.001), 0.001, {60.0, 120.0});
   EXPECT_EQ(out.time.rate_hz, 120.0);

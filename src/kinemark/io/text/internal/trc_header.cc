@@ -86,7 +86,9 @@ Status read_values(Lines& lines, TrcHeader& header) {
          {"nummarkers", &header.markers}}};
     for (const auto& [word, target] : numbers) {
       if (key != word || values[i].empty()) continue;
-      *target = parse_number(values[i]);
+      std::string value(values[i]);
+      std::ranges::replace(value, ',', '.');  // "119,88" above rows with points
+      *target = parse_number(value);
       if (!*target)
         return fail(Code::bad_input, fmt::format("line {}, column {} ({}): '{}' is not a number",
                                                  lines.number(), i + 1, keys[i], excerpt(values[i])));
@@ -174,6 +176,36 @@ bool is_axis_labels(std::string_view line, Separator separator) {
   return kind == Cell::text;
 }
 
+/// The line of X1 Y1 Z1 labels where it names another order than x, y, z. Code::bad_input where it names one
+/// twice or not for each marker, as coordinates would be exchanged then.
+Status read_axes(std::string_view line, std::int64_t number, TrcHeader& header) {
+  std::vector<std::uint8_t> found;
+  Cells cells(line, header.separator);
+  for (std::string_view cell; cells.next_text(cell);) {
+    if (cell.empty()) continue;
+    const auto axis = std::string_view("xyz").find(static_cast<char>(cell.front() | 0x20));
+    const bool is_label = std::ranges::all_of(cell.substr(1), [](char c) { return c >= '0' && c <= '9'; });
+    if (axis == std::string_view::npos || !is_label) return {};  // words of another kind
+    found.push_back(static_cast<std::uint8_t>(axis));
+  }
+  bool usual = true;
+  for (std::size_t i = 0; i < found.size(); ++i) usual = usual && found[i] == i % 3;
+  if (usual) return {};
+  const std::size_t slots = header.marker.size();
+  for (std::size_t k = 0; k < slots && 3 * k + 2 < found.size(); ++k) {
+    std::array<std::uint8_t, 3> order{found[3 * k], found[3 * k + 1], found[3 * k + 2]};
+    header.axes.push_back(order);
+    std::ranges::sort(order);
+    if (order != std::array<std::uint8_t, 3>{0, 1, 2}) header.axes.clear(), found.clear();
+  }
+  if (header.axes.size() == slots) return {};
+  return fail(
+      Code::bad_input,
+      fmt::format("line {}: does not name x, y and z of each of the {} markers; expected X1, Y1, Z1, X2, "
+                  "...",
+                  number, slots));
+}
+
 }  // namespace
 
 Result<TrcHeader> parse_trc_header(Lines& lines) {
@@ -195,6 +227,8 @@ Result<TrcHeader> parse_trc_header(Lines& lines) {
     if (is_blank(line)) continue;
     if (labels_seen || !is_axis_labels(line, header.separator)) break;
     labels_seen = true;
+    if (auto status = read_axes(line, ahead.number(), header); !status)
+      return std::unexpected(status.error());
   }
   return header;
 }

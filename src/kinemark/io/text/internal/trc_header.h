@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct TrcHeader {
   Separator separator = Separator::tab;
   std::vector<std::string> names;    ///< M marker names, unique
   std::vector<std::int32_t> marker;  ///< index of the marker in cells 2 + 3 k to 4 + 3 k, or -1: not named
+  /// Which of x, y, z the three cells of each slot of `marker` hold, as the line of labels says; empty: in
+  /// this order.
+  std::vector<std::array<std::uint8_t, 3>> axes;
   std::vector<std::string> warnings;
 };
 

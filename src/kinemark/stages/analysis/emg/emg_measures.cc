@@ -15,6 +15,7 @@
 #include "kinemark/core/parallel.h"
 #include "kinemark/core/random.h"
 #include "kinemark/data/interval_refits.h"
+#include "kinemark/stages/analysis/emg/channel_facts.h"
 #include "kinemark/stages/analysis/emg/internal/activity.h"
 #include "kinemark/stages/analysis/emg/internal/rails.h"
 #include "kinemark/stages/analysis/emg/internal/spectral_noise.h"
@@ -116,6 +117,11 @@ class EmgMeasurement {
     }
     if (const auto rails = find_rails(channel.volts, rate_hz_); rails.share > 0.0)
       out.notes.push_back(why_clipped(channel.name, rails));
+    for (const auto& why :
+         {why_rectified(channel), std::isnan(channel.most_volts)
+                                      ? std::string()
+                                      : why_above_maximum(channel.name, out.envelopes.back())})
+      if (!why.empty()) out.notes.push_back(why), out.contradicted.push_back(why);
     const auto activity = find_activity(found.band, rate_hz_,
                                         {.band = options_.envelope,
                                          .rest_s = options_.rest_s,
@@ -391,6 +397,7 @@ Result<EmgMeasures> measure_emg(const std::vector<EmgChannel>& channels, double 
     std::ranges::move(part.names, std::back_inserter(out.names));
     std::ranges::move(part.envelopes, std::back_inserter(out.envelopes));
     std::ranges::move(part.notes, std::back_inserter(out.notes));
+    std::ranges::move(part.contradicted, std::back_inserter(out.contradicted));
   }
   if (out.names.empty())
     return fail(Code::bad_input,

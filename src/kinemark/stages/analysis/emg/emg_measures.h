@@ -57,6 +57,7 @@ struct EmgMeasures {
   std::vector<std::string> names;          ///< K channels that were measured
   std::vector<Eigen::VectorXd> envelopes;  ///< K, each S: V, or shares of `most_volts`
   std::vector<std::string> notes;          ///< a sentence each
+  std::vector<std::string> contradicted;   ///< those of them that leave no electromyogram
 };
 
 /// Prepare and measure channels (docs/theory/emg.md).

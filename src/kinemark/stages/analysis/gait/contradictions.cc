@@ -23,20 +23,18 @@ Contradictions find_contradictions(const GaitSmoother& smoother, const MarkerEve
   return out;
 }
 
-std::vector<std::string> contradictions_of(const data::Trajectories& markers, const GaitEvidence& evidence) {
+Contradictions contradictions_of(const data::Trajectories& markers, const GaitEvidence& evidence) {
   auto of_file = events_of_file(evidence.events, markers.time);
-  std::vector<std::string> out = std::move(of_file.notes);
+  Contradictions out{.labels = std::move(of_file.notes)};
   const auto which = find_gait_markers(markers, {});
   if (!which) return out;
   auto smoother = GaitSmoother::create(markers, *which, 0.0, std::nullopt);
   if (!smoother) return out;
   const auto of_markers = find_marker_events(*smoother, *which);
   if (!of_markers) return out;
-  const auto found =
-      find_contradictions(*smoother, *of_markers, evidence, of_file.events, NamesOf::ends_and_sides);
-  for (const auto* kind : {&found.names, &found.labels, &found.plates})
-    std::ranges::copy(*kind, std::back_inserter(out));
-  return out;
+  auto found = find_contradictions(*smoother, *of_markers, evidence, of_file.events, NamesOf::ends_and_sides);
+  std::ranges::move(out.labels, std::back_inserter(found.labels));  // what explains all of them goes first
+  return found;
 }
 
 }  // namespace kinemark::analysis

@@ -77,11 +77,18 @@ struct Gait {
 [[nodiscard]] Result<Gait> analyze_gait(const data::Trajectories& markers, const GaitEvidence& evidence,
                                         const GaitOptions& options);
 
+/// Numbers of a walk that contradict each other, one sentence each.
+struct Contradictions {
+  std::vector<std::string> names;   ///< of markers and sides, where the markers show a gait
+  std::vector<std::string> plates;  ///< of force plates, likewise
+  std::vector<std::string> labels;  ///< of single events of the file, or of all of them
+};
+
 /// What analyze_gait() says of numbers that contradict each other, without measuring: the file's events among
 /// themselves and against those of the markers, names of sides, heel and toe against where the markers are,
-/// forces of plates against feet and mass. Only the first where no feet are found, or markers tell no gait.
-[[nodiscard]] std::vector<std::string> contradictions_of(const data::Trajectories& markers,
-                                                         const GaitEvidence& evidence);
+/// forces of plates against feet and mass. Labels among themselves alone where no feet are found.
+[[nodiscard]] Contradictions contradictions_of(const data::Trajectories& markers,
+                                               const GaitEvidence& evidence);
 
 /// What noise does to the time of an event: root mean square over the refits that find it. NaN where more
 /// than a tenth do not: those that do are then no sample of all.

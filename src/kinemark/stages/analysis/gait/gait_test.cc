@@ -202,9 +202,11 @@ TEST(Gait, EventsThatTheMarkersContradictAreNamedWithoutMeasuring) {
     }
     return out;
   };
-  EXPECT_TRUE(contradictions_of(markers, {.events = events(false)}).empty());
-  EXPECT_TRUE(contradictions_of(markers, {}).empty());
-  const auto said = contradictions_of(markers, {.events = events(true)});
+  EXPECT_TRUE(contradictions_of(markers, {.events = events(false)}).labels.empty());
+  EXPECT_TRUE(contradictions_of(markers, {}).labels.empty());
+  const auto found = contradictions_of(markers, {.events = events(true)});
+  EXPECT_TRUE(found.names.empty() && found.plates.empty());
+  const auto& said = found.labels;
   ASSERT_EQ(said.size(), 1U);
   EXPECT_THAT(said[0], HasSubstr("left and right of the file's events are exchanged"));
   const auto gait = analyze_gait(markers, {.events = events(true)}, {.refits = 0}).value();
@@ -213,7 +215,7 @@ TEST(Gait, EventsThatTheMarkersContradictAreNamedWithoutMeasuring) {
   auto still = markers;
   for (std::int64_t f = 1; f < still.frames(); ++f)
     for (std::int64_t m = 0; m < still.markers(); ++m) still.x(f, m) = markers.x(0, m);
-  EXPECT_TRUE(contradictions_of(still, {.events = events(true)}).empty());
+  EXPECT_TRUE(contradictions_of(still, {.events = events(true)}).labels.empty());
 }
 
 // A stored event errs like any other: 40 ms late against plates, stances are uncertain by as much, and

@@ -167,6 +167,26 @@ TEST(MeasuredPathTest, OutliersAreLeftOutUnlessTheyAreKept) {
       << "the noise is that of the others";
 }
 
+TEST(MeasuredPathTest, FlickersBesideEachOtherAreNoAcceleration) {
+  constexpr double kFlicker_m = 3e-3;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SeriesMatrix x = testing::cycles_with(testing::white(6e-5), seed);
+    const auto clean = measure_paths(testing::recording_of(x, 100.0, 0.0, 1),
+                                     {.measures = {"peak_acceleration"}, .refits = 0});
+    for (const std::int64_t i : {60, 63, 150, 151, 240, 242, 330}) {
+      const double angle = 0.7 * static_cast<double>(i);
+      x(i, 0) += kFlicker_m * std::cos(angle), x(i, 1) += kFlicker_m * std::sin(angle);
+    }
+    const auto flickering = measure_paths(testing::recording_of(x, 100.0, 0.0, 1),
+                                          {.measures = {"peak_acceleration"}, .refits = 0});
+    ASSERT_TRUE(clean && flickering);
+    EXPECT_GE(flickering->noises.front().outliers, 7);
+    EXPECT_NEAR(flickering->measures.front().value, clean->measures.front().value,
+                0.05 * clean->measures.front().value)
+        << seed;
+  }
+}
+
 /// 0.06 m up and down once in 0.6 s: at the bottom the velocity turns round.
 Eigen::Vector3d tapping(double t) { return {0.06 * std::abs(std::sin(M_PI * (t - 0.4) / 0.6)), 0.0, 1.0}; }
 

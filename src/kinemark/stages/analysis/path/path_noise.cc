@@ -16,11 +16,12 @@ namespace {
 
 using math::SeriesMatrix;
 
-constexpr double kOutlier = 5.5;        // robust deviations of the residual over the axes
-constexpr double kFarOutlier = 8.0;     // the same, of spikes that the search for the noise leaves out
-constexpr double kMostOutliers = 0.06;  // of the samples
-constexpr std::int64_t kBeside = 2;     // samples of a spike, judged once more without it
-constexpr std::int64_t kWithin = 6;     // samples of one that is judged, where its neighbours must be
+constexpr double kOutlier = 5.5;         // robust deviations of the residual over the axes
+constexpr double kFarOutlier = 8.0;      // the same, of spikes that the search for the noise leaves out
+constexpr double kMostOutliers = 0.06;   // of the samples
+constexpr std::int64_t kBeside = 6;      // samples on each side of a spike, judged once more without it
+constexpr std::int64_t kMostBeside = 6;  // of them that go with it
+constexpr std::int64_t kWithin = 6;      // samples of one that is judged, where its neighbours must be
 constexpr double kOtherSide = 0.25;  // of an outlier's residual, that its neighbours have on the other side
 constexpr double kSlowLow_hz = 0.2, kSlowHigh_hz = 2.0;
 constexpr double kSlowUnknown = 2.5;    // 90 % over 10 % of the power
@@ -209,26 +210,46 @@ std::vector<bool> outliers_beyond(const SeriesMatrix& x, const std::vector<bool>
   return out;
 }
 
-}  // namespace
-
-std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector<bool>& seen) {
-  return outliers_beyond(x, seen, kOutlier);
-}
-
-std::vector<bool> without_spikes(const SeriesMatrix& x, const std::vector<bool>& seen) {
+// Spikes beside each other hide one another, and make a good sample between them look like one: around each,
+// the sample that lies farthest from those that are left goes first, until none lies off; those that lie well
+// come back. @return which samples are left
+std::vector<bool> left_beside(const SeriesMatrix& x, const std::vector<bool>& seen,
+                              const std::vector<bool>& spikes) {
   constexpr double kCubicSquares = 70.0 / 36.0;  // of the weights of a sample and its four neighbours
-  const auto spikes = outliers_beyond(x, seen, kFarOutlier);
   std::vector<bool> out = seen;
   for (std::int64_t i = 0; i < x.rows(); ++i) out[at(i)] = seen[at(i)] && !spikes[at(i)];
   const auto rest = off_cubic(x, out);
   if (rest.scale.size() == 0) return out;
   const Eigen::RowVectorXd scale = rest.scale / std::sqrt(kCubicSquares);
+  const auto distance = [&](std::int64_t k) { return distance_from(neighbours_of(k, out), x, k, scale); };
   for (std::int64_t i = 0; i < x.rows(); ++i) {
     if (!spikes[at(i)]) continue;
-    for (auto k = std::max<std::int64_t>(0, i - kBeside); k <= std::min(x.rows() - 1, i + kBeside); ++k)
-      if (out[at(k)] && distance_from(neighbours_of(k, out), x, k, scale) > kOutlier) out[at(k)] = false;
+    const auto first = std::max<std::int64_t>(0, i - kBeside), last = std::min(x.rows() - 1, i + kBeside);
+    for (std::int64_t taken = 0; taken < kMostBeside; ++taken) {
+      std::int64_t farthest = -1;
+      double most = kOutlier;
+      for (auto k = first; k <= last; ++k)
+        if (const double d = out[at(k)] ? distance(k) : 0.0; d > most) most = d, farthest = k;
+      if (farthest < 0) break;
+      out[at(farthest)] = false;
+    }
+    for (auto k = first; k <= last; ++k)
+      if (seen[at(k)] && !out[at(k)] && distance(k) <= kOutlier) out[at(k)] = true;
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<bool> single_frame_outliers(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  auto out = outliers_beyond(x, seen, kOutlier);
+  const auto left = left_beside(x, seen, out);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = seen[i] && !left[i];
+  return out;
+}
+
+std::vector<bool> without_spikes(const SeriesMatrix& x, const std::vector<bool>& seen) {
+  return left_beside(x, seen, outliers_beyond(x, seen, kFarOutlier));
 }
 
 double rounding_step(const SeriesMatrix& x, const std::vector<bool>& seen) {

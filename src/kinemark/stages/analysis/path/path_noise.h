@@ -76,13 +76,14 @@ struct NoiseKnown {
 };
 
 /// Single frames that lie far from the cubic through their neighbours while these lie on the other side of
-/// theirs, as one wrong sample makes them: what moves does not. None where they are more than 6 % of all.
+/// theirs, as one wrong sample makes them: what moves does not. Then those beside them that lie as far from
+/// what is left, up to six frames away. None where the first are more than 6 % of all.
 [[nodiscard]] std::vector<bool> single_frame_outliers(const math::SeriesMatrix& x,
                                                       const std::vector<bool>& seen);
 
 /// Samples to search for the noise: the seen ones without spikes, which lie 8 deviations off
-/// (single_frame_outliers takes 5.5), and without samples beside a spike that lie 5.5 off once it is left
-/// out.
+/// (single_frame_outliers takes 5.5), and without samples beside a spike that lie 5.5 off what is left
+/// without it.
 ///
 /// Noise with heavy tails has samples between 5.5 and 8. They are left out where they stand against their
 /// neighbours, and kept where they go with them: what is left of white noise is then correlated.

@@ -4,12 +4,11 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "kinemark/camera/light.h"
 #include "kinemark/camera/usable.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
@@ -23,9 +22,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Status check_shapes(const data::Counts& counts, const data::Rig& rig, const data::Trajectories& start) {
+Status check_shapes(const data::Counts& counts, std::span<const data::Rig> rigs,
+                    const data::Trajectories& start) {
   if (auto s = counts.validate(); !s) return s;
-  if (auto s = data::check_same_rig(counts, rig); !s) return s;
+  if (rigs.size() != 1 && rigs.size() != counts.leds.size())
+    return fail(Code::bad_input, fmt::format("{} rigs for {} LEDs; one for all or one each was expected",
+                                             rigs.size(), counts.led_count()));
+  for (const auto& rig : rigs)
+    if (auto s = data::check_same_rig(counts, rig); !s) return s;
   if (start.names != counts.leds || start.frames() != counts.frames())
     return fail(Code::bad_input,
                 fmt::format("{} markers in {} frames to start from do not fit {} LEDs in {} frames",
@@ -73,28 +77,12 @@ std::vector<Stretch> stretches(const data::Counts& counts, const std::vector<std
   return out;
 }
 
-/// Cosine and sine of the flicker in the dark slot of each camera; empty without one.
+/// Cosine and sine of the flicker in the dark slot of each camera; 0 where it is not found.
 std::vector<Vector2d> dark_flicker(const data::Counts& counts, double hz) {
   std::vector<Vector2d> out;
-  if (!counts.has_dark_slot() || counts.frames() < 16) return out;
-  const double omega = 2.0 * std::numbers::pi * hz;
   for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
-    // Each channel has an offset of its own; the flicker is common.
-    Eigen::Matrix<double, 6, 6> square = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-    for (std::int64_t f = 0; f < counts.frames(); ++f) {
-      const Eigen::Vector4d read = counts.dark_at(f, c), offset = counts.dark_offset_s(c);
-      for (int k = 0; k < 4; ++k) {
-        const double phase = omega * (counts.time.time_s(f) + offset[k]);
-        Eigen::Matrix<double, 6, 1> row = Eigen::Matrix<double, 6, 1>::Zero();
-        row[k] = 1.0, row[4] = std::cos(phase), row[5] = std::sin(phase);
-        square += row * row.transpose();
-        right += row * read[k];
-      }
-    }
-    const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(square);
-    const Eigen::Matrix<double, 6, 1> found = lu.solve(right);
-    out.push_back(lu.isInvertible() ? Vector2d(found.tail<2>()) : Vector2d::Zero());
+    const auto found = camera::dark_slot(counts, c, hz);
+    out.push_back(found ? found->flicker : Vector2d::Zero());
   }
   return out;
 }
@@ -161,10 +149,10 @@ Status SmoothCountsOptions::check() const {
   return {};
 }
 
-Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig& rig,
+Result<SmoothedCounts> smooth_counts(const data::Counts& counts, std::span<const data::Rig> rigs,
                                      const data::Trajectories& start, const SmoothCountsOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
-  if (auto s = check_shapes(counts, rig, start); !s) return std::unexpected(s.error());
+  if (auto s = check_shapes(counts, rigs, start); !s) return std::unexpected(s.error());
   const auto usable = camera::usable_views(counts, options.dim_share);
   const auto dark = options.flicker == Flicker::dark_slot ? dark_flicker(counts, options.flicker_hz)
                                                           : std::vector<Vector2d>{};
@@ -178,6 +166,7 @@ Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig
       const auto from = bridge(start, led);
       if (from.empty()) continue;
       for (const auto& [first, last] : stretches(counts, usable, led, options.longest_gap_s)) {
+        const auto& rig = rigs.size() == 1 ? rigs.front() : rigs[static_cast<std::size_t>(led)];
         internal::LedPath path(counts, rig, led, first, last, from, usable, options);
         for (std::size_t c = 0; c < dark.size(); ++c) path.remove_flicker(static_cast<int>(c), dark[c]);
         path.run();

@@ -3,6 +3,7 @@
 // Paths directly from counts: every conversion is used at its own time.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,10 +79,19 @@ struct SmoothedCounts {
 /// risk.
 ///
 /// @param start  F x L points to begin from (reconstruct()), right to a centimetre or so; missing ones are
-/// bridged Fails when shapes disagree. An LED without two complete observations stays missing. Cost: about 50
+/// bridged
+/// @param rigs   one for all LEDs, or one each, as its light shows it (camera::with_light())
+/// Fails when shapes disagree. An LED without two complete observations stays missing. Cost: about 50
 /// us per frame and LED. Theory: docs/theory/reconstruction.md
-[[nodiscard]] Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig& rig,
+[[nodiscard]] Result<SmoothedCounts> smooth_counts(const data::Counts& counts,
+                                                   std::span<const data::Rig> rigs,
                                                    const data::Trajectories& start,
                                                    const SmoothCountsOptions& options = {});
+/// The same with one rig for all LEDs.
+[[nodiscard]] inline Result<SmoothedCounts> smooth_counts(const data::Counts& counts, const data::Rig& rig,
+                                                          const data::Trajectories& start,
+                                                          const SmoothCountsOptions& options = {}) {
+  return smooth_counts(counts, std::span(&rig, 1), start, options);
+}
 
 }  // namespace kinemark::trajectory

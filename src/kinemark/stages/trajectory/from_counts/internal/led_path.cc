@@ -12,6 +12,7 @@
 
 #include "kinemark/camera/noise.h"
 #include "kinemark/camera/response.h"
+#include "kinemark/camera/usable.h"
 #include "kinemark/math/scale_free.h"
 #include "kinemark/math/wiener_smoother.h"
 
@@ -45,7 +46,9 @@ LedPath::LedPath(const data::Counts& counts, const data::Rig& rig, std::int64_t 
       const auto camera = static_cast<std::int64_t>(c);
       View& v = view(k, c);
       v.usable = usable[counts.index(frame, led, camera)] != 0;
-      v.readings = counts.at(frame, led, camera) - rig.cameras[c].detector.offset_counts;
+      const Vector4d read = counts.at(frame, led, camera);
+      v.keep = camera::kept_channels(read, counts.highest_code);
+      v.readings = v.keep.cwiseProduct(read - rig.cameras[c].detector.offset_counts);
       v.dt = counts.offset_s(led, camera).array() - delay - epoch_s_;
       v.variance = camera::conversion_variance(rig.electronics, std::max(0.0, v.readings.mean()));
     }
@@ -61,7 +64,7 @@ void LedPath::remove_flicker(int camera, const Vector2d& cos_sin) {
     View& v = view(k, c);
     for (int i = 0; i < 4; ++i) {
       const double phase = omega * (time_s_[k] + epoch_s_ + v.dt[i] + delay);
-      v.readings[i] -= cos_sin.x() * std::cos(phase) + cos_sin.y() * std::sin(phase);
+      v.readings[i] -= v.keep[i] * (cos_sin.x() * std::cos(phase) + cos_sin.y() * std::sin(phase));
     }
   }
   flicker_[c] += cos_sin;
@@ -74,8 +77,8 @@ void LedPath::linearize(const data::Camera& camera, View& v, const Vector3d& x) 
   constexpr double kStraight_m = 1e-3;
   if (v.linear && (x - v.at).squaredNorm() < kStraight_m * kStraight_m) return;
   const auto response = camera::respond(camera, x);
-  v.phi = response.phi;
-  v.d_point = response.d_point;
+  v.phi = v.keep.cwiseProduct(response.phi);
+  v.d_point = v.keep.asDiagonal() * response.d_point;
   v.at = x;
   v.linear = response.in_front;
 }
@@ -130,7 +133,7 @@ void LedPath::regress_flicker() {
       Eigen::Matrix<double, 4, 2> waves;
       for (int i = 0; i < 4; ++i) {
         const double phase = omega * (time_s_[k] + epoch_s_ + v.dt[i] + delay);
-        waves.row(i) << std::cos(phase), std::sin(phase);
+        waves.row(i) << v.keep[i] * std::cos(phase), v.keep[i] * std::sin(phase);
       }
       const Eigen::Matrix<double, 3, 2> seen = left.basis * waves;
       square += v.weight * seen.transpose() * seen;
@@ -256,7 +259,7 @@ void LedPath::run() {
 }
 
 void LedPath::conclude() {
-  double sum = 0.0;
+  double sum = 0.0, freedom = 0.0;
   for (std::size_t k = 0; k < frames_; ++k)
     for (std::size_t c = 0; c < cameras_; ++c) {
       const View& v = view(k, c);
@@ -267,10 +270,11 @@ void LedPath::conclude() {
       result_[k].seen = true;
       ++fit_.observations;
       sum += v.chi2;
+      freedom += v.keep.sum() - 1.0;
     }
   // Estimating each frame's point separately uses two of six residuals; the path uses far fewer degrees of
   // freedom.
-  fit_.chi2_per_dof = fit_.observations > 0 ? sum / (3.0 * static_cast<double>(fit_.observations)) : 0.0;
+  fit_.chi2_per_dof = fit_.observations > 0 ? sum / freedom : 0.0;
   fit_.bandwidth = bandwidth_;
 }
 

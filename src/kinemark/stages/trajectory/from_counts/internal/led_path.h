@@ -44,7 +44,8 @@ class LedPath {
   /// One camera's view of one frame.
   struct View {
     Eigen::Vector4d readings, dt;  // offset and flicker removed; conversion times from the frame's epoch, s
-    Eigen::Vector4d phi;           // response at `at`
+    Eigen::Vector4d keep;          // 0 for a channel at the highest code, 1 for the others
+    Eigen::Vector4d phi;           // response at `at`, of kept channels
     Eigen::Matrix<double, 4, 3> d_point;
     Eigen::Vector3d at;
     double variance = 1.0, weight = 1.0, chi2 = 0.0;

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/markers/foreign_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace kinemark::io {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(ForeignText, IsKnownByItsWords) {
+  for (const char* text :
+       {"#Kinovea Trajectory data export\n#T X Y\n", "Time (ms);Trajectory 1/0/X;Trajectory 1/0/Y\n",
+        "<?xml version=\"1.0\"?>\n<KinoveaVideoAnalysis>\n"})
+    EXPECT_THAT(foreign_text(text), HasSubstr("Kinovea followed in the image of one camera")) << text;
+  EXPECT_THAT(foreign_text("<?xml version=\"1.0\"?>\n<mvnx version=\"4\">"), HasSubstr("MVNX file of Xsens"));
+  EXPECT_THAT(foreign_text("BioWare Version 5.6.1.0 Export\nDevice:\tA\n"), HasSubstr("export them as C3D"));
+  for (const char* text :
+       {"Time (s),W,X,Y,Z\n0,1,0,0,0\n", "t,q0,q1,q2,q3\n0 , 1,0,0,0\n", "time;qw;qx;qy;qz\n0,5;1;0;0;0\n",
+        "// Start Time: 0\nCounter\tAcc_X\tGyr_X\tQuat_w\tQuat_x\n 2552\t4.3\t0.05\t0.5\t0.7\t\n"})
+    EXPECT_THAT(foreign_text(text), HasSubstr("ik --orientations' takes a table")) << text;
+  EXPECT_THAT(foreign_text("Counter\tAcc_X\tAcc_Y\tGyr_X\n1\t2\t3\t4\n"),
+              HasSubstr("orientations made of them"));
+  EXPECT_THAT(foreign_text("X [s],Sensor 1: EMG 1 [V]\n0.0,1e-5\n"), HasSubstr("it holds EMG"));
+}
+
+TEST(ForeignText, OtherTextsAreNotSpokenOf) {
+  for (const char* text :
+       {"", "time,LASI_X,LASI_Y,LASI_Z\n", "trajectory of a comet\n1,2\n", "w,x,y\n", "accession,number\n",
+        "A case, with EMG, and words on Kinovea\n\nThe quaternions w, x, y, z\n", "a,b,c\n1,2,3\n",
+        "time,hip,knee\n"})
+    EXPECT_THAT(foreign_text(text), IsEmpty()) << text;
+}
+
+}  // namespace
+}  // namespace kinemark::io

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What people write above the columns of a table of coordinates, and which columns belong to one marker.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemark/io/text/internal/cells.h"
+
+namespace kinemark::io::internal {
+
+/// A label in its parts: "LASI_X (mm)" is of marker LASI, axis 0, in mm; "Time [s]" is a time in s.
+struct CoordinateLabel {
+  static constexpr int kW = 3;
+
+  std::string name;                ///< of the marker, or the whole label
+  int axis = -1;                   ///< 0, 1, 2 of x, y, z; kW of the fourth of a quaternion; negative: none
+  std::string unit;                ///< empty: none stated
+  bool of_d_flow = false;          ///< "LASI.PosX"
+  bool is_frame = false;           ///< number of the frame
+  double units_per_second = 0.0;   ///< 1000 of a time in ms; 0: no time
+  bool is_time_unit_open = false;  ///< a time whose unit nothing states: seconds, if they look like it
+  std::int32_t marker = -1;        ///< of a coordinate: index of its marker
+};
+
+/// The labels of a table, and where they stand.
+struct CoordinateLabels {
+  std::vector<CoordinateLabel> columns;  ///< empty: no table of coordinates
+  std::vector<std::string> names;        ///< of the markers; "" of x, y and z alone
+  std::vector<std::string> units;        ///< a line of units above the axes, a cell a column; may be empty
+};
+
+/// A label by itself: "LASI_X", "LASI.x", "x_LASI", "LASI[X]", "LASI X (mm)", "LASI_pos_x", "LASI/X_mm". What
+/// is of the same marker is not known yet.
+[[nodiscard]] CoordinateLabel coordinate_label(std::string_view cell);
+
+/// The labels of the table that begins here: in one line, or names above a line of x, y and z with other
+/// lines between, and with titles or comments before it. Columns of one marker may stand in any order.
+/// `lines` is then at the last line of labels. Nothing where no marker has all of x, y and z, or where most
+/// columns are others and the first is none of a marker.
+[[nodiscard]] CoordinateLabels read_coordinate_labels(Lines& lines);
+
+/// Cells of a line between tabs, else between commas, without quotes. False: a quote is open at its end.
+[[nodiscard]] bool split_labels(std::string_view line, std::vector<std::string>& cells);
+
+}  // namespace kinemark::io::internal

@@ -1,0 +1,339 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files as strangers bring them, of the kinds of cases.py, with what is right known beforehand: tables under labels of every hand, texts
+of other programs, arrays of MATLAB, C3D files whose plates lie oddly or that hold no markers. Each is read right, or refused with what to do.
+
+    tests/acceptance/strangers.py [NAME...]
+
+Nothing of kinemark is used but the program. Needs KINEMARK_PROGRAM; finds the cases beside KINEMARK_TEST_DATA. Prints rows
+"PASS|FAIL|SKIP | check | asked | measured"; exit status 1 when one fails.
+"""
+
+import json
+import math
+import random
+import struct
+import sys
+
+from cases import CASES, HERE, cells, plain, positions, run, said, same, table, written
+from plates import parameter
+
+CHECKS = []
+
+
+def stranger(asked):
+    """A check: a function that returns (whether it is right, what was seen)."""
+
+    def register(function):
+        CHECKS.append((function.__name__.replace("_", "-"), asked, function))
+        return function
+
+    return register
+
+
+def all_same(files, *options):
+    """Whether each (name, text) is read as the plain file; the names of those that are not."""
+    wrong = [(name, seen) for name, text in files for good, seen in [same(written(name, text), plain(), 1e-3, *options)] if not good]
+    return not wrong, f"{len(files) - len(wrong)} of {len(files)} the same{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+def csv(label, axes="XYZ", first="time", before="", rows=None, scale=1.0):
+    """A table of the plain samples; `label` is formatted with n, the marker, a and l, its axis in capital and small letters."""
+    names, times, values = cells()
+    order = ["XYZ".index(a) for a in axes]
+    labels = [label.format(n=n, a=a, l=a.lower()) for n in names for a in axes]
+    lines = [",".join([repr(float(t) * scale), *((rows or values)[f][3 * m + k] for m in range(len(names)) for k in order)]) for f, t in enumerate(times)]
+    return before + ",".join([first, *labels]) + "\n" + "\n".join(lines) + "\n"
+
+
+def trc(labels=None, times=None, rows=None, rate="100"):
+    lines = plain().read_text().splitlines()
+    head = lines[:5]
+    head[2] = head[2].replace("100", rate)
+    if labels:
+        head[4] = "\t\t" + "\t".join(labels)
+    body = [line.split("\t") for line in lines[5:] if line.strip()]
+    for f, row in enumerate(body):
+        if times:
+            row[1] = times[f]
+        if rows:
+            row[2:] = rows[f]
+    return "\n".join([*head, "", *("\t".join(row) for row in body)]) + "\n"
+
+
+# --- texts ---
+
+
+@stranger("each read as the plain file")
+def labels_of_every_hand():
+    styles = ("{n}_{a}", "{n}.{l}", "{n} {a}", "{n}({a})", "{n}[{a}]", "{l}_{n}", "{a} {n}", "{n}/{a}", "{n}|{l}", "{n}{a}", "{n}_pos_{l}",
+              "{n}.position.{l}", "{n}_Pos{a}", "{n} - {a}", "{n}__{l}", "{n}_{a}_mm", "{n}_{l} (mm)")  # fmt: skip
+    return all_same([(f"labels{i}.csv", csv(style)) for i, style in enumerate(styles)], "--unit", "mm")
+
+
+@stranger("each axis where its label says")
+def axes_in_any_order():
+    names, times, values = cells()
+    by_axis = ",".join(["time", *(f"{n}_{a}" for a in "XYZ" for n in names)]) + "\n"
+    by_axis += "".join(",".join([t, *(row[3 * m + k] for k in range(3) for m in range(len(names)))]) + "\n" for t, row in zip(times, values))
+    swapped = [[row[3 * m + k] for m in range(len(names)) for k in (0, 2, 1)] for row in values]
+    good, seen = all_same([("xzy.csv", csv("{n}_{a}", "XZY")), ("by_axis.csv", by_axis)], "--unit", "mm")
+    fine, found = all_same([("xzy.trc", trc([f"{a}{m + 1}" for m in range(len(names)) for a in "XZY"], rows=swapped))])
+    return good and fine, f"{seen}; TRC {found}"
+
+
+@stranger("titles, comments and lines of units or scorers passed over")
+def lines_above_the_labels():
+    names, times, values = cells()
+    rows = "".join(f"{t},{','.join(row)}\n" for t, row in zip(times, values))
+    three = ",".join(["", *(n for n in names for _ in "xyz")])
+    frames = "".join(f"{f},{','.join(row)}\n" for f, row in enumerate(values))
+    deeplabcut = f"scorer{',net' * 9}\nbodyparts{three}\ncoords{',x,y,z' * 3}\n{frames}"
+    good, seen = all_same([("titles.csv", csv("{n}_{a}", before="Subject: A\nDate: today\n\n")), ("notes.csv", csv("{n}_{a}", before="# 100 Hz\n# mm\n"))], "--unit", "mm")
+    fine, found = all_same([("units.csv", f"Name{three}\nunits{',mm' * 9}\ntime{',x,y,z' * 3}\n{rows}")])
+    pose, there = all_same([("pose_DLC_3D.csv", deeplabcut)], "--unit", "mm", "--rate", "100")
+    return good and fine and pose, f"{seen}; units {found}; DeepLabCut {there}"
+
+
+@stranger("ms, us and other languages read; what may be either asked about")
+def times_of_every_clock():
+    good, seen = all_same([("ms.csv", csv("{n}_{a}", first="Time (ms)", scale=1e3)), ("us.csv", csv("{n}_{a}", first="Timestamp (us)", scale=1e6)),
+                           ("fr.csv", csv("{n}_{a}", first="Temps (s)")), ("de.csv", csv("{n}_{a}", first="Zeit [s]"))], "--unit", "mm")  # fmt: skip
+    asked = run("info", written("open.csv", csv("{n}_{a}", scale=1e3)), "--unit", "mm")
+    fine, found = all_same([("ms.trc", trc(times=[f"{10 * f}" for f in range(60)]))])
+    return good and fine and asked.returncode == 3 and "time_ms" in asked.stderr, f"{seen}; TRC {found}; unsaid: {said(asked)[-90:]}"
+
+
+@stranger("not there, never a place")
+def words_and_nines_for_nothing():
+    names, times, values = cells()
+    wrong, tried = [], 0
+    for word in ("NaN", "NA", "N/A", "#N/A", "None", "null", "-", "", "1.#QNAN", "-9999", "999999"):
+        rows = [[word] * 3 + row[3:] if f % 7 == 3 else row for f, row in enumerate(values)]
+        for name, text, options in (("gaps.csv", csv("{n}_{a}", rows=rows), ("--unit", "mm")), ("gaps.trc", trc(rows=rows), ())):
+            tried += 1
+            read = positions(written(name, text), *options)
+            if isinstance(read, str) or [p is None for p in read[names[0]]] != [f % 7 == 3 for f in range(len(times))]:
+                wrong.append((word, name, read if isinstance(read, str) else "read as a place"))
+    return not wrong, f"{tried - len(wrong)} of {tried} right{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+@stranger("one line a sample under other labels, read")
+def long_tables():
+    names, times, values = cells()
+    rows = [(f, t, n, values[f][3 * m : 3 * m + 3]) for f, t in enumerate(times) for m, n in enumerate(names)]
+    one = "Frame,Time (ms),Name,X (mm),Y (mm),Z (mm)\n" + "".join(f"{f + 1},{1e3 * float(t):.3f},{n},{','.join(x)}\n" for f, t, n, x in rows)
+    two = "t,bodypart,x,y,z,score\n" + "".join(f"{t},{n},{','.join(x)},0.9\n" for _, t, n, x in sorted(rows, key=lambda row: names.index(row[2])))
+    good, seen = all_same([("long.csv", one)])
+    fine, found = all_same([("longer.csv", two)], "--unit", "mm")
+    return good and fine, f"{seen}; by marker {found}"
+
+
+@stranger("no markers: refused")
+def outputs_of_models_and_plates():
+    times = cells()[1]
+    labels = ("LHipAngles_X,LHipAngles_Y,LHipAngles_Z", "F_X,F_Y,F_Z", "FP1_Fx,FP1_Fy,FP1_Fz", "ground_force_vx,ground_force_vy,ground_force_vz", "LKneeMoment.x,LKneeMoment.y,LKneeMoment.z",
+              "pelvis_w,pelvis_x,pelvis_y,pelvis_z", "acc_x,acc_y,acc_z", "A_vx,A_vy,A_vz")  # fmt: skip
+    taken = []
+    for line in labels:
+        width = line.count(",") + 1
+        path = written("other.csv", f"time,{line}\n" + "".join(f"{t}{',0.5' * (width - 1)},{f}\n" for f, t in enumerate(times)))
+        if run("info", path, "--unit", "mm").returncode != 3:
+            taken.append(line)
+    return not taken, f"{len(labels) - len(taken)} of {len(labels)} refused{': not ' + taken[0] if taken else ''}"
+
+
+@stranger("what is wrong with the file, not with --unit")
+def a_unit_for_what_is_no_recording():
+    done = run("info", written("odd.csv", "t,alpha,beta\n0,1,2\n0.01,1,2\n"), "--unit", "mm")
+    return done.returncode == 3 and "none of its 3 columns is a position" in done.stderr, said(done)
+
+
+@stranger("what each holds and what to do")
+def texts_that_hold_something_else():
+    texts = (("k.csv", "Time (ms);Trajectory 1/0/X;Trajectory 1/0/Y\n0;1;2\n", "one camera"), ("k.kva", "<?xml?>\n<KinoveaVideoAnalysis/>\n", "one camera"),
+             ("m.mvnx", "<?xml?>\n<mvnx version='4'/>\n", "C3D"), ("b.txt", "BioWare Version 5.6.1.0 Export\nDevice:\tA\n", "C3D"),
+             ("q.csv", "Time (s),W,X,Y,Z\n0,1,0,0,0\n0.02,1,0,0,0\n", "--orientations"), ("a.csv", "t,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z\n0,1,2,3,4,5,6\n", "inertial sensor"))  # fmt: skip
+    wrong = [(name, said(done)) for name, text, word in texts for done in [run("info", written(name, text))] if done.returncode != 3 or word not in done.stderr]
+    return not wrong, f"{len(texts) - len(wrong)} of {len(texts)} said{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+@stranger("read by its content, 0.01 mm")
+def visual3d_text_called_txt():
+    names, times, values = cells()
+    rows = ["\t" + "\t".join("f.c3d" for _ in range(9)), "\t" + "\t".join(n for n in names for _ in "xyz"), "\t" + "\t".join(["TARGET"] * 9), "\t" + "\t".join(["ORIGINAL"] * 9),
+            "ITEM" + "\tX\tY\tZ" * 3]  # fmt: skip
+    rows += [f"{f + 1}\t" + "\t".join(f"{float(v) / 1e3:.7f}" for v in row) for f, row in enumerate(values)]
+    return same(written("v3d.txt", "\n".join(rows) + "\n"), plain(), 0.01, "--rate", "100")
+
+
+# --- arrays of MATLAB ---
+
+
+def element(kind, data):
+    return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
+
+
+def matrix(name, kind, dims, content):
+    body = element(6, struct.pack("<II", kind, 0)) + element(5, struct.pack(f"<{len(dims)}i", *dims)) + element(1, name.encode()) + content
+    return struct.pack("<II", 14, len(body)) + body
+
+
+def doubles(name, dims, values):
+    return matrix(name, 6, dims, element(9, struct.pack(f"<{len(values)}d", *values)))
+
+
+def words(name, text):
+    return matrix(name, 4, (1, len(text)), element(16, text.encode()))
+
+
+def mat(name, *variables):
+    (HERE / name).write_bytes(b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"".join(variables))
+    return HERE / name
+
+
+@stranger("variables, 3 x frames, a struct of paths, and one table with labels: the plain samples")
+def plain_arrays_of_matlab():
+    names, times, values = cells()
+    frames, count = len(times), len(names)
+    path = lambda m, k: [float(values[f][3 * m + k]) for f in range(frames)]  # noqa: E731
+    upright = [doubles(n, (frames, 3), [v for k in range(3) for v in path(m, k)]) for m, n in enumerate(names)]
+    lying = [doubles(n, (3, frames), [float(values[f][3 * m + k]) for f in range(frames) for k in range(3)]) for m, n in enumerate(names)]
+    rate, unit, clock = doubles("fs", (1, 1), [100.0]), words("unit", "mm"), doubles("t", (frames, 1), [float(t) for t in times])
+    width = max(map(len, names)) + 1
+    fields = element(5, struct.pack("<i", width)) + element(1, b"".join(n.encode().ljust(width, b"\0") for n in names))
+    inside = b"".join(doubles("", (frames, 3), [v for k in range(3) for v in path(m, k)]) for m in range(count))
+    struct_of_paths = matrix("markers", 2, (1, 1), fields + inside)
+    labels = matrix("labels", 1, (1, count), b"".join(words("", n) for n in names))
+    whole = doubles("data", (frames, 3 * count), [v for m in range(count) for k in range(3) for v in path(m, k)])
+    files = [mat("paths.mat", *upright, rate, unit), mat("lying.mat", *lying, clock, unit), mat("struct.mat", struct_of_paths, rate, unit), mat("table.mat", whole, labels, rate, unit)]
+    wrong = [(file.name, seen) for file in files for good, seen in [same(file, plain(), 1e-3)] if not good]
+    other = run("info", mat("force.mat", doubles("force", (frames, 3), [1.0] * 3 * frames), rate, unit))
+    return not wrong and other.returncode == 3, f"{len(files) - len(wrong)} of {len(files)} the same{': not ' + str(wrong[0]) if wrong else ''}; a force alone: exit {other.returncode}"
+
+
+# --- C3D ---
+
+
+def c3d(name, points, analog, labels, units, per_frame, platform=(), length="mm"):
+    """A file of points (frames of lists of x, y, z) and analog samples (rows), both in the units that it states."""
+    frames, count, channels = len(analog) // per_frame, len(points[0]) if points else 0, len(labels)
+    groups = {
+        "POINT": [("USED", 2, [], [count]), ("FRAMES", 2, [], [frames]), ("SCALE", 4, [], [-0.1]), ("RATE", 4, [], [100.0]), ("DATA_START", 2, [], [0]),
+                  ("UNITS", -1, [], [length]), ("LABELS", -1, [count], [f"M{m + 1}" for m in range(count)])],
+        "ANALOG": [("USED", 2, [], [channels]), ("RATE", 4, [], [100.0 * per_frame]), ("GEN_SCALE", 4, [], [1.0]), ("SCALE", 4, [channels], [1.0] * channels),
+                   ("OFFSET", 2, [channels], [0] * channels), ("UNITS", -1, [channels], units), ("LABELS", -1, [channels], labels)],
+    }  # fmt: skip
+    if platform:
+        groups["FORCE_PLATFORM"] = list(platform)
+    body = b""
+    for identity, (group, parameters) in enumerate(groups.items(), 1):
+        body += struct.pack("bb", len(group), -identity) + group.encode() + struct.pack("<h", 3) + b"\0"
+        for title, kind, dims, values in parameters:
+            if kind != -1 or values and any(values):
+                body += parameter("<", identity, title, kind, dims, values)
+    blocks = -(-(len(body) + 6) // 512)
+    at = body.index(b"DATA_START") + 10
+    body = body[: at + 4] + struct.pack("<h", blocks + 2) + body[at + 6 :]
+    section = (bytes([1, 80, blocks, 84]) + body).ljust(512 * blocks, b"\0")
+    head = struct.pack("<BB5hf2hf", 2, 80, count, channels * per_frame, 1, frames, 10, -0.1, blocks + 2, per_frame, 100.0).ljust(512, b"\0")
+    samples = b"".join(b"".join(struct.pack("<4f", *p, 0.0) for p in (points[f] if points else ())) +
+                       b"".join(struct.pack(f"<{channels}f", *row) for row in analog[f * per_frame : (f + 1) * per_frame]) for f in range(frames))  # fmt: skip
+    (HERE / name).write_bytes(head + section + samples)
+    return HERE / name
+
+
+CORNERS = [[464.0, 508.0, 0.0], [0.0, 508.0, 0.0], [0.0, 0.0, 0.0], [464.0, 0.0, 0.0]]  # mm; the plate's z points up
+FORCE, POINT = (30.0, -20.0, 700.0), (332.0, 204.0, 0.0)
+
+
+def plates(name, corners, markers=True, length="mm", dims=None, origin=(0.0, 0.0, -40.0)):
+    """As many plates as lists of corners: the force of FORCE at POINT on the first, which is CORNERS, in the middle half of the time."""
+    x, y = POINT[0] - 232.0, POINT[1] - 254.0
+    z = -40.0  # from the sensors to the surface, by ORIGIN
+    moment = (y * FORCE[2] - z * FORCE[1], z * FORCE[0] - x * FORCE[2], x * FORCE[1] - y * FORCE[0])
+    loaded, rest = [*FORCE, *moment] + [0.0] * 6 * (len(corners) - 1), [0.0] * 6 * len(corners)
+    analog = [loaded if 10 <= f // 2 < 30 else rest for f in range(80)]
+    metres = 0.001 if length == "mm" else 1.0
+    point = [[v * 0.001 / metres for v in (232.0, 254.0, 1000.0)]]
+    n = len(corners)
+    platform = [("USED", 2, [], [n]), ("TYPE", 2, [n], [2] * n), ("ZERO", 2, [2], [0, 0]), ("CORNERS", 4, dims or [3, 4, n], [v for plate in corners for v in plate]),
+                ("ORIGIN", 4, [3, n], list(origin) * n), ("CHANNEL", 2, [6, n], list(range(1, 6 * n + 1)))]  # fmt: skip
+    labels = [f"{part}{i + 1}" for i in range(n) for part in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
+    return c3d(name, [point] * 40 if markers else None, analog, labels, (["N"] * 3 + ["Nmm"] * 3) * n, 2, platform, length)
+
+
+def loaded_right(path):
+    done = run("convert", path, HERE / "forces.mot", "--force")
+    if done.returncode != 0:
+        return False, said(done)
+    names, rows = table(HERE / "forces.mot")
+    row = rows[len(rows) // 2]
+    force, point = row[1:4], [1e3 * v for v in row[4:7]]
+    return math.dist(force, FORCE) < 0.05 and math.dist(point, POINT) < 0.1, f"{', '.join(f'{v:.1f}' for v in force)} N at {', '.join(f'{v:.1f}' for v in point)} mm, {len(names) // 9} plates"
+
+
+def flat(corners, scale=1.0):
+    return [scale * v for corner in corners for v in corner]
+
+
+@stranger("force and point of the plate in every file")
+def corners_of_plates_as_they_come():
+    beside = [[c[0], c[1] + 600.0, c[2]] for c in CORNERS]
+    crossed = [beside[0], beside[1], beside[3], beside[2]]
+    turned = [CORNERS[c][k] for k in range(3) for c in range(4)]
+    files = [plates("good.c3d", [flat(CORNERS)]), plates("metres.c3d", [flat(CORNERS, 0.001)]), plates("millimetres.c3d", [flat(CORNERS)], length="m"),
+             plates("four.c3d", [turned], dims=[4, 3, 1]), plates("crossed.c3d", [flat(CORNERS), flat(crossed)]), plates("alone.c3d", [flat(CORNERS)], markers=False)]  # fmt: skip
+    found = [(file.stem, *loaded_right(file)) for file in files]
+    wrong = [(name, seen) for name, good, seen in found if not good]
+    both = "2 plates" in dict((name, seen) for name, _, seen in found)["crossed"]
+    return not wrong and both, f"{len(files) - len(wrong)} of {len(files)} right{': not ' + str(wrong[0]) if wrong else ''}; the crossed one is there: {both}"
+
+
+@stranger("EMG and plates measured by emg and analyze; paths need markers")
+def c3d_without_markers():
+    dice = random.Random(3)
+    samples = [[1e-4 * dice.gauss(0, 5 if i % 1000 < 300 else 1)] for i in range(4000)]
+    muscles = c3d("emg.c3d", None, samples, ["EMG1"], ["V"], 10)
+    alone = plates("plates.c3d", [flat(CORNERS)], markers=False)
+    found = {}
+    for name, words_of in {"emg": ("emg", muscles), "analyze": ("analyze", muscles), "plates": ("analyze", alone)}.items():
+        done = run(*words_of, "--refits", 0, "--json")
+        found[name] = [m["subject"] for m in json.loads(done.stdout)["measures"]] if done.returncode == 0 else said(done)
+    refused = run("measure", muscles)
+    good = "EMG1" in found["emg"] and "EMG1" in found["analyze"] and "plate 1" in found["plates"]
+    return good and refused.returncode == 3, f"{ {k: v if isinstance(v, str) else len(v) for k, v in found.items()} }; measure: exit {refused.returncode}"
+
+
+@stranger("the same amplitude in volts")
+def words_for_volts():
+    dice = random.Random(4)
+    volts = [1e-4 * dice.gauss(0, 5 if i % 1000 < 300 else 1) for i in range(4000)]
+    seen = {}
+    for unit, scale in (("V", 1.0), ("Volts", 1.0), ("mV", 1e3), ("millivolts", 1e3), ("uV", 1e6), ("Microvolt", 1e6)):
+        done = run("emg", c3d("volts.c3d", None, [[v * scale] for v in volts], ["EMG1"], [unit], 10), "--refits", 0, "--json")
+        measures = json.loads(done.stdout)["measures"] if done.returncode == 0 else []
+        seen[unit] = next((m["value"] for m in measures if m["measure"] == "emg_rms"), math.nan)
+    return all(abs(v - seen["V"]) < 1e-4 * seen["V"] for v in seen.values()), f"{seen['V']:.3g} V; {seen}"
+
+
+def main():
+    chosen, failed = sys.argv[1:], False
+    for name, asked, check in CHECKS:
+        if chosen and name not in chosen:
+            continue
+        if not CASES.is_dir():
+            print(f"SKIP | stranger {name} | {asked} | no {CASES.name} beside the recordings", flush=True)
+            continue
+        try:
+            good, seen = check()
+        except (KeyError, ValueError, IndexError, OSError, StopIteration) as error:
+            good, seen = False, f"{type(error).__name__}: {error}"
+        failed = failed or not good
+        print(f"{'PASS' if good else 'FAIL'} | stranger {name} | {asked} | {seen}", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
