@@ -40,13 +40,13 @@ void take_measured(workflow::Measured&& found, MeasuredRecording& out) {
 }
 
 // What is rested on: bodies by paths and walking, plates by loads (walking judges its own), events by spans.
-workflow::HeldFacts facts_of(const workflow::AskedMeasures& asked, const workflow::MeasureOptions& options) {
+workflow::HeldFacts facts_of(const workflow::AskedMeasures& asked) {
   const bool body = asked.paths || asked.walking;
   return {.size = body,
           .sides = body,
           .pairs = body,
           .plates = asked.forces && !asked.walking,
-          .events = !options.between.empty()};
+          .events = !asked.options.between.empty()};
 }
 
 // Curves over strides, or over the repetitions of the markers' own movements.
@@ -117,11 +117,11 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
     return fail(Code::usage, fmt::format("--forces: nothing that is asked for of {} is measured from forces",
                                          job.input.string()));
   const RecordingSource source{.path = job.input,
-                               .needs_samples = !asked->muscles && !asked->forces,
+                               .needs_samples = !asked.muscles && !asked.forces,
                                .record = true,
                                .plates = asked.uses_forces(),
                                .forces = job.forces,
-                               .facts = facts_of(*asked, options),
+                               .facts = facts_of(asked),
                                .force = job.force,
                                .seed = job.seed,
                                .threads = job.threads};
