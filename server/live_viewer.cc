@@ -14,7 +14,7 @@
 namespace kinemark::server {
 namespace {
 
-constexpr std::uint8_t kVersion = 1;
+constexpr std::uint8_t kLiveVersion = 1;
 constexpr std::size_t kDroppedAt = 4, kAnswerAt = 32;
 constexpr double kMostCounted = 9e15;  // whole numbers that a float64 holds
 
@@ -34,7 +34,7 @@ void put(std::string& out, float value) { put_bits(out, std::bit_cast<std::uint3
 
 std::string head(LiveKind kind, std::size_t count, double frame, double time_s, double due_s,
                  std::size_t body_bytes) {
-  std::string out{static_cast<char>(kind), static_cast<char>(kVersion)};
+  std::string out{static_cast<char>(kind), static_cast<char>(kLiveVersion)};
   out.reserve(kLiveHeadBytes + body_bytes);
   put_bits(out, static_cast<std::uint16_t>(count));
   put_bits(out, std::uint32_t{0});

@@ -57,7 +57,9 @@ class Bvh(CommandTest):
         self.refused(3, ["cut.bvh", "line 6"], "info", "cut.bvh")
         self.write("letters.bvh", BVH.replace("0 100 0 90", "0 100 0 left"))
         self.refused(3, ["letters.bvh", "line 20", "'left'"], "convert", "letters.bvh", "a.trc")
-        self.refused(2, "stores its own rate", "info", "cut.bvh", "--rate", "100")
+        self.refused(3, ["cut.bvh", "line 6"], "info", "cut.bvh", "--rate", "100")
+        self.write("whole.bvh", BVH)
+        self.refused(2, "stores its own rate", "info", "whole.bvh", "--rate", "100")
 
     def test_the_content_decides(self):
         self.write("walk.trc", BVH)

@@ -36,7 +36,7 @@ class Recordings(unittest.TestCase):
     def test_info_has_the_same_facts_for_programs_and_for_people(self):
         facts = json.loads(self.kinemark("info", "closed.mcap", "--json").out)
         expected = "file kind end bytes messages channels metadata frames rate_hz first_time_s rig dark_slot saturated occluded lost"
-        self.assertEqual(list(facts), [*expected.split(), "cameras", "labels", "warnings"])
+        self.assertEqual(list(facts), [*expected.split(), "cameras", "labels", "warnings", "contradicted"])
         lines = dict(line.split(maxsplit=1) for line in self.kinemark("info", "closed.mcap").out.splitlines() if len(line.split(maxsplit=1)) == 2)
         for key, value in facts.items():
             if key == "warnings" or value in ("", []):

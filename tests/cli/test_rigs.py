@@ -10,7 +10,7 @@ import unittest
 
 from support import CommandTest, report_data, run
 
-LED_KEYS = ["name", "frames", "located", "occluded", "saturated", "inconsistent", "near_edge"]
+LED_KEYS = ["name", "frames", "located", "occluded", "saturated", "inconsistent", "near_edge", "light", "light_sd", "light_source", "strength_counts"]
 FIT_KEYS = ["order", "cutoff_hz", "chi2_per_dof", "rejected", "held_down", "flicker_counts"]
 BUNDLE_KEYS = "method chi2_per_dof warp_degree crosstalk iterations poses sightings outliers side_rms_mm alignment written warnings".split()
 QUICK = ("--warp-degree", 6, "--no-crosstalk")

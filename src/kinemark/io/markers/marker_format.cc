@@ -50,11 +50,14 @@ bool begins_amc(std::string_view begin) {
   return begin.starts_with("#!OML:ASF") || begin.find(":FULLY-SPECIFIED") != std::string_view::npos;
 }
 
-/// The fifth line of Visual3D's text is that of its axes.
+/// The fifth line of Visual3D's text is that of its axes. One that was cut before it still begins with an
+/// empty cell and the C3D that each column is from.
 bool begins_v3d(std::string_view begin) {
+  const auto first = begin.substr(0, begin.find('\n'));
+  const bool of_c3d = first.starts_with('\t') && first.find(".c3d") != std::string_view::npos;
   for (int line = 1; line < 5; ++line) {
     const auto end = begin.find('\n');
-    if (end == std::string_view::npos) return false;
+    if (end == std::string_view::npos) return of_c3d;
     begin.remove_prefix(end + 1);
   }
   return begin.starts_with("ITEM\t");

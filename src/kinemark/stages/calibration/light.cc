@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kinemark/camera/response.h"
 #include "kinemark/core/check.h"
@@ -62,8 +63,9 @@ struct Constants {
 /// is 1 in the mean. Directions are fixed in the frame that `to_camera` is in.
 Constants fit_constants(const std::vector<Sight>& sights, std::size_t leds, std::size_t cameras,
                         Vector3d Sight::* to_camera) {
-  constexpr int kTurns = 20;
-  constexpr double kFacing = 0.05;  // sights that the prior, an LED that faces the cameras, weighs
+  constexpr int kTurns = 5000;       // directions that stay in the room part from the constants slowly
+  constexpr double kSettled = 1e-9;  // of a constant, from one turn to the next
+  constexpr double kFacing = 0.05;   // sights that the prior, an LED that faces the cameras, weighs
   Constants out{.constant = std::vector<double>(cameras, 1.0)};
   std::vector<Vector3d> shining(leds, Vector3d::Zero());
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -91,7 +93,12 @@ Constants fit_constants(const std::vector<Sight>& sights, std::size_t leds, std:
       const double seen = shining[at(s.led)].dot(s.*to_camera);
       above[at(s.camera)] += s.light * seen, below[at(s.camera)] += seen * seen;
     }
-    for (std::size_t c = 0; c < cameras; ++c) out.constant[c] = above[c] / below[c];
+    double change = 0.0;
+    for (std::size_t c = 0; c < cameras; ++c) {
+      const double before = std::exchange(out.constant[c], above[c] / below[c]);
+      change = std::max(change, std::abs(out.constant[c] / before - 1.0));
+    }
+    if (change < kSettled) break;
   }
   for (const auto& s : sights)
     out.squares += std::pow(s.light - out.constant[at(s.camera)] * shining[at(s.led)].dot(s.*to_camera), 2);

@@ -60,7 +60,11 @@ Result<std::vector<std::string>> find_contradictions(const data::Recording& reco
   if (facts.size || facts.sides || facts.pairs)
     if (auto s = hold_body(recording.trial.markers, facts, out); !s) return std::unexpected(s.error());
   hold_walk(recording, facts, out);
-  return out;
+  // Spans of one exchange are described alike: said once.
+  std::vector<std::string> once;
+  for (auto& sentence : out)
+    if (std::ranges::find(once, sentence) == once.end()) once.push_back(std::move(sentence));
+  return once;
 }
 
 std::vector<std::string> contradicted_model(const data::ModelDescription& model,
