@@ -25,8 +25,8 @@ struct HeldFacts {
   bool plates = true;   ///< forces, where the recording has them, against feet and mass
   bool events = false;  ///< the file's against each other and against the feet
 
-  [[nodiscard]] static HeldFacts none() { return {false, false, false, false, false}; }
-  [[nodiscard]] static HeldFacts all() { return {true, true, true, true, true}; }
+  [[nodiscard]] static HeldFacts none() { return {false, false, false, false, false}; }  ///< nothing
+  [[nodiscard]] static HeldFacts all() { return {true, true, true, true, true}; }        ///< everything
 };
 
 /// What is done to a recording before anything is computed from it, in this order.
