@@ -17,8 +17,8 @@ data::Trajectories square() {
   auto t = data::Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 100 * 50});
   t.covariance.assign(static_cast<std::size_t>(6 * t.frames()), 0.0);
   for (std::int64_t f = 0; f < t.frames(); ++f) {
-    const double x = 0.005 + 0.01 * static_cast<double>(f % 100),
-                 z = -0.245 + 0.01 * static_cast<double>(f / 100);
+    const std::int64_t column = f % 100, row = f / 100;
+    const double x = 0.005 + 0.01 * static_cast<double>(column), z = -0.245 + 0.01 * static_cast<double>(row);
     t.x(f, 0) = Eigen::Vector3d(x, 7.0, z);
     t.state[t.index(f, 0)] = data::SampleState::measured;
     const double variance = std::pow(1e-3 * (1.0 + x), 2) / 3.0;

@@ -91,7 +91,7 @@ TEST(Dynamics, APendulumsRatesAndTorqueWithTheirDeviations) {
 
 TEST(Dynamics, WhatIsContradictedOfTheMotionMissesABoundAndRangesAreSaid) {
   const Pendulum pendulum;
-  const auto said = [](const model::Model& model, GivenMotion given) {
+  const auto said = [](const model::Model& model, const GivenMotion& given) {
     return dynamics(model, given).value().remarks;
   };
   const auto clean = said(pendulum.model, {.motion = pendulum.motion(2e-3)});
