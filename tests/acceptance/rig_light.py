@@ -4,8 +4,8 @@
 """LEDs that are dimmer or brighter than those of the calibration: `simulate rig sign` with a light drawn for each LED from 0.2
 to 3, calibrated with and without dark slots, reconstructed by each frame and by the smoother.
 
-Held against the truth: light, its 95 % interval, who is named; what the light moves (the same rig and scene with all lights 1);
-and, with the true cameras, how often 95 % intervals of positions hold them.
+Held against the truth: light, its 95 % interval, who is named; what the error of a light moves a point (beside the same counts
+with the offsets of the true light); and, with the true cameras, how often 95 % intervals of positions hold them.
 
 Arguments: first seed (default 1), number of rigs (default 3). Prints rows "PASS|FAIL | check | asked | measured".
 """
@@ -19,6 +19,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -101,10 +102,12 @@ class Case:
         self.truth = truth_of(lit / "truth.trc")
         true = folder / "rig_true.toml"  # as far as a calibration could know it
         true.write_text("".join(line for line in (lit / "rig_true.toml").read_text().splitlines(True) if dark_slot or not line.startswith("dark_")))
-        self.found, self.same, self.by_true = {}, {}, {}
+        self.found, self.right, self.by_true = {}, {}, {}
+        _, self.said_same = reconstruct(plain / "recording.mcap", rig, "frames", folder / "same.csv")
         for method in METHODS:
             self.found[method], self.said = reconstruct(lit / "recording.mcap", rig, method, folder / f"{method}.csv")
-            self.same[method], self.said_same = reconstruct(plain / "recording.mcap", rig, method, folder / f"{method}_same.csv")
+            if dark_slot:
+                self.right[method] = self.with_right_offsets(folder, rig, lit / "recording.mcap", method)
             self.by_true[method], _ = reconstruct(lit / "recording.mcap", true, method, folder / f"{method}_true.csv")
 
     def moves(self, led):
@@ -112,10 +115,29 @@ class Case:
         path = self.truth[led]
         return max(max(x[a] for x in path) - min(x[a] for x in path) for a in range(3)) >= MOVES_M
 
+    def with_right_offsets(self, folder, rig, recording, method):
+        """Points of each LED by the same rig, counts and noise, with the offsets of its true light given."""
+        text, out = rig.read_text(), {}
+        kept = [line for line in text.splitlines() if not line.startswith(("light_counts", "dark_"))]
+        dark = [tomllib.loads(line)["dark_counts"] for line in text.splitlines() if line.startswith("dark_counts")]
+        for led in LEDS:
+            cameras, lines = iter(dark), []
+            for line in kept:
+                if line.startswith("offset_counts"):
+                    offsets = tomllib.loads(line)["offset_counts"]
+                    right = [o + self.lights[led] * (q - o) for q, o in zip(offsets, next(cameras))]
+                    line = f"offset_counts = {right}\ndark_counts = {right}"  # no stray light: nothing to find
+                lines.append(line)
+            given = folder / f"{led}.toml"
+            given.write_text("\n".join(lines) + "\n")
+            found, _ = reconstruct(recording, given, method, folder / f"{method}_{led}.csv")
+            out.update({key: value for key, value in found.items() if key[1] == led})
+        return out
+
     def moved(self, method, led):
-        """What its light moves an LED, in the mean over frames, beside the deviation of a sample."""
-        both = [k for k in self.found[method] if k[1] == led and k in self.same[method]]
-        off = [statistics.mean(self.found[method][k][0][a] - self.same[method][k][0][a] for k in both) for a in range(3)]
+        """What an error of its light moves an LED, in the mean over frames, beside the deviation of a sample."""
+        both = [k for k in self.found[method] if k[1] == led and k in self.right[method]]
+        off = [statistics.mean(self.found[method][k][0][a] - self.right[method][k][0][a] for k in both) for a in range(3)]
         sd = math.sqrt(statistics.median(sum(s * s for s in self.found[method][k][1]) for k in both))
         return math.hypot(*off), sd
 

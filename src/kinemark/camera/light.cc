@@ -10,7 +10,7 @@
 namespace kinemark::camera {
 namespace {
 
-constexpr double kLeastUnknown = 1.0;  // counts, SD of stray light that is not known
+constexpr double kUnknownCounts = 1.0;  // SD of each channel's stray light by itself where it is not known
 constexpr std::int64_t kFewestFrames = 16;
 
 }  // namespace
@@ -20,8 +20,10 @@ StrayLight stray_light(const data::Detector& detector) {
     return {.counts = detector.offset_counts - detector.dark_counts,
             .sd_counts = detector.dark_sd_counts,
             .known = true};
-  const Eigen::Vector4d most = detector.offset_counts.cwiseMax(0.0);
-  return {.counts = 0.5 * most, .sd_counts = std::max(most.mean() / std::sqrt(12.0), kLeastUnknown)};
+  // Of an even chance between 0 and 1 the mean is 1/2 and the SD 1/sqrt(12), which is 1/sqrt(3) of the mean.
+  return {.counts = 0.5 * detector.offset_counts.cwiseMax(0.0),
+          .sd_counts = kUnknownCounts,
+          .share_sd = 1.0 / std::numbers::sqrt3};
 }
 
 data::Rig with_light(const data::Rig& rig, const Light& light) {
@@ -31,7 +33,7 @@ data::Rig with_light(const data::Rig& rig, const Light& light) {
   if (out.covariance.size() == 0)
     out.covariance = Eigen::MatrixXd::Zero(rig.parameter_count(), rig.parameter_count());
   Eigen::VectorXd factor = Eigen::VectorXd::Ones(rig.parameter_count());
-  Eigen::VectorXd by_light = Eigen::VectorXd::Zero(rig.parameter_count());
+  Eigen::VectorXd by_light = Eigen::VectorXd::Zero(rig.parameter_count()), by_share = by_light;
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(rig.parameter_count());
   for (int c = 0; c < rig.camera_count(); ++c) {
     auto& camera = out.cameras[static_cast<std::size_t>(c)];
@@ -40,12 +42,14 @@ data::Rig with_light(const data::Rig& rig, const Light& light) {
     const int at = rig.first_parameter(c) + data::ParameterLayout(camera).offset;
     camera.detector.offset_counts += more * stray.counts;
     by_light.segment<4>(at) = stray.counts;
+    by_share.segment<4>(at) = more * stray.share_sd * stray.counts;
     if (stray.known) factor.segment<4>(at).setConstant(light.value);  // offset' = s offset - (s - 1) dark
     variance.segment<4>(at).setConstant(more * more * stray.sd_counts * stray.sd_counts);
   }
   out.covariance = factor.asDiagonal() * out.covariance * factor.asDiagonal();
   out.covariance.diagonal() += variance;
   out.covariance += light.sd * light.sd * by_light * by_light.transpose();
+  out.covariance += by_share * by_share.transpose();
   return out;
 }
 

@@ -21,10 +21,12 @@ struct Light {
 struct StrayLight {
   Eigen::Vector4d counts;  ///< of channels +x, -x, +y, -y
   double sd_counts = 0.0;  ///< of each channel, as far as it is not an error of the offset
+  double share_sd = 0.0;   ///< of a factor that the counts of all channels and cameras have in common
   bool known = false;      ///< measured; else half of the offset, give or take
 };
 /// Offset less dark counts. Where dark counts are not known the stray light lies between none and all of the
-/// offset: half of it, with the standard deviation of an even chance over that range and of 1 count at least.
+/// offset, by a share that all channels have in common: half of it, with the standard deviation of an even
+/// chance over that range, and 1 count of each channel by itself.
 [[nodiscard]] StrayLight stray_light(const data::Detector& detector);
 
 /// The rig as an LED of that light shows it: with light s, offsets are dark counts + s stray light. The

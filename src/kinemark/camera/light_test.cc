@@ -63,10 +63,15 @@ TEST(Light, StrayLightThatIsNotKnownLiesWithinTheOffset) {
   const auto stray = stray_light(detector);
   EXPECT_FALSE(stray.known);
   for (int k = 0; k < 4; ++k) {
-    EXPECT_GT(stray.counts[k] + 2.0 * stray.sd_counts, kStray[k]);
-    EXPECT_LT(stray.counts[k] - 2.0 * stray.sd_counts, kStray[k]);
+    const double sd = std::hypot(stray.sd_counts, stray.share_sd * stray.counts[k]);
+    EXPECT_GT(stray.counts[k] + 2.0 * sd, kStray[k]);
+    EXPECT_LT(stray.counts[k] - 2.0 * sd, kStray[k]);
   }
   EXPECT_TRUE(stray_light(rig.cameras[1].detector).known);
+  // The share is common: errors of two channels go together.
+  const int n = offset_of(rig, 0);
+  EXPECT_NEAR(with_light(rig, {.value = 0.5}).covariance(n, n + 1),
+              0.25 / 3.0 * stray.counts[0] * stray.counts[1], 1e-12);
 }
 
 data::Counts dark_recording(std::int64_t frames, double rate_hz, double pedestal) {

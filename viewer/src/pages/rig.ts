@@ -154,7 +154,7 @@ export async function reconstructPage(data: ReconstructPage): Promise<Content> {
             numeric("Saturated", "", 0, (l) => l.saturated),
             numeric("Contradicted", "", 0, (l) => l.inconsistent),
             numeric("Near the edge", "", 0, (l) => l.near_edge),
-            withSd<Led>("Light", "", 3, (l) => l.light, (l) => l.light_sd),
+            withSd<Led>("Light", "", 4, (l) => l.light, (l) => l.light_sd),
             numeric("chi²/dof", "", 2, (l) => l.chi2_per_dof),
             numeric("Cut-off", "Hz", 1, (l) => l.cutoff_hz),
           ],

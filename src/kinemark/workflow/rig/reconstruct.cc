@@ -36,7 +36,7 @@ std::string light_sentence(const std::string& led, const reconstruction::LedLigh
   if (found.source == reconstruction::LightSource::unknown ||
       !(off > kSure * found.light_sd || (dark_known && off > 0.0)))
     return {};
-  return fmt::format("LED '{}' shines with {:.2f} +- {:.2f} of the light of the calibration's LEDs{}; {}",
+  return fmt::format("LED '{}' shines with {:.3f} +- {:.1g} of the light of the calibration's LEDs{}; {}",
                      printable(led, 60), found.light, found.light_sd, found.light < kDim ? ": it is dim" : "",
                      dark_known
                          ? "the offsets are those of its light"

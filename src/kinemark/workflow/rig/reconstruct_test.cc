@@ -124,7 +124,7 @@ TEST(ReconstructLight, WithoutDarkCountsTheWarningNamesTheCure) {
   const Sign sign(0.5, false);
   const auto found = reconstruct(sign.recording.counts, sign.rig).value();
   EXPECT_THAT(found.remarks.warnings,
-              Contains(AllOf(HasSubstr("LED 'hand' shines with 0.50"),
+              Contains(AllOf(HasSubstr("LED 'hand' shines with 0.5"),
                              HasSubstr("positions' deviations say so; calibrate with a dark slot"))));
   EXPECT_THAT(found.remarks.warnings, Not(Contains(HasSubstr("it is dim"))));
 }
