@@ -164,11 +164,13 @@ def check_light(cases):
         errors = [abs(leds_of(c.said)[led]["light"] / c.lights[led] - 1.0) for c in cases for led in LEDS if c.moves(led) == moves]
         within = sum(e <= OF_STRENGTH[moves] for e in errors)
         row(within >= 0.95 * len(errors), f"strength of LEDs that {'move by 100 mm' if moves else 'rest'}", f"within {100 * OF_STRENGTH[moves]:.0f} %, >= 95 % of them", f"{within} of {len(errors)}, at most {100 * max(errors):.2f} %")
+
+
+def check_intervals(cases, slots):
     z = [abs(leds_of(c.said)[led]["light"] - c.lights[led]) / leds_of(c.said)[led]["light_sd"] for c in cases for led in LEDS]
-    if len(z) < FEWEST:
-        return
     held = sum(v <= 1.96 for v in z) / len(z)
-    row(0.9 <= held <= 0.99, "95 % intervals of the light", "90 to 99 %", f"{100 * held:.1f} % of {len(z)}")
+    if len(z) >= FEWEST:
+        row(0.9 <= held <= 0.99, f"95 % intervals of the light, {slots}", "90 to 99 %", f"{100 * held:.1f} % of {len(z)}")
 
 
 def check_named(cases):
@@ -192,6 +194,8 @@ def main():
                 folder.mkdir()
                 cases[dark_slot].append(Case(folder, seed, dark_slot))
     check_light(cases[True])
+    check_intervals(cases[True], "dark slots")
+    check_intervals(cases[False], "without them")
     check_named(cases[True])
     for method in METHODS:
         moved = [c.moved(method, led) for c in cases[True] for led in LEDS]

@@ -300,6 +300,17 @@ std::optional<camera::Light> by_misfit(const data::Rig& rig, const data::Rig& li
   return camera::Light{.value = stray + said.step, .sd = said.sd};
 }
 
+/// How far the light by the strengths lies off where the stray light is another by its SD.
+double error_by_share(const data::Rig& rig, double stray, double light, const std::vector<Frame>& frames) {
+  const double share = camera::stray_light(rig.cameras.front().detector).share_sd;
+  const auto lit = camera::with_light(rig, {.value = 1.0 + (stray - 1.0) * (1.0 + share)});
+  auto moved = frames;
+  for (auto& frame : moved)
+    if (const auto found = locate(lit, frame.read, frame.x)) frame.x = found->x_in_world;
+  const auto seen = by_strengths(lit, moved);
+  return seen ? std::abs(with_prior(seen->light).value - light) : 0.0;
+}
+
 /// Rounds of light and points for one LED.
 void find_light(const data::Rig& rig, std::vector<Frame>& frames, LedLight& out) {
   constexpr double kLeast = 0.01;
@@ -320,6 +331,8 @@ void find_light(const data::Rig& rig, std::vector<Frame>& frames, LedLight& out)
     if (seen && room) stray = joined(stray, *room);
     stray.value = std::max(stray.value, kLeast);
   }
+  if (knows_strength && !knows_room && out.source != LightSource::unknown)
+    light.sd = std::hypot(light.sd, error_by_share(rig, stray.value, light.value, frames));
   out.light = light.value, out.light_sd = light.sd;
   out.stray = stray.value, out.stray_sd = stray.sd;
 }
