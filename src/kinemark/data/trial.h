@@ -48,6 +48,22 @@ struct ForcePlate {
   double metres_per_unit = 1e-3;  ///< of the lengths in channels, and moments, that state no unit
 };
 
+/// Error of positions that a calibration leaves: one displacement of space for the whole recording, drawn
+/// once, sum of w[k] displacement(k) with standard normal w. It is part of the samples' covariance, and
+/// unlike noise it is the same in every frame. Lengths in the axes of the fields; functions:
+/// calibration_error.h.
+struct CalibrationError {
+  static constexpr int kTerms = 20;  ///< of a polynomial of degree 3 in x, y, z
+  using Field = Eigen::Matrix<double, kTerms, 3>;
+
+  Eigen::Vector3d middle_in_world = Eigen::Vector3d::Zero();       ///< m
+  Eigen::Matrix3d world_from_field = Eigen::Matrix3d::Identity();  ///< turns
+  double scale_m = 1.0;       ///< position / scale is what polynomials are of, > 0
+  std::vector<Field> fields;  ///< m, largest first; empty: not known
+
+  [[nodiscard]] bool known() const { return !fields.empty(); }  ///< there are fields
+};
+
 /// What one marker file holds, in SI units.
 struct Trial {
   std::string source;            ///< file name as given
@@ -58,6 +74,7 @@ struct Trial {
   Trajectories markers;          ///< t0 is (first_frame - 1) / rate for C3D, the first time written for TRC
   Array<float>
       residual_m;  ///< F x M reconstruction residual, NaN where not measured; empty when the file has none
+  CalibrationError calibration_error;  ///< of the markers' positions
   Array<std::uint8_t>
       camera_mask;            ///< F x M bit c set: camera c + 1 saw the marker; empty when the file has none
   Channels channels;          ///< points that are no markers; never cleaned, filled or fitted

@@ -374,6 +374,7 @@ Result<C3dPlan> plan_c3d(const data::Trial& trial, const C3dWriteOptions& option
   if (std::ranges::none_of(trial.foreign, tells_recorder))
     add_text(plan.parameters.group(kC3dRecorderGroup), "SOFTWARE", options.software);
   add_provenance(trial.markers, plan.parameters);
+  add_calibration_error(trial.calibration_error, plan.parameters);
   add_filters(trial, !plan.unfiltered.empty(), plan.parameters);
   if (const std::string mark = set_mark(options.set); !mark.empty())
     plan.parameters.group(kProvenanceGroup)

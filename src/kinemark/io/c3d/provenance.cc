@@ -8,10 +8,13 @@
 #include <cmath>
 #include <limits>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/math/symmetric3.h"
 
 namespace kinemark::io {
 namespace {
+
+constexpr const char* kCalibrationError = "CALIBRATION_ERROR";
 
 using data::SampleState;
 
@@ -182,6 +185,36 @@ void apply_provenance(const C3dParameters& parameters, data::Trial& trial) {
   if (disagreeing > 0)
     trial.warnings.push_back(fmt::format(
         "KINEMARK:RUNS and the residuals disagree on {} samples; the residuals are used", disagreeing));
+}
+
+void add_calibration_error(const data::CalibrationError& error, C3dParameters& parameters) {
+  constexpr std::size_t kLine = 240;
+  std::string_view text;
+  const std::string whole = data::to_text(error);
+  std::vector<std::string> lines;
+  for (text = whole; !text.empty();) {
+    // At a blank: ends of texts lose theirs.
+    const auto end = text.size() <= kLine ? text.size() : text.rfind(' ', kLine);
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  if (lines.empty()) return;
+  parameters.group(kProvenanceGroup)
+      .parameters.push_back({.name = kCalibrationError,
+                             .type = C3dType::text,
+                             .dims = {static_cast<int>(kLine), static_cast<int>(lines.size())},
+                             .texts = std::move(lines),
+                             .description = "fields of displacement, the same in all frames, 1 SD"});
+}
+
+void take_calibration_error(const C3dParameters& parameters, data::Trial& trial) {
+  std::string whole;
+  for (const auto& line : parameters.texts(kProvenanceGroup, kCalibrationError)) whole += line + ' ';
+  if (whole.empty()) return;
+  if (auto error = data::calibration_error_of(whole))
+    trial.calibration_error = std::move(*error);
+  else
+    trial.warnings.emplace_back("KINEMARK:CALIBRATION_ERROR holds no fields of displacement and is not read");
 }
 
 }  // namespace kinemark::io

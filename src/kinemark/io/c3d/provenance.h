@@ -22,4 +22,9 @@ void add_provenance(const data::Trajectories& markers, C3dParameters& parameters
 /// not fit the file (another program cut it) is left alone with a warning.
 void apply_provenance(const C3dParameters& parameters, data::Trial& trial);
 
+/// Add the error that a calibration leaves, where it is known: a text in lines of 240 letters.
+void add_calibration_error(const data::CalibrationError& error, C3dParameters& parameters);
+/// Read it back; a text that holds none is left alone with a warning.
+void take_calibration_error(const C3dParameters& parameters, data::Trial& trial);
+
 }  // namespace kinemark::io

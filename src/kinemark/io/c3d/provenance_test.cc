@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/c3d/reader.h"
 #include "kinemark/io/c3d/writer.h"
 #include "kinemark/math/symmetric3.h"
@@ -79,6 +80,31 @@ TEST(C3dProvenance, DeviationsComeBackWithinTwoAndAHalfPercent) {
     }
   }
   EXPECT_EQ(compared, 80);
+}
+
+TEST(C3dProvenance, TheErrorOfTheCalibrationComesBack) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = trial_of(20, 2, 30);
+  trial.calibration_error.middle_in_world = {0.5, -0.25, 2.0};
+  for (const double size : {1.0 / 3.0, 0.25e-5})
+    trial.calibration_error.fields.emplace_back(data::CalibrationError::Field::Constant(size));
+  ASSERT_TRUE(write_c3d(scratch / "a.c3d", trial));
+  const auto back = read_c3d(scratch / "a.c3d");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_THAT(back->warnings, ElementsAre());
+  EXPECT_EQ(data::to_text(back->calibration_error), data::to_text(trial.calibration_error));
+
+  C3dParameters damaged;
+  damaged.group("KINEMARK")
+      .parameters.push_back(
+          {.name = "CALIBRATION_ERROR", .type = C3dType::text, .dims = {5, 1}, .texts = {"1 2 3"}});
+  take_calibration_error(damaged, trial);
+  EXPECT_THAT(
+      trial.warnings,
+      ElementsAre(HasSubstr("KINEMARK:CALIBRATION_ERROR holds no fields of displacement and is not read")));
+  C3dParameters none;
+  add_calibration_error({}, none);
+  EXPECT_TRUE(none.groups.empty());
 }
 
 TEST(C3dProvenance, NothingIsAddedWhereResidualsSayAll) {

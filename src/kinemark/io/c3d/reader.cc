@@ -222,6 +222,7 @@ Result<data::Trial> read_trial(const C3dReader& reader, const C3dReadOptions& op
   if (seen->with_cameras == 0) trial.camera_mask = {};
   if (options.points) {
     apply_provenance(reader.parameters(), trial);
+    take_calibration_error(reader.parameters(), trial);
     take_filters(reader.parameters(), reader.layout(), trial);
   }
   return trial;

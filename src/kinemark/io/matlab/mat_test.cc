@@ -67,6 +67,7 @@ void expect_same(const Trial& a, const Trial& b) {
     EXPECT_EQ(a.events[i].time_s, b.events[i].time_s);
   }
   EXPECT_EQ(a.unloaded_s, b.unloaded_s);
+  EXPECT_EQ(a.calibration_error.fields, b.calibration_error.fields);
   ASSERT_EQ(a.force_plates.size(), b.force_plates.size());
   for (std::size_t i = 0; i < a.force_plates.size(); ++i) {
     EXPECT_EQ(a.force_plates[i].number, b.force_plates[i].number);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/matlab/internal/mat_build.h"
 #include "kinemark/io/matlab/internal/mat_file.h"
 #include "kinemark/io/matlab/internal/own_struct.h"
@@ -74,6 +75,8 @@ void add_samples(const data::Trial& trial, MatFields& out) {
   }
   if (!m.unfiltered_in_world.empty()) put("unfiltered", std::span<const double>(m.unfiltered_in_world), 3);
   if (!m.filters.empty()) out.emplace_back("filters", filters(m.filters));
+  if (trial.calibration_error.known())
+    out.emplace_back("calibration_error", mat_text(data::to_text(trial.calibration_error)));
   if (!m.sample_offset_s.empty()) {
     const std::int64_t rows = m.sample_offset_s.size() == m.names.size() ? 1 : F;
     out.emplace_back(

@@ -67,6 +67,7 @@ void expect_same(const data::Trial& got, const data::Trial& wanted) {
   for (std::size_t i = 0; i < wanted.force_plates.size(); ++i)
     expect_same(got.force_plates[i], wanted.force_plates[i]);
   EXPECT_EQ(got.unloaded_s, wanted.unloaded_s);
+  EXPECT_EQ(got.calibration_error.fields, wanted.calibration_error.fields);
 }
 
 class NwbSignals : public ::testing::Test {

@@ -15,6 +15,7 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/text/internal/cells.h"
 #include "kinemark/io/text/internal/csv_line.h"
 #include "kinemark/io/text/internal/long_labels.h"
@@ -55,13 +56,32 @@ enum Kind : std::uint8_t {
   raw_x,
   raw_y,
   raw_z,
+  calibration,
   kinds
 };
-constexpr std::array<std::string_view, kinds> kNames = {
-    "frame",          "time_s",         "marker",         "x_m",           "y_m",          "z_m",
-    "state",          "method",         "offset_s",       "sd_x_m",        "sd_y_m",       "sd_z_m",
-    "cov_xy_m2",      "cov_xz_m2",      "cov_yz_m2",      "filter",        "filter_order", "filter_cutoff_hz",
-    "filter_noise_m", "unfiltered_x_m", "unfiltered_y_m", "unfiltered_z_m"};
+constexpr std::array<std::string_view, kinds> kNames = {"frame",
+                                                        "time_s",
+                                                        "marker",
+                                                        "x_m",
+                                                        "y_m",
+                                                        "z_m",
+                                                        "state",
+                                                        "method",
+                                                        "offset_s",
+                                                        "sd_x_m",
+                                                        "sd_y_m",
+                                                        "sd_z_m",
+                                                        "cov_xy_m2",
+                                                        "cov_xz_m2",
+                                                        "cov_yz_m2",
+                                                        "filter",
+                                                        "filter_order",
+                                                        "filter_cutoff_hz",
+                                                        "filter_noise_m",
+                                                        "unfiltered_x_m",
+                                                        "unfiltered_y_m",
+                                                        "unfiltered_z_m",
+                                                        "calibration_error"};
 
 constexpr std::array kStates = {SampleState::missing,      SampleState::measured,  SampleState::interpolated,
                                 SampleState::model_filled, SampleState::upsampled, SampleState::rejected};
@@ -170,6 +190,7 @@ class Parser {
     samples_.push_back(s);
     if (is_uncertain()) covariances_.push_back(covariance);
     if (keeps_unfiltered()) unfiltered_.push_back(raw);
+    if (auto status = take_calibration(); !status) return status;
     return take_filter(filter_numbers, at->second, is_new);
   }
 
@@ -237,6 +258,15 @@ class Parser {
 
   [[nodiscard]] bool is_uncertain() const { return column_[sd_x] && column_[sd_y] && column_[sd_z]; }
   [[nodiscard]] bool keeps_unfiltered() const { return column_[raw_x] && column_[raw_y] && column_[raw_z]; }
+  /// One line of the file has the error of the calibration.
+  Status take_calibration() {
+    if (!column_[calibration] || cells_[*column_[calibration]].empty()) return {};
+    auto error = data::calibration_error_of(cells_[*column_[calibration]]);
+    if (!error)
+      return wrong("calibration_error holds no fields of displacement: need 13 numbers, then 60 for each");
+    trial_.calibration_error = std::move(*error);
+    return {};
+  }
   /// Every line of a marker names the same filter.
   Status take_filter(std::span<const double, 3> numbers, std::int32_t of_marker, bool is_new) {
     if (!column_[filter]) return {};

@@ -247,6 +247,25 @@ TEST(TrajectoriesCsv, FiltersAndSamplesFromBeforeComeBack) {
                 ::testing::NanSensitiveDoubleEq(t.unfiltered_in_world[i]));
 }
 
+TEST(TrajectoriesCsv, TheErrorOfTheCalibrationStandsInOneLine) {
+  const testing_support::ScratchFolder scratch;
+  data::Trial trial = small();
+  trial.calibration_error.middle_in_world = {0.5, -0.25, 2.0};
+  trial.calibration_error.fields = {data::CalibrationError::Field::Constant(1.25e-4)};
+  ASSERT_TRUE(write_trajectories_csv(scratch / "m.csv", trial, false));
+  const std::string text = read_text(scratch / "m.csv").value();
+  EXPECT_THAT(text, HasSubstr("method,calibration_error\n"));
+  EXPECT_EQ(text.find("0.000125"), text.find("0.000125", text.find('\n')));
+  const auto back = read_trajectories_csv(scratch / "m.csv");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->calibration_error.fields, trial.calibration_error.fields);
+  EXPECT_EQ(back->calibration_error.middle_in_world, trial.calibration_error.middle_in_world);
+  const auto bad = parse_trajectories_csv(
+      "frame,time_s,marker,x_m,y_m,z_m,calibration_error\n1,0,A,1,2,3,0 0 0 mm\n", "a.csv");
+  ASSERT_FALSE(bad);
+  EXPECT_THAT(bad.error().message, HasSubstr("line 2: calibration_error holds no fields of displacement"));
+}
+
 TEST(TrajectoriesCsv, AMarkerHasOneFilter) {
   const std::string header =
       "frame,time_s,marker,x_m,y_m,z_m,filter,filter_order,filter_cutoff_hz,filter_noise_m\n";

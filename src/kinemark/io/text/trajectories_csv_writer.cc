@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/filtering.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text/trajectories_csv.h"
@@ -54,12 +56,15 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
   const bool offsets = !t.sample_offset_s.empty();
   const bool uncertain = !t.covariance.empty();
   const bool filtered = !t.filters.empty(), unfiltered = !t.unfiltered_in_world.empty();
+  std::string calibration = data::to_text(trial.calibration_error);  // on the first line alone
+  const bool calibrated = !calibration.empty();
   fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "frame,time_s,marker,x_m,y_m,z_m,state,method{}{}{}{}\n",
+  fmt::format_to(std::back_inserter(out), "frame,time_s,marker,x_m,y_m,z_m,state,method{}{}{}{}{}\n",
                  offsets ? ",offset_s" : "",
                  uncertain ? ",sd_x_m,sd_y_m,sd_z_m,cov_xy_m2,cov_xz_m2,cov_yz_m2" : "",
                  filtered ? ",filter,filter_order,filter_cutoff_hz,filter_noise_m" : "",
-                 unfiltered ? ",unfiltered_x_m,unfiltered_y_m,unfiltered_z_m" : "");
+                 unfiltered ? ",unfiltered_x_m,unfiltered_y_m,unfiltered_z_m" : "",
+                 calibrated ? ",calibration_error" : "");
   std::vector<std::string> names;
   for (const std::string& name : t.names) names.push_back(in_quotes(name));
   for (std::int64_t f = 0; f < t.frames(); ++f) {
@@ -82,6 +87,7 @@ Status write_trajectories_csv(const std::filesystem::path& path, const data::Tri
       if (filtered) put_filter(out, t.filters[static_cast<std::size_t>(m)]);
       if (unfiltered)
         for (std::size_t k = 0; k < 3; ++k) put_number(out, t.unfiltered_in_world[3 * i + k]);
+      if (calibrated) fmt::format_to(std::back_inserter(out), ",{}", std::exchange(calibration, {}));
       out.push_back('\n');
     }
     if (out.size() < kFlushBytes) continue;

@@ -68,6 +68,7 @@ Result<ReconstructOutcome> run_reconstruct(const ReconstructJob& job) {
   data::Trial trial;
   trial.source = job.recording.string();
   trial.markers = std::move(out.found.markers);
+  trial.calibration_error = out.found.calibration_error;
   std::vector<ResultFile> files{marker_file(job.output, trial)};
   out.written = {job.output};  // as the page says
   if (!job.report.empty())

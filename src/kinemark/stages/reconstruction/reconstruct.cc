@@ -4,6 +4,7 @@
 #include "kinemark/stages/reconstruction/reconstruct.h"
 
 #include <fmt/core.h>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -14,8 +15,11 @@
 
 #include "kinemark/camera/light.h"
 #include "kinemark/camera/noise.h"
+#include "kinemark/camera/response.h"
 #include "kinemark/camera/usable.h"
 #include "kinemark/core/parallel.h"
+#include "kinemark/data/calibration_error.h"
+#include "kinemark/math/scale_free.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
 #include "kinemark/stages/reconstruction/light.h"
@@ -139,8 +143,34 @@ const data::Rig& rig_of(const Reconstruction& r, std::int64_t led) {
   return r.rigs.size() == 1 ? r.rigs.front() : r.rigs[static_cast<std::size_t>(led)];
 }
 
+/// Velocity of a point by the frames beside it, m/s; 0 where there are none.
+Eigen::Vector3d velocity_of(const data::Trajectories& points, std::int64_t f, std::int64_t led) {
+  const auto there = [&](std::int64_t at) {
+    return at >= 0 && at < points.frames() && points.present(at, led);
+  };
+  const std::int64_t first = there(f - 1) ? f - 1 : f, last = there(f + 1) ? f + 1 : f;
+  if (first == last || !points.present(f, led)) return Eigen::Vector3d::Zero();
+  return (points.x(last, led) - points.x(first, led)) * points.time.rate_hz /
+         static_cast<double>(last - first);
+}
+
+/// Counts as they would be if the point had stood still where it is: conversions of a frame follow each
+/// other.
+Eigen::Vector4d at_one_time(const data::Camera& camera, const Eigen::Vector4d& read,
+                            const Eigen::Vector4d& keep, const Eigen::Vector3d& x,
+                            const Eigen::Vector3d& velocity, const Eigen::Vector4d& dt) {
+  const auto response = camera::respond(camera, x);
+  const double light = math::eliminate_scale(keep.cwiseProduct(read - camera.detector.offset_counts),
+                                             keep.cwiseProduct(response.phi))
+                           .scale;
+  return read - light * dt.cwiseProduct(response.d_point * velocity);
+}
+
 /// Points of all LEDs, by the rig that each shows.
-void locate_all(const data::Counts& counts, const ReconstructOptions& options, Reconstruction& r) {
+/// @param before  the same from another pass, by which conversions are brought to one time; null: they are
+/// not
+void locate_all(const data::Counts& counts, const ReconstructOptions& options,
+                const data::Trajectories* before, Reconstruction& r) {
   const Eigen::Vector3d middle = middle_of_view(r.rigs.front());
   const double flicker = 0.5 * options.flicker_counts * options.flicker_counts;
   parallel_for(counts.frames(), kGrain, options.threads, [&](std::int64_t first, std::int64_t last) {
@@ -150,12 +180,20 @@ void locate_all(const data::Counts& counts, const ReconstructOptions& options, R
       for (std::int64_t led = 0; led < counts.led_count(); ++led) {
         const auto& rig = rig_of(r, led);
         observations.clear();
+        const Eigen::Vector3d velocity = before ? velocity_of(*before, f, led) : Eigen::Vector3d::Zero();
+        const double middle_s =
+            r.points.sample_offset_s[static_cast<std::size_t>(led)] + rig.electronics.time_constant_s;
         for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
           if (r.used[counts.index(f, led, c)] == 0) continue;
-          const Eigen::Vector4d read = counts.at(f, led, c);
-          observations.push_back({static_cast<int>(c), read,
-                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker,
-                                  camera::kept_channels(read, counts.highest_code)});
+          const Eigen::Vector4d read = counts.at(f, led, c),
+                                keep = camera::kept_channels(read, counts.highest_code);
+          const auto moved =
+              velocity.isZero(0.0)
+                  ? read
+                  : at_one_time(rig.cameras[static_cast<std::size_t>(c)], read, keep, before->x(f, led),
+                                velocity, (counts.offset_s(led, c).array() - middle_s).matrix());
+          observations.push_back({static_cast<int>(c), moved,
+                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker, keep});
         }
         auto& from = start[static_cast<std::size_t>(led)];
         auto located = locate(rig, observations, from);
@@ -199,14 +237,15 @@ Result<Reconstruction> reconstruct(const data::Counts& counts, const data::Rig& 
   Reconstruction& r = *out;
   r.points.covariance.assign(6 * r.points.state.size(), std::nan(""));
   r.rigs = {rig};
-  locate_all(counts, options, r);
+  locate_all(counts, options, nullptr, r);
   if (options.light) {
     r.lights = find_lights(counts, rig, r.points, r.used, options.flicker_counts);
     r.rigs.clear();
     for (const auto& found : r.lights)
       r.rigs.push_back(camera::with_light(rig, {.value = found.stray, .sd = found.stray_sd}));
-    locate_all(counts, options, r);
   }
+  const auto before = r.points;
+  locate_all(counts, options, &before, r);
   if (options.calibration_error) add_calibration_error(counts, r, r.points, options.threads);
   summarise(counts, r);
   return out;
@@ -217,6 +256,39 @@ void add_calibration_error(const data::Counts& counts, const Reconstruction& fro
   for (std::int64_t led = 0; led < counts.led_count(); ++led)
     if (rig_of(from, led).covariance.size() > 0)
       add_error_of(counts, rig_of(from, led), led, from, points, threads);
+}
+
+data::CalibrationError calibration_error(const data::Counts& counts, const data::Rig& rig,
+                                         const Reconstruction& from, const data::Trajectories& points,
+                                         const data::Trajectories* other) {
+  constexpr std::int64_t kPoints = 240;
+  if (rig.covariance.size() == 0) return {};
+  std::vector<std::array<std::int64_t, 2>> present;
+  for (std::int64_t f = 0; f < counts.frames(); ++f)
+    for (std::int64_t led = 0; led < counts.led_count(); ++led)
+      if (points.present(f, led) && (other == nullptr || other->present(f, led))) present.push_back({f, led});
+  const auto cameras = static_cast<std::size_t>(rig.camera_count());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rig.covariance);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  data::Points where(kPoints, 3);
+  Eigen::MatrixXd by_draw = Eigen::MatrixXd::Zero(3 * kPoints, root.cols() + 1);
+  Eigen::Index count = 0;
+  const auto step = std::max<std::size_t>(1, (present.size() + kPoints - 1) / kPoints);
+  for (std::size_t i = 0; i < present.size(); i += step) {
+    const auto [f, led] = present[i];
+    const auto strength = strengths_of(from, static_cast<std::size_t>(led), cameras);
+    std::vector<double> weight(cameras);
+    for (std::size_t c = 0; c < cameras; ++c)
+      if (from.used[counts.index(f, led, static_cast<std::int64_t>(c))] != 0)
+        weight[c] = strength[c] * strength[c];
+    const Eigen::MatrixXd moved = by_parameters(rig, points.x(f, led), strength, weight) * root;
+    if (!moved.allFinite()) continue;
+    by_draw.block(3 * count, 0, 3, root.cols()) = moved;
+    if (other != nullptr) by_draw.block<3, 1>(3 * count, root.cols()) = other->x(f, led) - points.x(f, led);
+    where.row(count++) = points.x(f, led).transpose();
+  }
+  return data::fit_calibration_error(where.topRows(count), by_draw.topRows(3 * count));
 }
 
 Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,

@@ -150,6 +150,7 @@ Status measure_all(const AskedMeasures& asked, const data::Recording& recording,
   }
   auto of_paths = asked.path;
   of_paths.rhythms = own;
+  of_paths.calibration_error = trial.calibration_error;
   if (!asked.paths)
     for (const auto& definition : analysis::rhythm_definitions())
       of_paths.measures.emplace_back(definition.id);

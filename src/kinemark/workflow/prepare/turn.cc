@@ -14,6 +14,7 @@
 
 #include "kinemark/core/number.h"
 #include "kinemark/core/units.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/foreign_group.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 
@@ -161,6 +162,7 @@ void turn(data::Trial& trial, const Matrix3d& to_from) {
   turn_triples(trial.markers.x_in_world, to_from);
   turn_triples(trial.markers.unfiltered_in_world, to_from);
   turn_covariances(trial.markers.covariance, to_from);
+  trial.calibration_error = data::turned(trial.calibration_error, to_from);
   turn_modeled_markers(trial.channels, to_from);
   turn_foreign(trial, to_from);
   if (std::ranges::any_of(trial.channels.kinds, [](data::ChannelKind kind) {

@@ -67,6 +67,7 @@ TEST(Turn, TakesAllOfATrialAlong) {
   trial.markers.covariance = {1.0, 0.0, 0.0, 2.0, 0.5, 3.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0};
   trial.markers.unfiltered_in_world = {0.5, 0.6, 0.7, 0.1, 0.0, 0.2};
   trial.force_plates.emplace_back().corners_in_world[2] = Vector3d(1.0, 2.0, 3.0);
+  trial.calibration_error.middle_in_world = Vector3d(1.0, 2.0, 3.0);
   turn(trial, parse_rotation("x -90").value());  // (x, y, z) becomes (x, z, -y)
   EXPECT_EQ(Vector3d(trial.markers.x(0, 0)), Vector3d(0.1, 0.3, -0.2));
   EXPECT_FALSE(trial.markers.x(0, 1).array().isFinite().any());
@@ -74,6 +75,8 @@ TEST(Turn, TakesAllOfATrialAlong) {
   EXPECT_THAT(std::vector<double>(trial.markers.covariance.begin(), trial.markers.covariance.begin() + 6),
               ::testing::ElementsAre(1.0, 0.0, 0.0, 3.0, -0.5, 2.0));
   EXPECT_EQ(trial.force_plates[0].corners_in_world[2], Vector3d(1.0, 3.0, -2.0));
+  EXPECT_EQ(trial.calibration_error.middle_in_world, Vector3d(1.0, 3.0, -2.0));
+  EXPECT_EQ(trial.calibration_error.world_from_field, parse_rotation("x -90").value());
 }
 
 TEST(Turn, OfTheOutputsOfAModelOnlyPointsAreTurned) {

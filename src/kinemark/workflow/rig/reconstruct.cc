@@ -91,7 +91,12 @@ Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& r
   auto found = classic ? reconstruction::reconstruct_classic(counts, rig, frames)
                        : reconstruction::reconstruct(counts, known, frames);
   if (!found) return std::unexpected(found.error());
-  Reconstructed out{.markers = {}, .leds = std::move(found->leds), .lights = {}, .fits = {}, .remarks = {}};
+  Reconstructed out{.markers = {},
+                    .calibration_error = {},
+                    .leds = std::move(found->leds),
+                    .lights = {},
+                    .fits = {},
+                    .remarks = {}};
   if (!classic) out.remarks = remarks_on(counts, known, found->lights);
   if (options.method == ReconstructMethod::smoother) {
     auto smoother = options.smoother;
@@ -103,6 +108,12 @@ Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& r
     found->points = std::move(smooth->points);
     out.fits = std::move(smooth->leds);
   }
+  if (frames.calibration_error && !classic)
+    out.calibration_error = reconstruction::calibration_error(counts, known, *found, found->points);
+  if (frames.calibration_error && classic)
+    if (const auto better = reconstruction::reconstruct(counts, known, frames))
+      out.calibration_error =
+          reconstruction::calibration_error(counts, known, *better, better->points, &found->points);
   out.lights = std::move(found->lights);
   out.markers = std::move(found->points);
   return out;

@@ -37,6 +37,8 @@ struct ReconstructOptions {
 struct Reconstructed {
   data::Trajectories
       markers;  ///< F x L with covariances, m, in the rig's world; missing where nothing was found
+  data::CalibrationError
+      calibration_error;  ///< of them; by the classic method with what all currents contradict
   std::vector<reconstruction::LedSummary> leds;  ///< what became of each LED's frames
   std::vector<reconstruction::LedLight> lights;  ///< of each LED; empty by the classic method
   std::vector<trajectory::LedFit> fits;          ///< how each was smoothed; empty without the smoother

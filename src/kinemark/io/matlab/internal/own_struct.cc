@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/utf8.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/rate.h"
 
 namespace kinemark::io::internal {
@@ -120,6 +121,11 @@ Status read_samples(const MatPlace& in, data::Trial& trial) {
   if (auto s = read_states(in, m); !s) return s;
   if (auto s = read_methods(in, m); !s) return s;
   if (auto s = read_filters(in, m); !s) return s;
+  if (const MatPlace error = in("calibration_error")) {
+    auto read = data::calibration_error_of(error.text());
+    if (!read) return error.bad("holds no fields of displacement");
+    trial.calibration_error = std::move(*read);
+  }
   if (in("covariance")) {
     auto covariance = in("covariance").frame_first(F, M, 6);
     if (!covariance) return std::unexpected(covariance.error());

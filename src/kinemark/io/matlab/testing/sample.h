@@ -73,6 +73,7 @@ inline data::Trial full_trial() {
   for (int i = 0; i < 12; ++i) plate.pressure_correction.push_back(0.1 * i - 0.3);
   t.force_plates = {plate, {.number = 3, .type = 2}};
   t.unloaded_s = {0.25, 0.5};
+  t.calibration_error.fields = {data::CalibrationError::Field::Constant(1.25e-4)};
   return t;
 }
 

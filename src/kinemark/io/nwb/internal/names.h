@@ -36,6 +36,7 @@ inline constexpr const char* kAnalogTable = "analog_channels";
 inline constexpr const char* kEventsTable = "events";
 inline constexpr const char* kPlatesTable = "force_plates";
 inline constexpr const char* kMethodsTable = "methods";
+inline constexpr const char* kCalibrationTable = "calibration";
 inline constexpr const char* kProvenanceTable = "provenance";
 inline constexpr const char* kSourcesTable = "sources";
 

@@ -9,6 +9,7 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/missing.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
@@ -173,6 +174,14 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
   if (auto status = read_container(in, group, kMethod, 1, frames, t.method); !status) return status;
   const Handle methods = in.object(in.file(), fmt::format("{}/{}/method", kModule, kMethodsTable));
   if (auto names = in.texts(methods.id()); names && names->size() <= 255) t.methods = std::move(*names);
+
+  const Handle calibration = in.object(in.file(), fmt::format("{}/{}/error", kModule, kCalibrationTable));
+  if (const auto texts = in.texts(calibration.id()); texts && !texts->empty()) {
+    auto error = data::calibration_error_of(texts->front());
+    if (!error)
+      return fail(Code::bad_input, "its table of the calibration's error holds no fields of displacement");
+    out.trial.calibration_error = std::move(*error);
+  }
 
   data::Derivatives rates;
   bool any = false;

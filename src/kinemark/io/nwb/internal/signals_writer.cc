@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/io/nwb/internal/names.h"
 
 namespace kinemark::io::internal {
@@ -293,6 +294,16 @@ void write_unloaded(Output& out, const std::array<double, 2>& unloaded_s) {
             true);
 }
 
+void write_calibration(Output& out, hid_t module, const data::CalibrationError& error) {
+  if (!error.known()) return;
+  out.table(
+      module, kCalibrationTable, "what the calibration of the cameras leaves unknown of all positions",
+      {{.name = "error",
+        .description = "displacement fields of the room, standard normal factors: middle, rotation, scale, "
+                       "polynomials of degree 3",
+        .texts = {data::to_text(error)}}});
+}
+
 }  // namespace
 
 void write_signals(Output& out, hid_t module, const data::Trial& trial,
@@ -303,6 +314,7 @@ void write_signals(Output& out, hid_t module, const data::Trial& trial,
   write_events(out, module, trial.events);
   write_plates(out, module, trial.force_plates);
   write_unloaded(out, trial.unloaded_s);
+  write_calibration(out, module, trial.calibration_error);
 }
 
 }  // namespace kinemark::io::internal

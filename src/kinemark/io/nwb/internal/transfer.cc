@@ -218,11 +218,22 @@ void pass_plate(Pipe& pipe, Plate& plate) {
   pass(pipe, plate.metres_per_unit);
 }
 
+template <class Pipe, class Error>
+void pass_calibration(Pipe& pipe, Error& error) {
+  for (auto& x : error.middle_in_world) pass(pipe, x);
+  for (auto& x : error.world_from_field.reshaped()) pass(pipe, x);
+  pass(pipe, error.scale_m);
+  pass_each(pipe, error.fields, [&](auto& field) {
+    for (auto& x : field.reshaped()) pass(pipe, x);
+  });
+}
+
 /// All of a trial but what names its file.
 template <class Pipe, class Trial>
 void pass_trial(Pipe& pipe, Trial& trial) {
   pass_trajectories(pipe, trial.markers);
   pass(pipe, trial.first_frame);
+  pass_calibration(pipe, trial.calibration_error);
   pass(pipe, trial.residual_m);
   pass(pipe, trial.camera_mask);
   pass_channels(pipe, trial.channels);

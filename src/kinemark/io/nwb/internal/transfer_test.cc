@@ -95,6 +95,7 @@ TEST(Transfer, EverythingArrives) {
     EXPECT_EQ(got.trial.force_plates[1].channel_idx, file.trial.force_plates[1].channel_idx);
     EXPECT_EQ(got.trial.force_plates[1].corners_in_world, file.trial.force_plates[1].corners_in_world);
     EXPECT_EQ(got.trial.unloaded_s, file.trial.unloaded_s);
+    EXPECT_EQ(got.trial.calibration_error.fields, file.trial.calibration_error.fields);
     EXPECT_EQ(got.trial.unread, file.trial.unread);
     for (const Rate& rate : kRates)
       EXPECT_TRUE(testing::same_bits((*got.derivatives).*rate.values, (*file.derivatives).*rate.values));

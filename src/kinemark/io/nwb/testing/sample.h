@@ -121,6 +121,7 @@ inline data::Trial sample_trial(std::int64_t frames = 50) {
               {.label = "", .context = "", .time_s = 0.0}};
   t.force_plates = sample_plates();
   t.unloaded_s = {1.0 / 3.0, 0.4};
+  t.calibration_error.fields = {data::CalibrationError::Field::Constant(1.25e-4)};
   return t;
 }
 

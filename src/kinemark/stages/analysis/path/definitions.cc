@@ -50,7 +50,7 @@ const std::array kDefinitions{
         {"plane_axes_ratio", "shape", Quantity::ratio, "Ratio of the axes in the plane",
          "root of the ratio of the two larger eigenvalues of the positions' covariance", kPoizner},
         Applies::closed,
-        Pivot::plain,
+        Pivot::inverse_squared,
         Weakness::none,
         [](const PathFacts& f) { return std::sqrt(f.principal().variance[0] / f.principal().variance[1]); }},
     PathDefinition{{"ellipse_major", "shape", Quantity::length, "Longer axis of the ellipse",

@@ -21,8 +21,9 @@ enum class Pivot : std::uint8_t {
   plain,          ///< both from 1.5 times the cut-off of least error
   of_derivative,  ///< the value likewise, the interval from 2.5 times: third derivatives, curvature, torsion
   squared,        ///< on the squares of the values, which noise raises by a constant: thickness
-  raw_squared,    ///< on the squares, from unsmoothed samples: what is in a band of frequencies
-  whole_number,   ///< counts: rounded
+  inverse_squared,  ///< on 1 over the squares: ratios whose divisor may be nothing but noise
+  raw_squared,      ///< on the squares, from unsmoothed samples: what is in a band of frequencies
+  whole_number,     ///< counts: rounded
 };
 
 /// What keeps an interval from being two-sided and sure.

@@ -12,6 +12,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/random.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/internal/movement_ends.h"
 #include "kinemark/stages/analysis/path/internal/refit_values.h"
@@ -24,12 +25,11 @@ using internal::RefitValues;
 
 namespace {
 
-constexpr std::int64_t kLeastSamples = 30;  // measured, for a smoother to be chosen
-constexpr std::int64_t kLeastStretch = 5;   // samples of a stretch
-constexpr double kLowestCutOff_hz = 0.4;    // of those tried
-constexpr double kMemoryCycles = 6.0;       // of the cut-off, beyond which a smoothed sample feels nothing
-constexpr double kEdge_s = 0.08;            // at both ends, where a smoother knows one side only
-constexpr std::int64_t kLeastDraws = 99;    // of the noise's models
+constexpr std::int64_t kLeastStretch = 5;  // samples of a stretch
+constexpr double kLowestCutOff_hz = 0.4;   // of those tried
+constexpr double kMemoryCycles = 6.0;      // of the cut-off, beyond which a smoothed sample feels nothing
+constexpr double kEdge_s = 0.08;           // at both ends, where a smoother knows one side only
+constexpr std::int64_t kLeastDraws = 99;   // of the noise's models
 constexpr double kSlow_s = 1.0, kQuick_s = 0.25;  // whose means are trends, slow and quick
 constexpr double kSlow_hz = 2.0;                  // of the noise that moves ends of movements
 constexpr double kNearJump_s = 0.1;               // within which a smoother rounds off a jump
@@ -72,39 +72,6 @@ SeriesMatrix raw_path(const Recording& recording, const SeriesMatrix& smooth) {
 }
 
 }  // namespace
-
-std::vector<std::string> not_measured_sentences(std::span<const NotMeasured> markers) {
-  std::vector<std::string> out;
-  const auto named = [&](NotMeasuredWhy why) {
-    std::vector<std::string> names;
-    for (const auto& marker : markers)
-      if (marker.why == why) names.push_back(marker.subject);
-    return names;
-  };
-  if (const auto names = named(NotMeasuredWhy::made_samples); !names.empty())
-    out.push_back(
-        fmt::format("most samples of {} were made by the recorder: 'kinemark clean IN OUT --upsampled "
-                    "decimate' leaves those that it measured",
-                    listed(names)));
-  if (const auto names = named(NotMeasuredWhy::too_few_samples); !names.empty()) {
-    std::int64_t least = kLeastSamples, most = 0;
-    for (const auto& marker : markers)
-      if (marker.why == NotMeasuredWhy::too_few_samples)
-        least = std::min(least, marker.samples), most = std::max(most, marker.samples);
-    out.push_back(fmt::format(
-        "{} {} measured in {} frames; need {} at least", listed(names), names.size() == 1 ? "was" : "were",
-        least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most), kLeastSamples));
-  }
-  if (const auto names = named(NotMeasuredWhy::unknown_noise); !names.empty())
-    out.push_back(fmt::format("the noise of {} is not known: no seven frames in a row differ; state it",
-                              listed(names)));
-  if (const auto names = named(NotMeasuredWhy::too_slow); !names.empty())
-    out.push_back(
-        fmt::format("{:g} frames a second are too few to measure movement", markers.front().rate_hz));
-  if (const auto names = named(NotMeasuredWhy::no_smoother); !names.empty())
-    out.push_back(fmt::format("no smoother fits the samples of {}", listed(names)));
-  return out;
-}
 
 std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajectories& markers,
                                                               std::int64_t marker,
@@ -186,6 +153,7 @@ std::expected<MeasuredPath, NotMeasured> MeasuredPath::create(const data::Trajec
   if (!choice) return not_measured(NotMeasuredWhy::no_smoother);
   recording.choice = *choice;
   out.less_ = smoothed(recording, kLessSmooth);
+  recording.noise_shape = noise_shape(recording, out.less_);
   if (options.refits > 0) out.least_ = smoothed(recording, kLeastSmooth);
   return out;
 }
@@ -249,7 +217,8 @@ MeasuredPath::Neighbourhood MeasuredPath::around(const Stretch& stretch) const {
                           .rate_hz = recording_.rate_hz,
                           .noise_sd_m = recording_.noise_sd_m,
                           .choice = recording_.choice,
-                          .noise = recording_.noise}};
+                          .noise = recording_.noise,
+                          .noise_shape = recording_.noise_shape}};
   }
 }
 
@@ -311,7 +280,7 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
       const double base = refits.pilot[i];
       refits.wander_of_noise[i] += (wander[i] - wander_of_pilot[i]) / static_cast<double>(options_.refits);
       if (RefitValues::of_less(pivot))
-        refits.by_less[i].push_back(pivot == Pivot::squared ? a[i] * a[i] - base * base : a[i] - base);
+        refits.by_less[i].push_back(internal::on_scale(pivot, a[i]) - internal::on_scale(pivot, base));
       if (RefitValues::of_least(pivot)) refits.by_least[i].push_back(b[i] - base);
       if (RefitValues::of_raw(pivot)) refits.by_raw[i].push_back(c[i] * c[i] - refits.raw[i] * refits.raw[i]);
     }
@@ -339,12 +308,14 @@ void MeasuredPath::refit(const Stretch& stretch, const Neighbourhood& near, cons
       }
     }
   };
+  const auto moved = data::displacements(options_.calibration_error, pilot);
   for_each_batch(near.recording, pilot,
                  {.count = options_.refits,
                   .seed = options_.seed,
                   .stream = stream,
                   .least_too = least_too,
-                  .noise_too = extremes},
+                  .noise_too = extremes,
+                  .displacements = {moved.begin(), moved.end()}},
                  [&](const RefitBatch& batch) {
                    for (std::int64_t k = 0; k < batch.count; ++k) {
                      visit(batch, k);

@@ -26,6 +26,9 @@ struct MovementEnds;
 struct RefitValues;
 }  // namespace internal
 
+/// Samples of a marker that were measured, from which a smoother can be chosen.
+inline constexpr std::int64_t kLeastSamples = 30;
+
 /// Why a marker is not measured.
 enum class NotMeasuredWhy : std::uint8_t {
   made_samples,     ///< the recorder made as many samples as it measured, or more

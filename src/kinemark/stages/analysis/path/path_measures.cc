@@ -92,6 +92,39 @@ Status check_regions(const TimeBase& time, const std::vector<data::Region>& regi
   return {};
 }
 
+std::vector<std::string> not_measured_sentences(std::span<const NotMeasured> markers) {
+  std::vector<std::string> out;
+  const auto named = [&](NotMeasuredWhy why) {
+    std::vector<std::string> names;
+    for (const auto& marker : markers)
+      if (marker.why == why) names.push_back(marker.subject);
+    return names;
+  };
+  if (const auto names = named(NotMeasuredWhy::made_samples); !names.empty())
+    out.push_back(
+        fmt::format("most samples of {} were made by the recorder: 'kinemark clean IN OUT --upsampled "
+                    "decimate' leaves those that it measured",
+                    listed(names)));
+  if (const auto names = named(NotMeasuredWhy::too_few_samples); !names.empty()) {
+    std::int64_t least = kLeastSamples, most = 0;
+    for (const auto& marker : markers)
+      if (marker.why == NotMeasuredWhy::too_few_samples)
+        least = std::min(least, marker.samples), most = std::max(most, marker.samples);
+    out.push_back(fmt::format(
+        "{} {} measured in {} frames; need {} at least", listed(names), names.size() == 1 ? "was" : "were",
+        least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most), kLeastSamples));
+  }
+  if (const auto names = named(NotMeasuredWhy::unknown_noise); !names.empty())
+    out.push_back(fmt::format("the noise of {} is not known: no seven frames in a row differ; state it",
+                              listed(names)));
+  if (const auto names = named(NotMeasuredWhy::too_slow); !names.empty())
+    out.push_back(
+        fmt::format("{:g} frames a second are too few to measure movement", markers.front().rate_hz));
+  if (const auto names = named(NotMeasuredWhy::no_smoother); !names.empty())
+    out.push_back(fmt::format("no smoother fits the samples of {}", listed(names)));
+  return out;
+}
+
 Status PathMeasureOptions::check() const {
   if (auto s = data::check_interval_refits(refits, level); !s) return s;
   if (!(noise_sd_m >= 0.0) || !std::isfinite(noise_sd_m))

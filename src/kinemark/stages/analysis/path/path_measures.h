@@ -11,6 +11,7 @@
 #include "kinemark/data/edit.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/stages/analysis/path/path_curves.h"
 #include "kinemark/stages/analysis/path/path_noise.h"
 #include "kinemark/stages/analysis/path/path_rhythm.h"
@@ -30,6 +31,7 @@ struct PathMeasureOptions {
   bool curves = false;                ///< keep what the measures are taken of, for figures
   bool keep_outliers = false;  ///< measure single frames far from their neighbours, too; the noise is found
                                ///< without them
+  data::CalibrationError calibration_error;  ///< of the markers' positions: part of all intervals of shape
   bool rhythms = false;  ///< find events and repetitions, too; measures of them that are asked for imply it
 
   /// Ranges as above, ids that exist (the nearest ones are told); Code::usage.

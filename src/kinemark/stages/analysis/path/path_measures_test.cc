@@ -60,6 +60,23 @@ TEST(MeasurePaths, OfCyclesAreThoseOfTheEllipse) {
   EXPECT_FALSE(has(*found, "onset"));
 }
 
+TEST(MeasurePaths, HoldWhatTheCalibrationLeavesUnknown) {
+  const auto markers = testing::recording_of(testing::sampled(400, 100.0, testing::ellipse), 100.0, 1e-4, 2);
+  PathMeasureOptions options{.measures = {"ellipse_major", "cycle_time"}, .refits = 99};
+  const auto noise_alone = measure_paths(markers, options);
+  // The room may be larger by 1 %: terms 1, z, ..., x of the polynomial.
+  data::CalibrationError::Field larger = data::CalibrationError::Field::Zero();
+  larger(1, 2) = larger(4, 1) = larger(10, 0) = 0.01;
+  options.calibration_error.fields = {larger};
+  const auto both = measure_paths(markers, options);
+  ASSERT_TRUE(noise_alone && both);
+  EXPECT_LT(find(*noise_alone, "ellipse_major").sd, 1e-4);
+  EXPECT_NEAR(find(*both, "ellipse_major").sd, 0.01 * 0.4, 0.001);
+  EXPECT_NEAR(find(*both, "ellipse_major").interval.low, 0.4 * (1.0 - 1.96 * 0.01), 0.002);
+  // Times do not depend on the room.
+  EXPECT_LT(find(*both, "cycle_time").sd, 1.2 * find(*noise_alone, "cycle_time").sd);
+}
+
 TEST(MeasurePaths, AreTheSameForAnyNumberOfThreadsAndWhateverElseIsMeasured) {
   const auto one = reach(5e-4, 1), other = reach(5e-4, 9);
   auto both = data::Trajectories::all_missing({"A", "B"}, one.time);

@@ -25,6 +25,7 @@ constexpr std::int64_t kBatchSamples = 1 << 18;  // at once, so that an hour nee
 constexpr std::int64_t kNoiseRows = 256;         // whose noise is made at once
 constexpr double kLocal_s = 0.15;                // farthest neighbour that tells local energy
 constexpr std::uint64_t kPilotStream = 1ULL << 62;
+constexpr std::uint64_t kDisplacementStream = 1ULL << 61;
 
 constexpr double kFlatBelow = 6.0;  // energy over that of noise, below which a pilot is flatter
 
@@ -34,6 +35,7 @@ struct Noise {
   double sd;
   std::uint64_t seed, stream;
   const ColouredNoise* coloured = nullptr;
+  const Eigen::MatrixXd* shape = nullptr;
 
   [[nodiscard]] const math::NoiseModel* model(std::int64_t number) const {
     return coloured == nullptr ? nullptr : &coloured->draws[at(number % std::ssize(coloured->draws))];
@@ -48,7 +50,8 @@ Noise noise_of(const Recording& recording, std::uint64_t seed, std::uint64_t str
           .sd = recording.noise_sd_m,
           .seed = seed,
           .stream = stream,
-          .coloured = recording.noise.get()};
+          .coloured = recording.noise.get(),
+          .shape = recording.noise_shape.size() > 0 ? &recording.noise_shape : nullptr};
 }
 
 bool was_filtered(const Recording& recording) {
@@ -75,6 +78,7 @@ void add_coloured(SeriesMatrix& to, std::int64_t column, std::int64_t axes, cons
   const auto& model = *noise.model(number);
   const auto stream = noise.stream_of(number);
   SeriesMatrix add = noise_before_filter(model, to.rows(), axes, noise.seed, stream);
+  if (noise.shape != nullptr) add *= *noise.shape;
   if (model.order > 0) {
     const LowPassFilter filter(model, to.rows());
     SeriesMatrix path = to.middleCols(column, axes);
@@ -102,7 +106,11 @@ void add_noise(SeriesMatrix& to, std::int64_t column, std::int64_t axes, const N
     for (std::int64_t i = first; i < first + rows; ++i, from += axes) {
       if (!(*noise.seen)[at(i)]) continue;
       double* values = to.data() + i * to.cols() + column;
-      for (std::int64_t k = 0; k < axes; ++k) values[k] += noise.sd * from[k];
+      if (noise.shape == nullptr)
+        for (std::int64_t k = 0; k < axes; ++k) values[k] += noise.sd * from[k];
+      else
+        Eigen::Map<Eigen::VectorXd>(values, axes) +=
+            noise.sd * (*noise.shape * Eigen::Map<const Eigen::VectorXd>(from, axes));
     }
   }
 }
@@ -123,6 +131,20 @@ SeriesMatrix simulated(const SeriesMatrix& path, const Noise& noise, std::int64_
       add_coloured(out, axes * k, axes, noise, first + k, noise_alone);
   }
   return out;
+}
+
+void displace(RefitBatch& batch, const RefitNumbers& numbers) {
+  const auto count = std::ssize(numbers.displacements);
+  if (count == 0) return;
+  std::vector<double> factors(at(count));
+  for (std::int64_t k = 0; k < batch.count; ++k) {
+    math::fill_normals(numbers.seed, kDisplacementStream + static_cast<std::uint64_t>(batch.first + k), 0,
+                       factors);
+    SeriesMatrix moved = factors[0] * numbers.displacements[0];
+    for (std::int64_t i = 1; i < count; ++i) moved += factors[at(i)] * numbers.displacements[at(i)];
+    for (auto* path : {&batch.simulated, &batch.less, &batch.least})
+      if (path->size() > 0) path->middleCols(moved.cols() * k, moved.cols()) += moved;
+  }
 }
 
 // What is left of increments' amplitude where `energy` is seen and `noise` is expected in it.
@@ -163,9 +185,11 @@ SeriesMatrix with_noise(const SeriesMatrix& path, const std::vector<bool>& seen,
 SeriesMatrix with_noise(const SeriesMatrix& path, const Recording& recording, std::uint64_t seed,
                         std::uint64_t stream, std::int64_t number) {
   const Noise noise = noise_of(recording, seed, stream);
-  if (noise.coloured == nullptr) return with_noise(path, recording.seen, noise.sd, seed, stream, number);
   SeriesMatrix alone = SeriesMatrix::Zero(path.rows(), path.cols());
-  add_coloured(alone, 0, path.cols(), noise, number, nullptr);
+  if (noise.coloured == nullptr)
+    add_noise(alone, 0, path.cols(), noise, number);
+  else
+    add_coloured(alone, 0, path.cols(), noise, number, nullptr);
   return path + alone;
 }
 
@@ -187,6 +211,23 @@ SeriesMatrix smoothed(const Recording& recording, double factor) {
   SeriesMatrix out = recording.x;
   smoother_of(recording, factor).smooth(out);
   return out;
+}
+
+Eigen::MatrixXd noise_shape(const Recording& recording, const SeriesMatrix& smooth) {
+  constexpr double kAlike = 20.0;
+  const Eigen::Index axes = recording.x.cols();
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(axes, axes);
+  double count = 0.0;
+  for (std::int64_t i = 0; i < recording.x.rows(); ++i) {
+    if (!recording.seen[at(i)]) continue;
+    const Eigen::RowVectorXd left = recording.x.row(i) - smooth.row(i);
+    squares += left.transpose() * left;
+    count += 1.0;
+  }
+  const double mean = squares.trace() / static_cast<double>(axes);
+  if (!(mean > 0.0)) return {};
+  squares = (count * squares / mean + kAlike * Eigen::MatrixXd::Identity(axes, axes)) / (count + kAlike);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(squares).operatorSqrt();
 }
 
 SeriesMatrix pilot_path(const Recording& recording, std::int64_t first, std::int64_t count,
@@ -285,6 +326,7 @@ void for_each_batch(const Recording& recording, const SeriesMatrix& path, const 
       out.least = out.simulated;
       least->smooth(out.least);
     }
+    displace(out, numbers);
     visit(out);
   }
 }

@@ -37,7 +37,15 @@ struct Recording {
   double noise_sd_m = 0.0;                     ///< per axis, in the unit of x, above 0
   math::SmoothingChoice choice;                ///< of least expected error
   std::shared_ptr<const ColouredNoise> noise;  ///< null: white, of noise_sd_m
+  Eigen::MatrixXd noise_shape = {};  ///< symmetric root of the axes' covariance over their mean variance;
+                                     ///< empty: all axes alike
 };
+
+/// Shape of the noise by what smoothing took away: cameras see depth less well than what lies across, and
+/// what is noise out of a plane decides how thick a path looks. Drawn towards equal axes as by 20 samples of
+/// them.
+/// @param smooth  of recording.x, kLessSmooth
+[[nodiscard]] Eigen::MatrixXd noise_shape(const Recording& recording, const SeriesMatrix& smooth);
 
 /// The recording smoothed with the cut-off of least error times `factor`, at most 0.45 cycles per sample.
 [[nodiscard]] SeriesMatrix smoothed(const Recording& recording, double factor);
@@ -58,6 +66,9 @@ struct RefitNumbers {
   std::uint64_t stream = 0;  ///< of it
   bool least_too = true;     ///< smooth them with kLeastSmooth as well
   bool noise_too = false;    ///< tell what of the smoothed is noise
+  /// Displacements of all samples, as of the path; each refit gets the sum of them with standard normal
+  /// factors of its own: what a calibration leaves unknown, which no smoother takes.
+  std::vector<SeriesMatrix> displacements;
 };
 
 /// Some of them, side by side: columns axes * k and on are those of number first + k.

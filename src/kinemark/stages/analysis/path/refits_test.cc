@@ -74,6 +74,51 @@ TEST(Refits, AreTheSameWhateverTheirNumber) {
   for (std::size_t k = 0; k < few.size(); ++k) EXPECT_EQ(few[k], many[k]) << k;
 }
 
+TEST(Refits, HaveNoiseAsItLiesAlongTheAxes) {
+  const auto truth = testing::sampled(400, 100.0, testing::ellipse);
+  auto recording = recording_of(truth, 0.001);
+  recording.x.col(2) = truth.col(2) + 3.0 * (recording.x.col(2) - truth.col(2));
+  recording.noise_sd_m = 0.001 * std::sqrt(11.0 / 3.0);
+  recording.noise_shape = noise_shape(recording, smoothed(recording, kLessSmooth));
+  const Eigen::MatrixXd covariance = recording.noise_shape * recording.noise_shape;
+  EXPECT_NEAR(covariance.trace(), 3.0, 1e-9);
+  EXPECT_NEAR(covariance(2, 2) / covariance(0, 0), 9.0, 2.5);
+  EXPECT_NEAR(covariance(0, 2), 0.0, 0.2);
+  SeriesMatrix across = SeriesMatrix::Zero(400, 3);
+  across = with_noise(across, recording, 1, 2, 3);
+  EXPECT_NEAR(across.col(2).norm() / across.col(0).norm(), std::sqrt(covariance(2, 2) / covariance(0, 0)),
+              0.3);
+  // Of few samples hardly anything is known of their shape.
+  recording.seen.assign(recording.seen.size(), false);
+  recording.seen[5] = true;
+  EXPECT_LT(noise_shape(recording, smoothed(recording_of(truth, 0.001), kLessSmooth)).norm(), 1.9);
+}
+
+TEST(Refits, AreDisplacedWithTheRoom) {
+  const auto truth = testing::sampled(120, 100.0, testing::ellipse);
+  const auto recording = recording_of(truth, 0.001);
+  RefitNumbers numbers{.count = 40, .seed = 1, .stream = 7};
+  std::vector<SeriesMatrix> plain, displaced;
+  const auto keep = [](std::vector<SeriesMatrix>& to) {
+    return [&to](const RefitBatch& batch) {
+      for (std::int64_t k = 0; k < batch.count; ++k) to.emplace_back(batch.less.middleCols(3 * k, 3));
+    };
+  };
+  for_each_batch(recording, truth, numbers, keep(plain));
+  numbers.displacements = {0.01 * truth, SeriesMatrix::Constant(truth.rows(), 3, 0.02)};
+  for_each_batch(recording, truth, numbers, keep(displaced));
+  double scales = 0.0, shifts = 0.0;
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const SeriesMatrix moved = displaced[k] - plain[k];
+    const double scale = (moved(30, 0) - moved(0, 0)) / (0.01 * (truth(30, 0) - truth(0, 0)));
+    const double shift = (moved(0, 0) - scale * 0.01 * truth(0, 0)) / 0.02;
+    EXPECT_LT((moved - scale * numbers.displacements[0] - shift * numbers.displacements[1]).norm(), 1e-12);
+    scales += scale * scale / 40.0, shifts += shift * shift / 40.0;
+  }
+  EXPECT_NEAR(scales, 1.0, 0.5);
+  EXPECT_NEAR(shifts, 1.0, 0.5);
+}
+
 TEST(Refits, ScatterAsTheRecordingDoes) {
   // Around the truth itself: deviations of refits have the size of the recording's own.
   const auto truth = testing::sampled(300, 100.0, testing::ellipse);

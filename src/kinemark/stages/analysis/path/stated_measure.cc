@@ -32,6 +32,17 @@ void only_at_most(data::Measure& measure, std::string_view why) {
   remark(measure, why);
 }
 
+void only_at_least(data::Measure& measure, std::string_view why) {
+  measure.interval.kind = data::IntervalKind::at_least;
+  measure.interval.high = kNaN;
+  remark(measure, why);
+}
+
+// What a value and its ends say of 1 over it; an end at 0 leaves none.
+Pivoted of_inverse(const Pivoted& p) {
+  return {.value = 1.0 / p.value, .sd = p.sd / (p.value * p.value), .low = 1.0 / p.high, .high = 1.0 / p.low};
+}
+
 std::string method_of(const PathDefinition& definition, const StretchSummary& stretch) {
   if (definition.pivot == Pivot::raw_squared)
     return stretch.refits > 0 ? fmt::format("unsmoothed, {} refits of noise", stretch.refits) : "unsmoothed";
@@ -120,6 +131,8 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
   if (square && pivoted.low <= 0.0)
     only_at_most(measure, "not distinguishable from 0");
+  else if (definition.pivot == Pivot::inverse_squared && std::isinf(pivoted.high))
+    only_at_least(measure, "what it is divided by is not distinguishable from 0");
   else if (definition.weakness == Weakness::lengthened_at_rest && frame.share_at_rest > kRestCounts)
     only_at_most(measure, fmt::format("{:.0f} % of the span are at rest, where noise can only lengthen",
                                       100.0 * frame.share_at_rest));
@@ -166,8 +179,12 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   out.method = method_of(definition, stretch);
   out.interval.level = stretch.level;
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
-  auto pivoted = square ? wide_pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
-                        : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
+  auto pivoted =
+      definition.pivot == Pivot::inverse_squared
+          ? of_inverse(wide_pivot_of_square(1.0 / numbers.estimate, numbers.deviations, stretch.level))
+      : square ? wide_pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
+               : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
+  if (std::isinf(pivoted.value)) pivoted.value = numbers.estimate;
   // Thinning leaves next to no bias: what the refits find of it is as uncertain as it is large.
   if (numbers.thinned) pivoted.value = 0.5 * (pivoted.value + numbers.estimate);
   const std::string why_none = no_interval(definition, stretch, frame);

@@ -59,6 +59,23 @@ TEST_F(StatedMeasure, HasTheBiasTakenOffAndATwoSidedInterval) {
   EXPECT_EQ(m.subject, "RFIN");
 }
 
+TEST_F(StatedMeasure, RatiosOfWhatMayBeNothingHaveNoUpperEnd) {
+  // Deviations are of 1 over the square: 0.25 for a ratio of 2.
+  const auto known = tell("plane_axes_ratio", 2.0, 0.01, 0.05);
+  EXPECT_NEAR(known.value, 1.0 / std::sqrt(0.24), 1e-12);
+  EXPECT_EQ(known.interval.kind, data::IntervalKind::two_sided);
+  EXPECT_NEAR(known.interval.low, 1.0 / std::sqrt(0.30), 0.02);
+  EXPECT_NEAR(known.interval.high, 1.0 / std::sqrt(0.19), 0.02);
+  EXPECT_FALSE(says(known, "what it is divided by is not distinguishable from 0"));
+  for (const double bias : {0.01, 0.3}) {  // with what is left of the divisor, and with nothing
+    const auto line = tell("plane_axes_ratio", 2.0, bias, 0.3);
+    EXPECT_EQ(line.interval.kind, data::IntervalKind::at_least);
+    EXPECT_LT(line.interval.low, 2.0);
+    EXPECT_TRUE(std::isfinite(line.value));
+    EXPECT_TRUE(says(line, "what it is divided by is not distinguishable from 0"));
+  }
+}
+
 TEST_F(StatedMeasure, LengthsAcrossARestAreAtMost) {
   frame_.share_at_rest = 0.4;
   const auto m = tell("path_length", 1.0, 0.02, 0.05);

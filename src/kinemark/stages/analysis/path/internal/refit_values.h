@@ -12,6 +12,13 @@
 
 namespace kinemark::analysis::internal {
 
+/// A value on the scale on which its deviations are taken: itself, its square, or 1 over that.
+[[nodiscard]] inline double on_scale(Pivot pivot, double value) {
+  return pivot == Pivot::squared           ? value * value
+         : pivot == Pivot::inverse_squared ? 1.0 / (value * value)
+                                           : value;
+}
+
 /// One value for each definition, NaN where a measure is not taken of such a path.
 struct RefitValues {
   std::vector<const PathDefinition*> definitions;
