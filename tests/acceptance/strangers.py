@@ -245,23 +245,27 @@ def c3d(name, points, analog, labels, units, per_frame, platform=(), length="mm"
 
 
 CORNERS = [[464.0, 508.0, 0.0], [0.0, 508.0, 0.0], [0.0, 0.0, 0.0], [464.0, 0.0, 0.0]]  # mm; the plate's z points up
+DOWN = [CORNERS[k] for k in (3, 2, 1, 0)]  # the same plate as the format has it: z into it
 FORCE, POINT = (30.0, -20.0, 700.0), (332.0, 204.0, 0.0)
 
 
-def plates(name, corners, markers=True, length="mm", dims=None, origin=(0.0, 0.0, -40.0)):
-    """As many plates as lists of corners: the force of FORCE at POINT on the first, which is CORNERS, in the middle half of the time."""
+def plates(name, corners, markers=True, length="mm", dims=None, origin=(0.0, 0.0, -40.0), first=1, named=True, moments="Nmm", down=False):
+    """As many plates as lists of corners: the force of FORCE at POINT on the first, which is CORNERS, or DOWN whose z is into the plate, in the middle half of the time."""
     x, y = POINT[0] - 232.0, POINT[1] - 254.0
+    force = FORCE
+    if down:
+        y, force = -y, (FORCE[0], -FORCE[1], -FORCE[2])
     z = -40.0  # from the sensors to the surface, by ORIGIN
-    moment = (y * FORCE[2] - z * FORCE[1], z * FORCE[0] - x * FORCE[2], x * FORCE[1] - y * FORCE[0])
-    loaded, rest = [*FORCE, *moment] + [0.0] * 6 * (len(corners) - 1), [0.0] * 6 * len(corners)
+    moment = (y * force[2] - z * force[1], z * force[0] - x * force[2], x * force[1] - y * force[0])
+    loaded, rest = [*force, *moment] + [0.0] * 6 * (len(corners) - 1), [0.0] * 6 * len(corners)
     analog = [loaded if 10 <= f // 2 < 30 else rest for f in range(80)]
     metres = 0.001 if length == "mm" else 1.0
     point = [[v * 0.001 / metres for v in (232.0, 254.0, 1000.0)]]
     n = len(corners)
     platform = [("USED", 2, [], [n]), ("TYPE", 2, [n], [2] * n), ("ZERO", 2, [2], [0, 0]), ("CORNERS", 4, dims or [3, 4, n], [v for plate in corners for v in plate]),
-                ("ORIGIN", 4, [3, n], list(origin) * n), ("CHANNEL", 2, [6, n], list(range(1, 6 * n + 1)))]  # fmt: skip
-    labels = [f"{part}{i + 1}" for i in range(n) for part in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
-    return c3d(name, [point] * 40 if markers else None, analog, labels, (["N"] * 3 + ["Nmm"] * 3) * n, 2, platform, length)
+                ("ORIGIN", 4, [3, n], list(origin) * n), ("CHANNEL", 2, [6, n], list(range(first, 6 * n + first)))]  # fmt: skip
+    labels = [f"{part}{i + 1}" if named else f"channel {6 * i + k}" for i in range(n) for k, part in enumerate(("Fx", "Fy", "Fz", "Mx", "My", "Mz"))]
+    return c3d(name, [point] * 40 if markers else None, analog, labels, (["N"] * 3 + [moments] * 3) * n, 2, platform, length)
 
 
 def loaded_right(path):
@@ -289,6 +293,30 @@ def corners_of_plates_as_they_come():
     wrong = [(name, seen) for name, good, seen in found if not good]
     both = "2 plates" in dict((name, seen) for name, _, seen in found)["crossed"]
     return not wrong and both, f"{len(files) - len(wrong)} of {len(files)} right{': not ' + str(wrong[0]) if wrong else ''}; the crossed one is there: {both}"
+
+
+@stranger("force and point of the plate, and each said")
+def plates_whose_numbers_contradict_each_other():
+    one = [flat(CORNERS)]
+    cases = {
+        "counts from 0": [plates("labels0.c3d", one, first=0), plates("bare0.c3d", one, first=0, named=False)],
+        "ORIGIN is taken for m": [plates("origin.c3d", one, origin=(0.0, 0.0, -0.04))],
+        "divided by 1000": [plates("moments.c3d", one, moments="Nm")],
+        "are exchanged, so that they go around it and its z points down": [
+            plates(f"over{k}.c3d", [flat([DOWN[c] for c in order])], down=True) for k, order in enumerate(((0, 2, 1, 3), (0, 1, 3, 2)))],
+    }  # fmt: skip
+    fine = [plates("fine.c3d", one), plates("down.c3d", [flat(DOWN)], down=True)]
+    told = lambda file: run("convert", file, HERE / "f.mot", "--force").stderr  # noqa: E731
+    found = [(file.stem, *loaded_right(file), word in told(file)) for word, files in cases.items() for file in files]
+    found += [(file.stem, *loaded_right(file), not any(word in told(file) for word in cases)) for file in fine]
+    wrong = [(name, seen, f"said: {said_so}") for name, good, seen, said_so in found if not (good and said_so)]
+    return not wrong, f"{len(found) - len(wrong)} of {len(found)} right{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+@stranger("exit 1, and what contradicts what")
+def pressure_beside_the_plate():
+    done = run("convert", plates("off.c3d", [flat(CORNERS)], moments="Ncm"), HERE / "f.mot", "--force")
+    return done.returncode == 1 and "leaves plate 1" in done.stderr, said(done)
 
 
 @stranger("EMG and plates measured by emg and analyze; paths need markers")
