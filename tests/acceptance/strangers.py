@@ -119,6 +119,73 @@ def words_and_nines_for_nothing():
     return not wrong, f"{tried - len(wrong)} of {tried} right{': not ' + str(wrong[0]) if wrong else ''}"
 
 
+@stranger("x, y and z where a unit says so, else asked about; three channels never")
+def numbers_for_axes():
+    number = dict(zip("XYZ", range(3)))
+    styles = [csv("{n}_{a}").replace("_X", "_1").replace("_Y", "_2").replace("_Z", "_3"), csv("{n}.{a}").replace(".X", ".1").replace(".Y", ".2").replace(".Z", ".3")]
+    labels = csv("{n}[{a}]")
+    for axis, k in number.items():
+        labels = labels.replace(f"[{axis}]", f"[{k}]")
+    files = [(f"numbers{i}.csv", text) for i, text in enumerate([*styles, labels])]
+    good, seen = all_same(files, "--unit", "mm")
+    asked = [run("info", written(name, text)) for name, text in files]
+    rows = "".join(f"{t},1,2,3\n" for t in cells()[1])
+    channels = [run("info", written("channels.csv", f"time,{line}\n{rows}"), "--unit", "mm") for line in ("Marker_1,Marker_2,Marker_3", "sensor.0,sensor.1,sensor.2", "acc_1,acc_2,acc_3")]
+    fine = all(done.returncode == 3 and "--unit" in done.stderr for done in asked) and all(done.returncode == 3 for done in channels)
+    return good and fine, f"{seen}; without a unit: {said(asked[0])[-90:]}"
+
+
+@stranger("seconds from the first, and said so; what is no instant refused")
+def times_of_a_clock():
+    times = [float(t) for t in cells()[1]]
+    styles = {"iso": "2024-05-01T10:00:{:06.3f}", "blank": "2024-05-01 23:59:{:06.3f}", "zone": "2024-05-01T10:00:{:06.3f}+02:00", "bare": "10:00:{:06.3f}", "quoted": '"10:00:{:06.3f}"'}
+    header, *rows = csv("{n}_{a}").splitlines()
+    texts = {name: "\n".join([header.replace("time", "timestamp"), *(f"{style.format(t)},{row.split(',', 1)[1]}" for t, row in zip(times, rows))]) + "\n" for name, style in styles.items()}
+    semicolons = "\n".join(line.replace(",", ";").replace(".", ",") for line in texts["bare"].splitlines()) + "\n"
+    good, seen = all_same([(f"{name}.csv", text) for name, text in [*texts.items(), ("comma", semicolons)]], "--unit", "mm")
+    noted = run("info", written("iso.csv", texts["iso"]), "--unit", "mm")
+    half = run("info", written("half.csv", texts["bare"].replace("10:00:", "at 10:00:")), "--unit", "mm")
+    return good and "times are those of a clock" in noted.stderr + noted.stdout and half.returncode == 3, f"{seen}; else {said(half)[-80:]}"
+
+
+@stranger("1,234.5 and 1.234,5 the same numbers, or refused; never another number")
+def thousands():
+    names, times, values = cells()
+    grouped = [[f"{float(v):,.3f}" for v in row] for row in values]
+    whole = [[f"{round(float(v)):,}" for v in row] for row in values]
+    label = ",".join(["time", *(f"{n}_{a}" for n in names for a in "XYZ")])
+    turn = str.maketrans(",.", ".,")
+    english = label + "\n" + "".join(f"{t}," + ",".join(f'"{v}"' for v in row) + "\n" for t, row in zip(times, grouped))
+    tabs = label.replace(",", "\t") + "\n" + "".join(f"{t}\t" + "\t".join(row) + "\n" for t, row in zip(times, grouped))
+    german = label.replace(",", ";") + "\n" + "".join(f"{t.translate(turn)};" + ";".join(v.translate(turn) for v in row) + "\n" for t, row in zip(times, grouped))
+    good, seen = all_same([("english.csv", english), ("tabs.csv", tabs), ("german.csv", german)], "--unit", "mm")
+    bare = label.replace(",", ";") + "\n" + "".join(f"{f};" + ";".join(v.translate(turn) for v in row) + "\n" for f, row in enumerate(whole))
+    rounded = same(written("bare.csv", bare.replace("time", "frame")), plain(), 1.0, "--unit", "mm", "--rate", "100")
+    both = run("info", written("both.csv", tabs.replace(grouped[3][0], "1.234,5")), "--unit", "mm")
+    return good and rounded[0] and both.returncode == 3, f"{seen}; whole numbers {rounded[1]}; both signs: exit {both.returncode}"
+
+
+@stranger("forces of the plates as they are, N and N m, at their points; corners not known, said")
+def forces_of_d_flow():
+    free = 5.0
+    header = ["TimeStamp", "FrameNumber", *(f"LHEE.Pos{a}" for a in "XYZ"), *(f"FP{p}.{w}{a}" for p in (1, 2) for w in ("Cop", "For", "Mom") for a in "XYZ")]
+    rows, truth = [], []
+    for f in range(120):
+        point, force = (0.1, 0.0, 0.2 + 0.001 * f), (20.0, 700.0 if 30 <= f < 90 else 3.0, -30.0)
+        turn = (point[1] * force[2] - point[2] * force[1], free + point[2] * force[0] - point[0] * force[2], point[0] * force[1] - point[1] * force[0])
+        rows.append([0.01 * f, f + 1, 0.1, 0.05, 0.2, *point, *force, *turn, *[0.0] * 9])
+        truth.append((force, point))
+    path = written("grail.txt", "\t".join(header) + "\n" + "".join("\t".join(f"{v:.6f}" for v in row) + "\n" for row in rows))
+    done = run("convert", path, HERE / "grail.mot", "--force")
+    if done.returncode != 0:
+        return False, said(done)
+    _, got = table(HERE / "grail.mot")
+    off = max(max(math.dist(got[f][1:4], truth[f][0]), 1e3 * math.dist(got[f][4:7], truth[f][1]), abs(got[f][8] - free)) for f in range(30, 90))
+    empty = max(abs(v) for v in got[10][1:])
+    beside = run("convert", path, HERE / "grail.c3d", "--force").stderr
+    return off < 0.01 and empty == 0 and "corners" in done.stderr and "not carried on: forces of plates" in beside, f"{off:.2g} N, mm, N m off; empty {empty}; to C3D: {'said' if 'not carried' in beside else 'unsaid'}"
+
+
 @stranger("one line a sample under other labels, read")
 def long_tables():
     names, times, values = cells()

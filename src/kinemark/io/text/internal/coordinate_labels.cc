@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -129,9 +130,10 @@ bool take_clock(Label& label) {
   constexpr std::array<std::string_view, 10> kFrames{"frame",   "frames",   "framenumber", "frameno",
                                                      "frameid", "frameidx", "fnum",        "field",
                                                      "framenr", "framenum"};
-  constexpr std::array<std::string_view, 17> kTimes{
-      "time", "t",    "times",  "timestamp", "timestamps", "temps", "second", "elapsedtime", "seconds",
-      "sec",  "zeit", "tiempo", "tempo",     "tijd",       "tid",   "secs",   "frametime"};
+  constexpr std::array<std::string_view, 22> kTimes{
+      "time",    "t",     "times",    "timestamp", "timestamps", "temps",    "second", "elapsedtime",
+      "sec",     "zeit",  "tiempo",   "tempo",     "tijd",       "tid",      "secs",   "frametime",
+      "utctime", "clock", "datetime", "seconds",   "timeofday",  "localtime"};
   std::string word = letters_of(label.name), unit = lower(label.unit);
   label.is_frame = is_one_of(kFrames, word);
   if (label.is_frame) return true;
@@ -228,12 +230,65 @@ bool holds_markers(CoordinateLabels& table) {
   return first->marker >= 0 || 2 * coordinates >= table.columns.size() - clocks;
 }
 
+/// "LASI_1", "LASI.2", "LASI[0]": a name and a number of one digit. Words for a point of any name have
+/// numbers to tell markers apart.
+std::optional<std::pair<std::string, int>> numbered_component(const Label& label) {
+  constexpr std::array<std::string_view, 14> kAnyPoint{"marker", "markers", "point", "points", "mkr",
+                                                       "m",      "p",       "pt",    "sensor", "channel",
+                                                       "ch",     "column",  "col",   "unnamed"};
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string_view stem = label.name;
+  char digit = 0;
+  if (label.unit.size() == 1 && is_digit(label.unit.front())) {
+    digit = label.unit.front();
+  } else if (stem.size() > 2 && is_digit(stem.back()) && is_between(stem[stem.size() - 2])) {
+    digit = stem.back();
+    stem.remove_suffix(1);
+  }
+  while (!stem.empty() && is_between(stem.back())) stem.remove_suffix(1);
+  if (digit == 0 || stem.empty() || is_one_of(kAnyPoint, lower(stem))) return std::nullopt;
+  return std::pair{std::string(stem), digit - '0'};
+}
+
+/// Every column but clocks is one of three of its name, numbered from 0 or from 1 in all of them.
+bool take_numbered_axes(std::vector<Label>& labels) {
+  std::map<std::string, std::vector<std::size_t>> columns;  // of a name
+  int lowest = 2;
+  for (std::size_t c = 0; c < labels.size(); ++c) {
+    if (is_clock(labels[c])) continue;
+    const auto component = numbered_component(labels[c]);
+    if (!component) return false;
+    columns[component->first].push_back(c);
+    lowest = std::min(lowest, component->second);
+  }
+  const auto axis = [&](std::size_t c) { return numbered_component(labels[c])->second - lowest; };
+  const bool threes = lowest < 2 && std::ranges::all_of(
+                                        columns,
+                                        [&](const auto& named) {
+                                          std::set<int> axes;
+                                          for (const std::size_t c : named.second) axes.insert(axis(c));
+                                          return named.second.size() == 3 && axes == std::set{0, 1, 2};
+                                        });
+  if (columns.empty() || !threes) return false;
+  for (const auto& [name, of_name] : columns)
+    for (const std::size_t c : of_name) {
+      labels[c].axis = axis(c);
+      if (labels[c].unit.size() == 1 && !metres_per_unit(labels[c].unit)) labels[c].unit.clear();
+      labels[c].name = name;
+    }
+  return true;
+}
+
 /// The labels of one line.
 CoordinateLabels in_one_line(const std::vector<std::string>& cells) {
   CoordinateLabels out;
   for (const auto& cell : cells) out.columns.push_back(coordinate_label(cell));
   take_row_numbers(out.columns);
   if (holds_markers(out)) return out;
+  if (auto numbered = out; take_numbered_axes(numbered.columns) && holds_markers(numbered)) {
+    numbered.are_numbered = true;
+    return numbered;
+  }
   bool changed = false;
   for (auto& label : out.columns)
     changed = (!is_clock(label) && (take_axis_at_end(label) || take_number(label))) || changed;
