@@ -16,7 +16,7 @@ import random
 import struct
 import sys
 
-from cases import CASES, HERE, cells, plain, positions, run, said, same, table, written
+from cases import CASES, HERE, apart, cells, plain, positions, run, said, same, table, written
 from plates import parameter
 
 CHECKS = []
@@ -163,6 +163,87 @@ def thousands():
     rounded = same(written("bare.csv", bare.replace("time", "frame")), plain(), 1.0, "--unit", "mm", "--rate", "100")
     both = run("info", written("both.csv", tabs.replace(grouped[3][0], "1.234,5")), "--unit", "mm")
     return good and rounded[0] and both.returncode == 3, f"{seen}; whole numbers {rounded[1]}; both signs: exit {both.returncode}"
+
+
+@stranger("the same numbers")
+def signs_of_other_countries():
+    names, times, values = cells()
+    label = ["time", *(f"{n}_{a}" for n in names for a in "XYZ")]
+    lower = [[f"{float(v) - 500:.3f}" for v in row] for row in values]
+    minus = csv("{n}_{a}", rows=[[v.replace("-", "\u2212") for v in row] for row in lower])
+    hyphen = positions(written("hyphen.csv", csv("{n}_{a}", rows=lower)), "--unit", "mm")
+    good = "\u2212" in minus and apart(positions(written("minus.csv", minus), "--unit", "mm"), hyphen) < 1e-3
+    grouped = [[f"{float(v):,.3f}" for v in row] for row in values]
+    swiss = csv("{n}_{a}", rows=[[v.replace(",", "'") for v in row] for row in grouped])
+    french = [";".join(label) + "\n" + "".join(f"{t.replace('.', ',')};" + ";".join(v.replace(",", blank).replace(".", ",") for v in row) + "\n" for t, row in zip(times, grouped)) for blank in ("\u00a0", "\u202f", " ")]
+    fortran = trc(rows=[[f"{float(v) / 100:.7f}D+02" for v in row] for row in values])
+    fine, found = all_same([("swiss.csv", swiss), *((f"french{i}.csv", text) for i, text in enumerate(french))], "--unit", "mm")
+    last, there = all_same([("fortran.trc", fortran)])
+    return good and fine and last, f"minus {good}; {found}; Fortran {there}"
+
+
+@stranger("read with the names and the clock that these programs write")
+def tables_of_pandas_and_kineticstoolkit():
+    names, times, values = cells()
+    rows = "".join(f"{t},{','.join(row)}\n" for t, row in zip(times, values))
+    twice = ",".join(n for n in names for _ in "xyz")
+    axes = ",".join("xyz" * len(names))
+    pandas = [f"{a},{twice}\n{b},{axes}\ntime{',' * 3 * len(names)}\n{rows}" for a, b in (("", ""), ("channel", "axis"))]
+    good, seen = all_same([(f"pandas{i}.csv", text) for i, text in enumerate(pandas)], "--unit", "mm")
+    four = "Time," + ",".join(f"{n}[{k}]" for n in names for k in range(4)) + "\n"
+    four += "".join(f"{t}," + ",".join(",".join([*(f"{float(v) / 1e3:.8f}" for v in row[3 * m : 3 * m + 3]), "1.0"]) for m in range(len(names))) + "\n" for t, row in zip(times, values))
+    fine, found = all_same([("kineticstoolkit.csv", four)], "--unit", "m")
+    return good and fine, f"{seen}; kineticstoolkit {found}"
+
+
+@stranger("not there, and said")
+def zeros_for_nothing_in_tables():
+    names, times, values = cells()
+    rows = [["0", "0.0", "0.000"] + row[3:] if f % 7 == 3 else row for f, row in enumerate(values)]
+    wrong = []
+    for options, label in ((("--unit", "mm"), "{n}_{a}"), ((), "{n}_{a} (mm)")):
+        path = written("zeros.csv", csv(label, rows=rows))
+        read = positions(path, *options)
+        if isinstance(read, str) or [p is None for p in read[names[0]]] != [f % 7 == 3 for f in range(len(times))] or "exactly (0, 0, 0)" not in run("info", path, *options).stdout:
+            wrong.append(read if isinstance(read, str) else label)
+    return not wrong, f"2 tables{': not ' + wrong[0] if wrong else ''}"
+
+
+@stranger("the rate of the header, said")
+def times_that_count_frames():
+    path = written("frames.trc", trc(times=[str(f + 1) for f in range(60)]))
+    good, seen = same(path, plain(), 1e-3)
+    facts = run("info", path).stdout
+    return good and "times count frames" in facts and " 100" in facts, seen
+
+
+@stranger("read as the plain file: labels from X5, keys that are missing, counts that differ, units in every hand, fillings at the end")
+def trc_of_every_program():
+    text = plain().read_text()
+    lines = text.splitlines()
+    head = lambda k, line: "\n".join([*lines[:k], line, *lines[k + 1 :]]) + "\n"  # noqa: E731
+    count = len(cells()[0])
+    files = [("x5", trc([f"{a}{m + 5}" for m in range(count) for a in "XYZ"])), ("more", head(2, lines[2].replace(f"\t{count}\t", f"\t{count + 1}\t"))),
+             ("fewer", head(2, lines[2].replace(f"\t{count}\t", f"\t{count - 1}\t"))), ("long", head(2, lines[2].replace("mm", "Millimeters"))), ("capital", head(2, lines[2].replace("mm", "MM"))),
+             ("close", "\n".join(line for line in lines if line.strip()) + "\n"), ("zeros", text + "\0" * 64), ("dos", text + "\x1a"),
+             ("keys", "\n".join([lines[0], *("\t".join(line.split("\t")[:7]) for line in lines[1:3]), *lines[3:]]) + "\n")]  # fmt: skip
+    return all_same([(f"{name}.trc", content) for name, content in files])
+
+
+@stranger("what each is, and what to do")
+def files_that_are_something_else():
+    model = "<?xml version='1.0'?>\n<OpenSimDocument Version='40000'>"
+    files = (("lfs.c3d", b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "git lfs pull"), ("page.c3d", b"<!DOCTYPE html>\n<html></html>\n", "web page"),
+             ("page.trc", b"<html><body>404</body></html>\n", "web page"), ("sheet.xlsx", b"PK\3\4" + bytes(200), "CSV"), ("walk.c3d.gz", b"\x1f\x8b\x08" + bytes(100), "unpack"),
+             ("body.osim", f"{model}<Model/>".encode(), "--model"), ("setup.xml", f"{model}<InverseKinematicsTool/>".encode(), "--setup"),
+             ("bare.tsv", b"1\t0.00\t1\t2\t3\n2\t0.01\t1\t2\t3\n", "header"))  # fmt: skip
+    wrong = []
+    for name, content, word in files:
+        (HERE / name).write_bytes(content)
+        done = run("measure", HERE / name)
+        if done.returncode not in (2, 3) or word not in done.stderr:
+            wrong.append((name, said(done)))
+    return not wrong, f"{len(files) - len(wrong)} of {len(files)} said{': not ' + str(wrong[0]) if wrong else ''}"
 
 
 @stranger("forces of the plates as they are, N and N m, at their points; corners not known, said")
@@ -372,6 +453,7 @@ def plates_whose_numbers_contradict_each_other():
         "are exchanged, so that they go around it and its z points down": [
             plates(f"over{k}.c3d", [flat([DOWN[c] for c in order])], down=True) for k, order in enumerate(((0, 2, 1, 3), (0, 1, 3, 2)))],
     }  # fmt: skip
+    cases["taken for cm"] = [plates("cm.c3d", [flat(CORNERS, 0.1)])]
     fine = [plates("fine.c3d", one), plates("down.c3d", [flat(DOWN)], down=True)]
     told = lambda file: run("convert", file, HERE / "f.mot", "--force").stderr  # noqa: E731
     found = [(file.stem, *loaded_right(file), word in told(file)) for word, files in cases.items() for file in files]

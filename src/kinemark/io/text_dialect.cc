@@ -186,12 +186,47 @@ Number number_in(std::string_view cell) {
   return pointed.find(',') == std::string::npos && parse_number(pointed) ? Number::with_comma : Number::none;
 }
 
+/// A cell with the signs of typesetters and of other countries brought to those of programs: a minus of its
+/// own, blanks and apostrophes between groups of three digits ("1 234,5", "1'234.5"), the D of Fortran's
+/// exponents.
+std::string with_usual_signs(std::string_view cell) {
+  constexpr std::array<std::string_view, 2> kMinus{"\xE2\x88\x92", "\xEF\xBC\x8D"};  // U+2212, U+FF0D
+  constexpr std::array<std::string_view, 7> kGroups{
+      "\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", "\xE2\x80\x99", "\xA0", " ", "'"};
+  std::string out;
+  for (std::size_t i = 0; i < cell.size();) {
+    const auto rest = cell.substr(i);
+    const auto begins = [&](std::string_view sign) { return rest.starts_with(sign); };
+    if (const auto minus = std::ranges::find_if(kMinus, begins); minus != kMinus.end()) {
+      out += '-';
+      i += minus->size();
+      continue;
+    }
+    const auto group = std::ranges::find_if(kGroups, begins);
+    const auto digits = group == kGroups.end() ? std::string_view() : rest.substr(group->size(), 4);
+    const bool three = digits.size() >= 3 && std::ranges::all_of(digits.substr(0, 3), is_decimal) &&
+                       (digits.size() == 3 || !is_decimal(digits[3]));
+    if (three && !out.empty() && is_decimal(out.back()) && out.find_first_of(".,") == std::string::npos) {
+      i += group->size();
+      continue;
+    }
+    const char c = rest.front();
+    const bool exponent = (c == 'D' || c == 'd') && !out.empty() &&
+                          (is_decimal(out.back()) || out.back() == '.') && rest.size() > 1 &&
+                          (is_decimal(rest[1]) || rest[1] == '+' || rest[1] == '-');
+    out += exponent ? 'e' : c;
+    ++i;
+  }
+  return out;
+}
+
 /// What is special about a text.
 struct Dialect {
   Between between = Between::commas;
   bool decimal_commas = false;
   char thousands = 0;  ///< ',' or '.' between groups of three digits
   bool quoted_numbers = false;
+  bool odd_signs = false;  ///< with_usual_signs() makes numbers of cells
   bool table_of_blanks = false;
 };
 
@@ -263,7 +298,7 @@ struct NumberKinds {
   std::vector<Column> columns;
 
   [[nodiscard]] std::size_t of(Number kind) const { return count[static_cast<std::size_t>(kind)]; }
-  void add(const std::vector<std::pair<Number, std::string_view>>& row) {
+  void add(const std::vector<std::pair<Number, std::string>>& row) {
     if (columns.size() < row.size()) columns.resize(row.size());
     for (std::size_t c = 0; c < row.size(); ++c) {
       const auto& [kind, cell] = row[c];
@@ -305,21 +340,27 @@ char thousands_of(const NumberKinds& kinds) {
 /// Of rows that hold two cells or more and nothing but numbers and the time of a clock.
 void judge_rows(std::string_view sample, Dialect& dialect) {
   NumberKinds kinds;
-  std::vector<std::pair<Number, std::string_view>> row;
+  std::vector<std::pair<Number, std::string>> row;
   for_lines(sample, [&](std::string_view line, std::string_view) {
     row.clear();
     std::size_t quoted = 0;
-    bool all = true;
+    bool all = true, odd = false;
     for_cells(line, dialect.between, [&](std::string_view cell) {
       const auto inside = bare(cell);
-      const auto number = inside.empty() ? Number::none : number_in(inside);
+      auto number = inside.empty() ? Number::none : number_in(inside);
       row.emplace_back(number, inside);
       if (inside.empty()) return;
+      if (number == Number::none && is_decimal(inside.back())) {
+        row.back().second = with_usual_signs(inside);
+        row.back().first = number = number_in(row.back().second);
+        odd = odd || number != Number::none;
+      }
       all = all && (number != Number::none || parse_clock_time(inside));
       quoted += inside.size() < trim(cell).size() ? 1 : 0;
     });
     if (!all || row.size() < 2) return;
     kinds.add(row);
+    dialect.odd_signs = dialect.odd_signs || odd;
     dialect.quoted_numbers = dialect.quoted_numbers || quoted > 0;
   });
   dialect.thousands = thousands_of(kinds);
@@ -413,8 +454,13 @@ char thousands_in(Number number, const Dialect& dialect) {
 /// One cell as it is written again.
 void append_cell(std::string& out, std::string_view cell, const Dialect& dialect, char separator) {
   const auto inside = bare(cell);
-  const auto number = number_in(inside);
+  auto number = number_in(inside);
   std::string plain(inside);
+  if (number == Number::none && dialect.odd_signs && !inside.empty() && is_decimal(inside.back())) {
+    auto usual = with_usual_signs(inside);
+    number = number_in(usual);
+    if (number != Number::none) plain = std::move(usual);
+  }
   if (const char group = thousands_in(number, dialect); group != 0) std::erase(plain, group);
   const bool is_clock = number == Number::none && parse_clock_time(inside);
   if (is_clock || (number != Number::none && dialect.decimal_commas)) std::ranges::replace(plain, ',', '.');
@@ -453,7 +499,9 @@ std::string in_plain_dialect(std::string text) {
   const bool moved = dialect.between == Between::semicolons ||
                      (dialect.between == Between::tabs && separator_of(text) == ',') ||
                      dialect.table_of_blanks;
-  if (!moved && !dialect.decimal_commas && dialect.thousands == 0 && !dialect.quoted_numbers) return text;
+  if (!moved && !dialect.decimal_commas && dialect.thousands == 0 && !dialect.quoted_numbers &&
+      !dialect.odd_signs)
+    return text;
   return rewritten(text, dialect);
 }
 

@@ -111,6 +111,26 @@ TEST(TextDialect, NumbersWithBothAreLeftForTheReaderToRefuse) {
     EXPECT_EQ(in_plain_dialect(text), text);
 }
 
+TEST(TextDialect, SignsOfTypesettersAndOtherCountriesBecomeThoseOfPrograms) {
+  EXPECT_EQ(in_plain_dialect("t,x\n0.5,\xE2\x88\x92"
+                             "12.5\n0.6,3\n"),
+            "t,x\n0.5,-12.5\n0.6,3\n");
+  EXPECT_EQ(in_plain_dialect("t,x\n0.5,1'234.5\n0.6,-12'345'678.25\n"),
+            "t,x\n0.5,1234.5\n0.6,-12345678.25\n");
+  for (const std::string blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xA0", " "})
+    EXPECT_EQ(in_plain_dialect("t;x\n0,5;1" + blank + "234,5\n0,6;-987,5\n"),
+              "t,x\n0.5,1234.5\n0.6,-987.5\n");
+  EXPECT_EQ(in_plain_dialect("t\tx\n0.5\t0.125D+02\n0.6\t1.d-3\n"), "t\tx\n0.5\t0.125e+02\n0.6\t1.e-3\n");
+}
+
+TEST(TextDialect, OtherSignsAreLeftForTheReaderToRefuse) {
+  for (const std::string text : {"t,x\n0.5,1'23.5\n0.6,1'2345\n", "t\tx\n0.5\t1.5'234\n",
+                                 "t,x\n0.5,\xE2\x88\x92\n", "t,x\n0.5,12D\n", "t,x\n0.5,a D+02\n"})
+    EXPECT_EQ(in_plain_dialect(text), text);
+  EXPECT_EQ(in_plain_dialect("t;name\n0,5;marker 123\n0,6;1\n"), "t,name\n0.5,marker 123\n0.6,1\n")
+      << "a name is no number";
+}
+
 TEST(TextDialect, TimesOfAClockStandBesideDecimalCommas) {
   EXPECT_EQ(in_plain_dialect("t;x\n10:00:00,010;1,5\n10:00:00,020;1,6\n"),
             "t,x\n10:00:00.010,1.5\n10:00:00.020,1.6\n");

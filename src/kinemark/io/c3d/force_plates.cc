@@ -73,9 +73,10 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   const C3dParameter* corners = p.find("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
   const C3dParameter* polynomials = p.find("FORCE_PLATFORM", "FPCOPPOLY");
-  const int first_number = internal::first_channel_number(
-      channels, std::span(types).first(std::min(used, types.size())),
-      {.labels = p.texts("ANALOG", "LABELS"), .count = layout.analog_channels}, warnings);
+  const internal::AnalogLabels analog{.labels = p.texts("ANALOG", "LABELS"), .count = layout.analog_channels};
+  const auto used_types = std::span(types).first(std::min(used, types.size()));
+  const int first_number = internal::first_channel_number(channels, used_types, analog, warnings);
+  internal::note_other_labels(channels, used_types, analog, first_number, warnings);
   std::vector<data::ForcePlate> plates;
   for (std::size_t i = 0; i < used; ++i) {
     data::ForcePlate plate{.number = static_cast<int>(i) + 1, .metres_per_unit = layout.metres_per_unit};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/data/plate_component.h"
 #include "kinemark/io/c3d/internal/count.h"
@@ -103,6 +104,33 @@ int first_channel_number(const C3dParameter* channels, std::span<const double> t
           ? fmt::format(", '{}' is the first channel of plate 1", printable(analog.labels[number], 40))
           : ""));
   return 0;
+}
+
+void note_other_labels(const C3dParameter* channels, std::span<const double> types,
+                       const AnalogLabels& analog, int first_number, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    const int type = static_cast<int>(bounded_count(types[i], 1000));
+    const auto components = components_of(type);
+    const auto found = channels_of_plate(channels, i, type, std::ssize(analog.labels), first_number);
+    if (components.empty() || 2 * found.size() != components.size()) continue;
+    std::vector<std::string> others;
+    bool all_named = true;
+    for (std::size_t r = 0; r < found.size(); ++r) {
+      const auto wanted = components.substr(2 * r, 2);
+      const auto& label = analog.labels[static_cast<std::size_t>(found[r])];
+      const auto named = data::plate_component(label);
+      if (wanted == "  ") continue;
+      all_named = all_named && !named.empty();
+      if (named != wanted)
+        others.push_back(fmt::format("{}{} is '{}'", static_cast<char>(wanted[0] - 'a' + 'A'), wanted[1],
+                                     printable(label, 40)));
+    }
+    if (all_named && !others.empty())
+      warnings.push_back(fmt::format(
+          "force plate {}: by FORCE_PLATFORM:CHANNEL its {}; if the labels are right, its forces lie along "
+          "other axes",
+          i + 1, join_some(others, 3)));
+  }
 }
 
 std::vector<int> channels_of_plate(const C3dParameter* channels, std::size_t i, int type,

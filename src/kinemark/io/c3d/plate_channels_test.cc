@@ -92,6 +92,25 @@ TEST(PlateChannels, AZeroOfAChannelThatIsNotThereStays) {
   EXPECT_EQ(first_of(channel(6, {0, 0, 1, 0, 0, 0}), {2}, {.labels = {}, .count = 12}).first, 1);
 }
 
+TEST(PlateChannels, LabelsOfOtherComponentsAreSaid) {
+  const auto said = [](std::vector<double> numbers, int type, const AnalogLabels& analog) {
+    std::vector<std::string> warnings;
+    const auto channels = channel(static_cast<int>(numbers.size()), std::move(numbers));
+    note_other_labels(&channels, std::vector<double>{static_cast<double>(type)}, analog, 1, warnings);
+    return warnings;
+  };
+  EXPECT_THAT(said({6, 5, 7, 8, 9, 10}, 2, labelled(4, 1)),
+              ElementsAre(HasSubstr(
+                  "force plate 1: by FORCE_PLATFORM:CHANNEL its Fx is 'Force.Fy1', Fy is 'Force.Fx1'; if the "
+                  "labels are right, its forces lie along other axes")));
+  EXPECT_THAT(said({5, 6, 7, 8, 9, 10}, 2, labelled(4, 1)), IsEmpty());
+  EXPECT_THAT(said({4, 5, 6, 7, 8, 9}, 2, labelled(4, 1)), IsEmpty()) << "one of them names no component";
+  EXPECT_THAT(said({1, 2, 3, 4, 5, 6}, 2, {.labels = {"a", "b", "c", "d", "e", "f"}, .count = 6}), IsEmpty());
+  EXPECT_THAT(said({1, 2, 3, 4, 5, 6}, 1, {.labels = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}, .count = 6}),
+              IsEmpty())
+      << "the point has no label of its own";
+}
+
 TEST(PlateChannels, OfTypesThatAreNotKnownAreThoseBeforeTheFirstZero) {
   const auto other = channel(8, {3, 1, 2, 0, 0, 0, 0, 0});
   EXPECT_EQ(first_of(other, {21}, labelled(0, 1)).first, 1);

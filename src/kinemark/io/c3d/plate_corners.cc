@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "kinemark/io/c3d/internal/plate_corners.h"
@@ -22,7 +23,7 @@ constexpr double kShortest = 0.1, kLongest = 3.0;  // m, of the longest side of 
 constexpr double kParallel = 0.95;                 // cosine
 constexpr double kLevel = 0.7;                     // cosine; of a plate in a floor, on stairs or on a ramp
 constexpr double kDeepest = 0.3;                   // m, of sensors below the surface
-constexpr std::array<std::pair<const char*, double>, 2> kUnits{{{"mm", 0.001}, {"m", 1.0}}};
+constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 0.001}, {"m", 1.0}, {"cm", 0.01}}};
 
 bool is_side(double length_m) { return length_m >= kShortest && length_m <= kLongest; }
 
@@ -59,7 +60,7 @@ void settle_origin_unit(data::ForcePlate& plate, double metres_per_unit, double 
   const Vector3d origin = plate.origin_in_plate;
   if (is_depth(origin.norm()) || !(origin.norm() > 0.0) || !(metres_per_unit > 0.0)) return;
   const double side = longest_side(plate.corners_in_world);
-  for (const auto& [unit, metres] : kUnits) {
+  for (const auto& [unit, metres] : std::span(kUnits).first(2)) {  // a depth in cm may be one in mm
     const double factor = metres / metres_per_unit;
     const Vector3d other = factor * origin;
     if (!is_depth(std::abs(other.z())) || std::abs(other.z()) > kDeepest) continue;

@@ -26,6 +26,11 @@ struct AnalogLabels {
 [[nodiscard]] int first_channel_number(const C3dParameter* channels, std::span<const double> types,
                                        const AnalogLabels& analog, std::vector<std::string>& warnings);
 
+/// Adds a warning for each plate whose channels all carry labels of components, some of them another one than
+/// their order in CHANNEL makes them: which of the two is wrong is not known, CHANNEL is followed.
+void note_other_labels(const C3dParameter* channels, std::span<const double> types,
+                       const AnalogLabels& analog, int first_number, std::vector<std::string>& warnings);
+
 /// Zero-based channels of plate i; empty when one of them is not in the file.
 [[nodiscard]] std::vector<int> channels_of_plate(const C3dParameter* channels, std::size_t i, int type,
                                                  std::int64_t analog_channels, int first_number);

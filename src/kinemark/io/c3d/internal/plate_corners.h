@@ -17,8 +17,8 @@ namespace kinemark::io::internal {
 /// 4 x 3 x plates as some programs write it. NaN where there are too few numbers.
 [[nodiscard]] Eigen::Vector3d plate_corner(const C3dParameter* corners, std::size_t i, std::size_t c);
 
-/// A plate whose longest side is none that a plate has (0.1 to 3 m), and would be one with its corners in mm
-/// or in m: these are taken so, with a warning. Its origin likewise, where only then its sensors lie 1 mm to
+/// A plate whose longest side is none that a plate has (0.1 to 3 m), and would be one with its corners in mm,
+/// m or cm: these are taken so, with a warning. Its origin likewise, where only then its sensors lie 1 mm to
 /// 0.3 m below the surface. `metres_per_unit` is that of the points, by which corners and origin were
 /// multiplied.
 void settle_plate_unit(data::ForcePlate& plate, double metres_per_unit, std::vector<std::string>& warnings);

@@ -127,6 +127,32 @@ TEST(CoordinateLabels, NumbersStandForAxesWhereEveryNameHasThree) {
   EXPECT_FALSE(read("time,LASI_1_x,LASI_1_y,LASI_1_z\n").are_numbered);
 }
 
+TEST(CoordinateLabels, AFourthThatIsOneIsOfHomogeneousCoordinates) {
+  const auto found =
+      read("Time,LASI[0],LASI[1],LASI[2],LASI[3],RASI[0],RASI[1],RASI[2],RASI[3]\n0,1,2,3,1.0,1,2,3,1.0\n");
+  EXPECT_THAT(found.names, ElementsAre("LASI", "RASI"));
+  EXPECT_EQ(found.columns.at(5).marker, 1);
+  EXPECT_LT(found.columns.at(4).marker, 0);
+  for (const char* row : {"0,0.1,0.2,0.3,0.9\n", "0,1,2,3,\n", ""})
+    EXPECT_THAT(read(std::string("Time,q[0],q[1],q[2],q[3]\n") + row).columns, IsEmpty())
+        << "a quaternion: " << row;
+}
+
+TEST(CoordinateLabels, PandasNamesItsIndexBelowTheAxes) {
+  std::int64_t last = 0;
+  for (const char* head : {",A,A,A,B,B,B\n,x,y,z,x,y,z\n", "channel,A,A,A,B,B,B\naxis,x,y,z,x,y,z\n"}) {
+    const auto found = read(std::string(head) + "time,,,,,,\n0,1,2,3,4,5,6\n", &last);
+    EXPECT_THAT(found.names, ElementsAre("A", "B")) << head;
+    EXPECT_EQ(found.columns.at(0).units_per_second, 1.0) << head;
+    EXPECT_FALSE(found.columns.at(0).is_frame) << head;
+    EXPECT_EQ(last, 3) << head;
+    read(std::string(head) + "0,1,2,3,4,5,6\n", &last);
+    EXPECT_EQ(last, 2) << "no such line";
+    read(std::string(head) + "time,,,,1,,\n", &last);
+    EXPECT_EQ(last, 2) << "a number of a marker";
+  }
+}
+
 TEST(CoordinateLabels, NumbersThatTellMarkersOrChannelsApartAreNoAxes) {
   for (const char* text :
        {"time,LASI_1,LASI_2\n", "time,LASI_1,LASI_2,LASI_3,LASI_4\n", "time,LASI_1,LASI_2,LASI_4\n",

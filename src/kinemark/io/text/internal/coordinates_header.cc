@@ -128,13 +128,13 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
         fmt::format("its three numbered columns of each name ('{}') are taken for x, y and z",
                     excerpt(table.names.front())));
   if (std::ranges::any_of(labels, &CoordinateLabel::of_d_flow)) {
-    // D-Flow streams metres, and zeros of what it does not see.
+    // D-Flow streams metres.
     trial.format = "D-Flow";
     if (!forces.empty()) trial.unread.emplace_back(kForcesOfDFlow);
-    out.columns.zeros_are_missing = true;
     if (stated.empty()) stated.emplace_back("m");
   }
   out.is_unit_open = stated.empty();
+  out.columns.zeros_are_missing = !out.is_unit_open;  // else once the unit is known
   out.columns.units_per_metre = 1.0;
   for (const auto& word : stated) {
     const auto per_metre = units_per_metre(word, line);

@@ -91,5 +91,23 @@ TEST(ClockTimes, WithAHoleHaveMissingFrames) {
       << "1 Hz, said";
 }
 
+TEST(ZerosInTables, AreNotSeenExceptOnAPathThroughTheOrigin) {
+  const std::string rows =
+      "0,100,200,300,3,0,0\n0.01,0,0,0,0,0,0\n0.02,0.0,0,0.000,-3,0,0\n0.03,103,200,300,-6,0,0\n";
+  for (const std::string unit : {"mm", ""}) {
+    const std::string label = unit.empty() ? "" : " (mm)";
+    std::string head = "time";
+    for (const char* name : {"A_x", "A_y", "A_z", "B_x", "B_y", "B_z"}) head += "," + (name + label);
+    const auto trial = read(head + "\n" + rows).value();
+    EXPECT_FALSE(trial.markers.present(1, 0)) << unit;
+    EXPECT_FALSE(trial.markers.present(2, 0)) << unit;
+    EXPECT_TRUE(trial.markers.present(1, 1)) << "B passes through the origin";
+    EXPECT_THAT(trial.warnings,
+                Contains(HasSubstr("2 samples of 1 markers are exactly (0, 0, 0), taken as not seen: 'A'")));
+  }
+  const auto whole = read("time,A_x (mm),A_y (mm),A_z (mm)\n0,0,0,1\n0.01,0,0,1\n").value();
+  EXPECT_THAT(whole.warnings, Not(Contains(HasSubstr("(0, 0, 0)"))));
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -210,21 +210,6 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
   return {};
 }
 
-void take_zeros_as_missing(data::Trial& trial, std::int64_t others) {
-  std::vector<std::string> names;
-  std::int64_t zeros = 0;
-  for (std::int64_t m = 0; m < trial.markers.markers() - others; ++m) {
-    const std::int64_t removed = remove_zeros(trial.markers, m);
-    if (removed == 0) continue;
-    names.push_back("'" + excerpt(trial.markers.names[static_cast<std::size_t>(m)]) + "'");
-    zeros += removed;
-  }
-  if (zeros > 0)
-    trial.warnings.push_back(
-        fmt::format("{} samples of {} markers are exactly (0, 0, 0), taken as not seen: {}", zeros,
-                    names.size(), join_some(names, kNamesInWarning)));
-}
-
 void warn(const MarkerColumns& columns, const Rows& rows, std::int64_t count, data::Trial& trial) {
   const auto say = [&](std::string sentence) { trial.warnings.push_back(std::move(sentence)); };
   if (columns.stated_frames >= 0 && columns.stated_frames != count)
@@ -340,6 +325,21 @@ Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t 
     return s;
   if (columns.zeros_are_missing) take_zeros_as_missing(trial, columns.others);
   return {};
+}
+
+void take_zeros_as_missing(data::Trial& trial, std::int64_t others) {
+  std::vector<std::string> names;
+  std::int64_t zeros = 0;
+  for (std::int64_t m = 0; m < trial.markers.markers() - others; ++m) {
+    const std::int64_t removed = remove_zeros(trial.markers, m);
+    if (removed == 0) continue;
+    names.push_back("'" + excerpt(trial.markers.names[static_cast<std::size_t>(m)]) + "'");
+    zeros += removed;
+  }
+  if (zeros > 0)
+    trial.warnings.push_back(
+        fmt::format("{} samples of {} markers are exactly (0, 0, 0), taken as not seen: {}", zeros,
+                    names.size(), join_some(names, kNamesInWarning)));
 }
 
 }  // namespace kinemark::io::internal
