@@ -17,7 +17,7 @@ import struct
 import sys
 
 from cases import CASES, HERE, apart, cells, plain, positions, run, said, same, table, written
-from plates import parameter
+from made_files import c3d, doubles, element, mat, matrix, words
 
 CHECKS = []
 
@@ -217,7 +217,7 @@ def times_that_count_frames():
     return good and "times count frames" in facts and " 100" in facts, seen
 
 
-@stranger("read as the plain file: labels from X5, keys that are missing, counts that differ, units in every hand, fillings at the end")
+@stranger("read as the plain file: labels from X5, keys that are missing, counts that differ, units in every hand, blank lines, fillings at the end")
 def trc_of_every_program():
     text = plain().read_text()
     lines = text.splitlines()
@@ -225,7 +225,7 @@ def trc_of_every_program():
     count = len(cells()[0])
     files = [("x5", trc([f"{a}{m + 5}" for m in range(count) for a in "XYZ"])), ("more", head(2, lines[2].replace(f"\t{count}\t", f"\t{count + 1}\t"))),
              ("fewer", head(2, lines[2].replace(f"\t{count}\t", f"\t{count - 1}\t"))), ("long", head(2, lines[2].replace("mm", "Millimeters"))), ("capital", head(2, lines[2].replace("mm", "MM"))),
-             ("close", "\n".join(line for line in lines if line.strip()) + "\n"), ("zeros", text + "\0" * 64), ("dos", text + "\x1a"),
+             ("close", "\n".join(line for line in lines if line.strip()) + "\n"), ("zeros", text + "\0" * 64), ("dos", text + "\x1a"), ("blank", "\n".join([*lines[:20], "", *lines[20:30], "\t" * 5, "", *lines[30:]]) + "\n"),
              ("keys", "\n".join([lines[0], *("\t".join(line.split("\t")[:7]) for line in lines[1:3]), *lines[3:]]) + "\n")]  # fmt: skip
     return all_same([(f"{name}.trc", content) for name, content in files])
 
@@ -264,7 +264,8 @@ def forces_of_d_flow():
     off = max(max(math.dist(got[f][1:4], truth[f][0]), 1e3 * math.dist(got[f][4:7], truth[f][1]), abs(got[f][8] - free)) for f in range(30, 90))
     empty = max(abs(v) for v in got[10][1:])
     beside = run("convert", path, HERE / "grail.c3d", "--force").stderr
-    return off < 0.01 and empty == 0 and "corners" in done.stderr and "not carried on: forces of plates" in beside, f"{off:.2g} N, mm, N m off; empty {empty}; to C3D: {'said' if 'not carried' in beside else 'unsaid'}"
+    counted = next((line.split()[1] for line in run("info", path).stdout.splitlines() if line.startswith("force_plates")), "")
+    return counted == "2" and off < 0.01 and empty == 0 and "corners" in done.stderr and "not carried on: forces of plates" in beside, f"{off:.2g} N, mm, N m off; empty {empty}; to C3D: {'said' if 'not carried' in beside else 'unsaid'}"
 
 
 @stranger("one line a sample under other labels, read")
@@ -319,28 +320,6 @@ def visual3d_text_called_txt():
 # --- arrays of MATLAB ---
 
 
-def element(kind, data):
-    return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
-
-
-def matrix(name, kind, dims, content):
-    body = element(6, struct.pack("<II", kind, 0)) + element(5, struct.pack(f"<{len(dims)}i", *dims)) + element(1, name.encode()) + content
-    return struct.pack("<II", 14, len(body)) + body
-
-
-def doubles(name, dims, values):
-    return matrix(name, 6, dims, element(9, struct.pack(f"<{len(values)}d", *values)))
-
-
-def words(name, text):
-    return matrix(name, 4, (1, len(text)), element(16, text.encode()))
-
-
-def mat(name, *variables):
-    (HERE / name).write_bytes(b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"".join(variables))
-    return HERE / name
-
-
 @stranger("variables, 3 x frames, a struct of paths, and one table with labels: the plain samples")
 def plain_arrays_of_matlab():
     names, times, values = cells()
@@ -362,34 +341,6 @@ def plain_arrays_of_matlab():
 
 
 # --- C3D ---
-
-
-def c3d(name, points, analog, labels, units, per_frame, platform=(), length="mm"):
-    """A file of points (frames of lists of x, y, z) and analog samples (rows), both in the units that it states."""
-    frames, count, channels = len(analog) // per_frame, len(points[0]) if points else 0, len(labels)
-    groups = {
-        "POINT": [("USED", 2, [], [count]), ("FRAMES", 2, [], [frames]), ("SCALE", 4, [], [-0.1]), ("RATE", 4, [], [100.0]), ("DATA_START", 2, [], [0]),
-                  ("UNITS", -1, [], [length]), ("LABELS", -1, [count], [f"M{m + 1}" for m in range(count)])],
-        "ANALOG": [("USED", 2, [], [channels]), ("RATE", 4, [], [100.0 * per_frame]), ("GEN_SCALE", 4, [], [1.0]), ("SCALE", 4, [channels], [1.0] * channels),
-                   ("OFFSET", 2, [channels], [0] * channels), ("UNITS", -1, [channels], units), ("LABELS", -1, [channels], labels)],
-    }  # fmt: skip
-    if platform:
-        groups["FORCE_PLATFORM"] = list(platform)
-    body = b""
-    for identity, (group, parameters) in enumerate(groups.items(), 1):
-        body += struct.pack("bb", len(group), -identity) + group.encode() + struct.pack("<h", 3) + b"\0"
-        for title, kind, dims, values in parameters:
-            if kind != -1 or values and any(values):
-                body += parameter("<", identity, title, kind, dims, values)
-    blocks = -(-(len(body) + 6) // 512)
-    at = body.index(b"DATA_START") + 10
-    body = body[: at + 4] + struct.pack("<h", blocks + 2) + body[at + 6 :]
-    section = (bytes([1, 80, blocks, 84]) + body).ljust(512 * blocks, b"\0")
-    head = struct.pack("<BB5hf2hf", 2, 80, count, channels * per_frame, 1, frames, 10, -0.1, blocks + 2, per_frame, 100.0).ljust(512, b"\0")
-    samples = b"".join(b"".join(struct.pack("<4f", *p, 0.0) for p in (points[f] if points else ())) +
-                       b"".join(struct.pack(f"<{channels}f", *row) for row in analog[f * per_frame : (f + 1) * per_frame]) for f in range(frames))  # fmt: skip
-    (HERE / name).write_bytes(head + section + samples)
-    return HERE / name
 
 
 CORNERS = [[464.0, 508.0, 0.0], [0.0, 508.0, 0.0], [0.0, 0.0, 0.0], [464.0, 0.0, 0.0]]  # mm; the plate's z points up
