@@ -35,7 +35,7 @@ TEST(ForeignText, ArchivesPagesAndPointersAreKnownByHowTheyBegin) {
               HasSubstr("'git lfs pull' brings that"));
   for (const char* text : {"<!DOCTYPE html>\n<html>", "<html lang=\"en\">"})
     EXPECT_THAT(foreign_text(text), HasSubstr("it is a web page")) << text;
-  for (const char* text : {"PK marker,x\n1,2\n", "version 1\n", "<?xml version=\"1.0\"?>\n<OpenSimDocument>"})
+  for (const char* text : {"PK marker,x\n1,2\n", "version 1\n", "<?xml version=\"1.0\"?>\n<Document>"})
     EXPECT_THAT(foreign_text(text), IsEmpty()) << text;
 }
 

@@ -93,7 +93,7 @@ TEST(ClockTimes, WithAHoleHaveMissingFrames) {
 
 TEST(ZerosInTables, AreNotSeenExceptOnAPathThroughTheOrigin) {
   const std::string rows =
-      "0,100,200,300,3,0,0\n0.01,0,0,0,0,0,0\n0.02,0.0,0,0.000,-3,0,0\n0.03,103,200,300,-6,0,0\n";
+      "0,100,200,3000,3,0,0\n0.01,0,0,0,0,0,0\n0.02,0.0,0,0.000,-3,0,0\n0.03,103,200,3000,-6,0,0\n";
   for (const std::string unit : {"mm", ""}) {
     const std::string label = unit.empty() ? "" : " (mm)";
     std::string head = "time";
