@@ -406,9 +406,9 @@ def plates_whose_numbers_contradict_each_other():
     }  # fmt: skip
     cases["taken for cm"] = [plates("cm.c3d", [flat(CORNERS, 0.1)])]
     fine = [plates("fine.c3d", one), plates("down.c3d", [flat(DOWN)], down=True)]
-    told = lambda file: run("convert", file, HERE / "f.mot", "--force").stderr  # noqa: E731
-    found = [(file.stem, *loaded_right(file), word in told(file)) for word, files in cases.items() for file in files]
-    found += [(file.stem, *loaded_right(file), not any(word in told(file) for word in cases)) for file in fine]
+    notes = lambda file: run("convert", file, HERE / "f.mot", "--force").stderr  # noqa: E731
+    found = [(file.stem, *loaded_right(file), word in notes(file)) for word, files in cases.items() for file in files]
+    found += [(file.stem, *loaded_right(file), not any(word in notes(file) for word in cases)) for file in fine]
     wrong = [(name, seen, f"said: {said_so}") for name, good, seen, said_so in found if not (good and said_so)]
     return not wrong, f"{len(found) - len(wrong)} of {len(found)} right{': not ' + str(wrong[0]) if wrong else ''}"
 

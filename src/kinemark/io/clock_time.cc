@@ -94,23 +94,19 @@ std::optional<ClockTime> parse_clock_time(std::string_view text) {
   if (!first || !reader.take(":")) return std::nullopt;
   const auto second = reader.take_number(2, 2);
   if (!second) return std::nullopt;
-  int hours = *first, minutes = *second;
-  std::optional<int> seconds = 0;
   const bool has_hours = reader.take(":");
-  if (has_hours) {
-    seconds = reader.take_number(2, 2);
-  } else {  // minutes and seconds, which have a part
-    hours = 0;
-    minutes = *first;
-    seconds = *second;
-  }
-  if (!seconds || hours > 24 || minutes > 59 || *seconds > 60) return std::nullopt;
+  const auto third = has_hours ? reader.take_number(2, 2) : std::optional(0);
+  if (!third) return std::nullopt;
+  // Minutes and seconds alone have a part of a second.
+  const int hours = has_hours ? *first : 0, minutes = has_hours ? *second : *first;
+  const int seconds = has_hours ? *third : *second;
+  if (hours > 24 || minutes > 59 || seconds > 60) return std::nullopt;
   const double part = reader.take_part(out.resolution_s);
   if (!has_hours && (date || out.resolution_s == 1.0)) return std::nullopt;
   const auto zone = take_zone(reader);
   if (!zone) return std::nullopt;
   out.day = date.value_or(0);
-  out.second = 3600.0 * hours + 60.0 * minutes + *seconds + part - *zone;
+  out.second = 3600.0 * hours + 60.0 * minutes + seconds + part - *zone;
   return out;
 }
 

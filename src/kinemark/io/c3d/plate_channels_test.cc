@@ -95,7 +95,8 @@ TEST(PlateChannels, AZeroOfAChannelThatIsNotThereStays) {
 TEST(PlateChannels, LabelsOfOtherComponentsAreSaid) {
   const auto said = [](std::vector<double> numbers, int type, const AnalogLabels& analog) {
     std::vector<std::string> warnings;
-    const auto channels = channel(static_cast<int>(numbers.size()), std::move(numbers));
+    const int rows = static_cast<int>(numbers.size());
+    const auto channels = channel(rows, std::move(numbers));
     note_other_labels(&channels, std::vector<double>{static_cast<double>(type)}, analog, 1, warnings);
     return warnings;
   };
