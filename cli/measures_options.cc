@@ -247,8 +247,8 @@ void add_forces_option(CLI::App& command, std::filesystem::path& forces) {
       .add_option(
           "--forces", forces,
           "Forces on the body, for torques, steps and moments, instead of a recording's own plates: .c3d "
-          "or .mat with force plates, .mot or .sto with columns such as ground_force_vx, or OpenSim "
-          "ExternalLoads .xml")
+          "or .mat with force plates, .mot or .sto with columns such as ground_force_vx, .txt of D-Flow, or "
+          "OpenSim ExternalLoads .xml")
       ->group("Input");
 }
 

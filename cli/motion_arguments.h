@@ -39,7 +39,7 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
       .add_option(
           "--forces", job.forces,
           "External forces, for torques: .c3d or .mat with force plates, .mot or .sto with columns such "
-          "as ground_force_vx, or OpenSim ExternalLoads .xml")
+          "as ground_force_vx, .txt of D-Flow, or OpenSim ExternalLoads .xml")
       ->group("Input");
   command.add_option("--rig", job.images.rig, "Calibrated cameras, rig.toml")->group("Images");
   command

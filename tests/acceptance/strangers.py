@@ -16,8 +16,8 @@ import random
 import struct
 import sys
 
-from cases import CASES, HERE, cells, plain, positions, run, said, same, table, written
-from plates import parameter
+from cases import CASES, HERE, apart, cells, plain, positions, run, said, same, table, written
+from made_files import c3d, doubles, element, mat, matrix, words
 
 CHECKS = []
 
@@ -119,6 +119,155 @@ def words_and_nines_for_nothing():
     return not wrong, f"{tried - len(wrong)} of {tried} right{': not ' + str(wrong[0]) if wrong else ''}"
 
 
+@stranger("x, y and z where a unit says so, else asked about; three channels never")
+def numbers_for_axes():
+    number = dict(zip("XYZ", range(3)))
+    styles = [csv("{n}_{a}").replace("_X", "_1").replace("_Y", "_2").replace("_Z", "_3"), csv("{n}.{a}").replace(".X", ".1").replace(".Y", ".2").replace(".Z", ".3")]
+    labels = csv("{n}[{a}]")
+    for axis, k in number.items():
+        labels = labels.replace(f"[{axis}]", f"[{k}]")
+    files = [(f"numbers{i}.csv", text) for i, text in enumerate([*styles, labels])]
+    good, seen = all_same(files, "--unit", "mm")
+    asked = [run("info", written(name, text)) for name, text in files]
+    rows = "".join(f"{t},1,2,3\n" for t in cells()[1])
+    channels = [run("info", written("channels.csv", f"time,{line}\n{rows}"), "--unit", "mm") for line in ("Marker_1,Marker_2,Marker_3", "sensor.0,sensor.1,sensor.2", "acc_1,acc_2,acc_3")]
+    fine = all(done.returncode == 3 and "--unit" in done.stderr for done in asked) and all(done.returncode == 3 for done in channels)
+    return good and fine, f"{seen}; without a unit: {said(asked[0])[-90:]}"
+
+
+@stranger("seconds from the first, and said so; what is no instant refused")
+def times_of_a_clock():
+    times = [float(t) for t in cells()[1]]
+    styles = {"iso": "2024-05-01T10:00:{:06.3f}", "blank": "2024-05-01 23:59:{:06.3f}", "zone": "2024-05-01T10:00:{:06.3f}+02:00", "bare": "10:00:{:06.3f}", "quoted": '"10:00:{:06.3f}"'}
+    header, *rows = csv("{n}_{a}").splitlines()
+    texts = {name: "\n".join([header.replace("time", "timestamp"), *(f"{style.format(t)},{row.split(',', 1)[1]}" for t, row in zip(times, rows))]) + "\n" for name, style in styles.items()}
+    semicolons = "\n".join(line.replace(",", ";").replace(".", ",") for line in texts["bare"].splitlines()) + "\n"
+    good, seen = all_same([(f"{name}.csv", text) for name, text in [*texts.items(), ("comma", semicolons)]], "--unit", "mm")
+    noted = run("info", written("iso.csv", texts["iso"]), "--unit", "mm")
+    half = run("info", written("half.csv", texts["bare"].replace("10:00:", "at 10:00:")), "--unit", "mm")
+    return good and "times are those of a clock" in noted.stderr + noted.stdout and half.returncode == 3, f"{seen}; else {said(half)[-80:]}"
+
+
+@stranger("1,234.5 and 1.234,5 the same numbers, or refused; never another number")
+def thousands():
+    names, times, values = cells()
+    grouped = [[f"{float(v):,.3f}" for v in row] for row in values]
+    whole = [[f"{round(float(v)):,}" for v in row] for row in values]
+    label = ",".join(["time", *(f"{n}_{a}" for n in names for a in "XYZ")])
+    turn = str.maketrans(",.", ".,")
+    english = label + "\n" + "".join(f"{t}," + ",".join(f'"{v}"' for v in row) + "\n" for t, row in zip(times, grouped))
+    tabs = label.replace(",", "\t") + "\n" + "".join(f"{t}\t" + "\t".join(row) + "\n" for t, row in zip(times, grouped))
+    german = label.replace(",", ";") + "\n" + "".join(f"{t.translate(turn)};" + ";".join(v.translate(turn) for v in row) + "\n" for t, row in zip(times, grouped))
+    good, seen = all_same([("english.csv", english), ("tabs.csv", tabs), ("german.csv", german)], "--unit", "mm")
+    bare = label.replace(",", ";") + "\n" + "".join(f"{f};" + ";".join(v.translate(turn) for v in row) + "\n" for f, row in enumerate(whole))
+    rounded = same(written("bare.csv", bare.replace("time", "frame")), plain(), 1.0, "--unit", "mm", "--rate", "100")
+    both = run("info", written("both.csv", tabs.replace(grouped[3][0], "1.234,5")), "--unit", "mm")
+    return good and rounded[0] and both.returncode == 3, f"{seen}; whole numbers {rounded[1]}; both signs: exit {both.returncode}"
+
+
+@stranger("the same numbers")
+def signs_of_other_countries():
+    names, times, values = cells()
+    label = ["time", *(f"{n}_{a}" for n in names for a in "XYZ")]
+    lower = [[f"{float(v) - 500:.3f}" for v in row] for row in values]
+    minus = csv("{n}_{a}", rows=[[v.replace("-", "\u2212") for v in row] for row in lower])
+    hyphen = positions(written("hyphen.csv", csv("{n}_{a}", rows=lower)), "--unit", "mm")
+    good = "\u2212" in minus and apart(positions(written("minus.csv", minus), "--unit", "mm"), hyphen) < 1e-3
+    grouped = [[f"{float(v):,.3f}" for v in row] for row in values]
+    swiss = csv("{n}_{a}", rows=[[v.replace(",", "'") for v in row] for row in grouped])
+    french = [";".join(label) + "\n" + "".join(f"{t.replace('.', ',')};" + ";".join(v.replace(",", blank).replace(".", ",") for v in row) + "\n" for t, row in zip(times, grouped)) for blank in ("\u00a0", "\u202f", " ")]
+    fortran = trc(rows=[[f"{float(v) / 100:.7f}D+02" for v in row] for row in values])
+    fine, found = all_same([("swiss.csv", swiss), *((f"french{i}.csv", text) for i, text in enumerate(french))], "--unit", "mm")
+    last, there = all_same([("fortran.trc", fortran)])
+    return good and fine and last, f"minus {good}; {found}; Fortran {there}"
+
+
+@stranger("read with the names and the clock that these programs write")
+def tables_of_pandas_and_kineticstoolkit():
+    names, times, values = cells()
+    rows = "".join(f"{t},{','.join(row)}\n" for t, row in zip(times, values))
+    twice = ",".join(n for n in names for _ in "xyz")
+    axes = ",".join("xyz" * len(names))
+    pandas = [f"{a},{twice}\n{b},{axes}\ntime{',' * 3 * len(names)}\n{rows}" for a, b in (("", ""), ("channel", "axis"))]
+    good, seen = all_same([(f"pandas{i}.csv", text) for i, text in enumerate(pandas)], "--unit", "mm")
+    four = "Time," + ",".join(f"{n}[{k}]" for n in names for k in range(4)) + "\n"
+    four += "".join(f"{t}," + ",".join(",".join([*(f"{float(v) / 1e3:.8f}" for v in row[3 * m : 3 * m + 3]), "1.0"]) for m in range(len(names))) + "\n" for t, row in zip(times, values))
+    fine, found = all_same([("kineticstoolkit.csv", four)], "--unit", "m")
+    return good and fine, f"{seen}; kineticstoolkit {found}"
+
+
+@stranger("not there, and said")
+def zeros_for_nothing_in_tables():
+    names, times, values = cells()
+    rows = [["0", "0.0", "0.000"] + row[3:] if f % 7 == 3 else row for f, row in enumerate(values)]
+    wrong = []
+    for options, label in ((("--unit", "mm"), "{n}_{a}"), ((), "{n}_{a} (mm)")):
+        path = written("zeros.csv", csv(label, rows=rows))
+        read = positions(path, *options)
+        if isinstance(read, str) or [p is None for p in read[names[0]]] != [f % 7 == 3 for f in range(len(times))] or "exactly (0, 0, 0)" not in run("info", path, *options).stdout:
+            wrong.append(read if isinstance(read, str) else label)
+    return not wrong, f"2 tables{': not ' + wrong[0] if wrong else ''}"
+
+
+@stranger("the rate of the header, said")
+def times_that_count_frames():
+    path = written("frames.trc", trc(times=[str(f + 1) for f in range(60)]))
+    good, seen = same(path, plain(), 1e-3)
+    facts = run("info", path).stdout
+    return good and "times count frames" in facts and " 100" in facts, seen
+
+
+@stranger("read as the plain file: labels from X5, keys that are missing, counts that differ, units in every hand, blank lines, fillings at the end")
+def trc_of_every_program():
+    text = plain().read_text()
+    lines = text.splitlines()
+    head = lambda k, line: "\n".join([*lines[:k], line, *lines[k + 1 :]]) + "\n"  # noqa: E731
+    count = len(cells()[0])
+    files = [("x5", trc([f"{a}{m + 5}" for m in range(count) for a in "XYZ"])), ("more", head(2, lines[2].replace(f"\t{count}\t", f"\t{count + 1}\t"))),
+             ("fewer", head(2, lines[2].replace(f"\t{count}\t", f"\t{count - 1}\t"))), ("long", head(2, lines[2].replace("mm", "Millimeters"))), ("capital", head(2, lines[2].replace("mm", "MM"))),
+             ("close", "\n".join(line for line in lines if line.strip()) + "\n"), ("zeros", text + "\0" * 64), ("dos", text + "\x1a"), ("blank", "\n".join([*lines[:20], "", *lines[20:30], "\t" * 5, "", *lines[30:]]) + "\n"),
+             ("keys", "\n".join([lines[0], *("\t".join(line.split("\t")[:7]) for line in lines[1:3]), *lines[3:]]) + "\n")]  # fmt: skip
+    return all_same([(f"{name}.trc", content) for name, content in files])
+
+
+@stranger("what each is, and what to do")
+def files_that_are_something_else():
+    model = "<?xml version='1.0'?>\n<OpenSimDocument Version='40000'>"
+    files = (("lfs.c3d", b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "git lfs pull"), ("page.c3d", b"<!DOCTYPE html>\n<html></html>\n", "web page"),
+             ("page.trc", b"<html><body>404</body></html>\n", "web page"), ("sheet.xlsx", b"PK\3\4" + bytes(200), "CSV"), ("walk.c3d.gz", b"\x1f\x8b\x08" + bytes(100), "unpack"),
+             ("body.osim", f"{model}<Model/>".encode(), "--model"), ("setup.xml", f"{model}<InverseKinematicsTool/>".encode(), "--setup"),
+             ("bare.tsv", b"1\t0.00\t1\t2\t3\n2\t0.01\t1\t2\t3\n", "header"))  # fmt: skip
+    wrong = []
+    for name, content, word in files:
+        (HERE / name).write_bytes(content)
+        done = run("measure", HERE / name)
+        if done.returncode not in (2, 3) or word not in done.stderr:
+            wrong.append((name, said(done)))
+    return not wrong, f"{len(files) - len(wrong)} of {len(files)} said{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+@stranger("forces of the plates as they are, N and N m, at their points; corners not known, said")
+def forces_of_d_flow():
+    free = 5.0
+    header = ["TimeStamp", "FrameNumber", *(f"LHEE.Pos{a}" for a in "XYZ"), *(f"FP{p}.{w}{a}" for p in (1, 2) for w in ("Cop", "For", "Mom") for a in "XYZ")]
+    rows, truth = [], []
+    for f in range(120):
+        point, force = (0.1, 0.0, 0.2 + 0.001 * f), (20.0, 700.0 if 30 <= f < 90 else 3.0, -30.0)
+        turn = (point[1] * force[2] - point[2] * force[1], free + point[2] * force[0] - point[0] * force[2], point[0] * force[1] - point[1] * force[0])
+        rows.append([0.01 * f, f + 1, 0.1, 0.05, 0.2, *point, *force, *turn, *[0.0] * 9])
+        truth.append((force, point))
+    path = written("grail.txt", "\t".join(header) + "\n" + "".join("\t".join(f"{v:.6f}" for v in row) + "\n" for row in rows))
+    done = run("convert", path, HERE / "grail.mot", "--force")
+    if done.returncode != 0:
+        return False, said(done)
+    _, got = table(HERE / "grail.mot")
+    off = max(max(math.dist(got[f][1:4], truth[f][0]), 1e3 * math.dist(got[f][4:7], truth[f][1]), abs(got[f][8] - free)) for f in range(30, 90))
+    empty = max(abs(v) for v in got[10][1:])
+    beside = run("convert", path, HERE / "grail.c3d", "--force").stderr
+    counted = next((line.split()[1] for line in run("info", path).stdout.splitlines() if line.startswith("force_plates")), "")
+    return counted == "2" and off < 0.01 and empty == 0 and "corners" in done.stderr and "not carried on: forces of plates" in beside, f"{off:.2g} N, mm, N m off; empty {empty}; to C3D: {'said' if 'not carried' in beside else 'unsaid'}"
+
+
 @stranger("one line a sample under other labels, read")
 def long_tables():
     names, times, values = cells()
@@ -171,28 +320,6 @@ def visual3d_text_called_txt():
 # --- arrays of MATLAB ---
 
 
-def element(kind, data):
-    return struct.pack("<II", kind, len(data)) + data + b"\0" * (-len(data) % 8)
-
-
-def matrix(name, kind, dims, content):
-    body = element(6, struct.pack("<II", kind, 0)) + element(5, struct.pack(f"<{len(dims)}i", *dims)) + element(1, name.encode()) + content
-    return struct.pack("<II", 14, len(body)) + body
-
-
-def doubles(name, dims, values):
-    return matrix(name, 6, dims, element(9, struct.pack(f"<{len(values)}d", *values)))
-
-
-def words(name, text):
-    return matrix(name, 4, (1, len(text)), element(16, text.encode()))
-
-
-def mat(name, *variables):
-    (HERE / name).write_bytes(b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"".join(variables))
-    return HERE / name
-
-
 @stranger("variables, 3 x frames, a struct of paths, and one table with labels: the plain samples")
 def plain_arrays_of_matlab():
     names, times, values = cells()
@@ -216,52 +343,28 @@ def plain_arrays_of_matlab():
 # --- C3D ---
 
 
-def c3d(name, points, analog, labels, units, per_frame, platform=(), length="mm"):
-    """A file of points (frames of lists of x, y, z) and analog samples (rows), both in the units that it states."""
-    frames, count, channels = len(analog) // per_frame, len(points[0]) if points else 0, len(labels)
-    groups = {
-        "POINT": [("USED", 2, [], [count]), ("FRAMES", 2, [], [frames]), ("SCALE", 4, [], [-0.1]), ("RATE", 4, [], [100.0]), ("DATA_START", 2, [], [0]),
-                  ("UNITS", -1, [], [length]), ("LABELS", -1, [count], [f"M{m + 1}" for m in range(count)])],
-        "ANALOG": [("USED", 2, [], [channels]), ("RATE", 4, [], [100.0 * per_frame]), ("GEN_SCALE", 4, [], [1.0]), ("SCALE", 4, [channels], [1.0] * channels),
-                   ("OFFSET", 2, [channels], [0] * channels), ("UNITS", -1, [channels], units), ("LABELS", -1, [channels], labels)],
-    }  # fmt: skip
-    if platform:
-        groups["FORCE_PLATFORM"] = list(platform)
-    body = b""
-    for identity, (group, parameters) in enumerate(groups.items(), 1):
-        body += struct.pack("bb", len(group), -identity) + group.encode() + struct.pack("<h", 3) + b"\0"
-        for title, kind, dims, values in parameters:
-            if kind != -1 or values and any(values):
-                body += parameter("<", identity, title, kind, dims, values)
-    blocks = -(-(len(body) + 6) // 512)
-    at = body.index(b"DATA_START") + 10
-    body = body[: at + 4] + struct.pack("<h", blocks + 2) + body[at + 6 :]
-    section = (bytes([1, 80, blocks, 84]) + body).ljust(512 * blocks, b"\0")
-    head = struct.pack("<BB5hf2hf", 2, 80, count, channels * per_frame, 1, frames, 10, -0.1, blocks + 2, per_frame, 100.0).ljust(512, b"\0")
-    samples = b"".join(b"".join(struct.pack("<4f", *p, 0.0) for p in (points[f] if points else ())) +
-                       b"".join(struct.pack(f"<{channels}f", *row) for row in analog[f * per_frame : (f + 1) * per_frame]) for f in range(frames))  # fmt: skip
-    (HERE / name).write_bytes(head + section + samples)
-    return HERE / name
-
-
 CORNERS = [[464.0, 508.0, 0.0], [0.0, 508.0, 0.0], [0.0, 0.0, 0.0], [464.0, 0.0, 0.0]]  # mm; the plate's z points up
+DOWN = [CORNERS[k] for k in (3, 2, 1, 0)]  # the same plate as the format has it: z into it
 FORCE, POINT = (30.0, -20.0, 700.0), (332.0, 204.0, 0.0)
 
 
-def plates(name, corners, markers=True, length="mm", dims=None, origin=(0.0, 0.0, -40.0)):
-    """As many plates as lists of corners: the force of FORCE at POINT on the first, which is CORNERS, in the middle half of the time."""
+def plates(name, corners, markers=True, length="mm", dims=None, origin=(0.0, 0.0, -40.0), first=1, named=True, moments="Nmm", down=False):
+    """As many plates as lists of corners: the force of FORCE at POINT on the first, which is CORNERS, or DOWN whose z is into the plate, in the middle half of the time."""
     x, y = POINT[0] - 232.0, POINT[1] - 254.0
+    force = FORCE
+    if down:
+        y, force = -y, (FORCE[0], -FORCE[1], -FORCE[2])
     z = -40.0  # from the sensors to the surface, by ORIGIN
-    moment = (y * FORCE[2] - z * FORCE[1], z * FORCE[0] - x * FORCE[2], x * FORCE[1] - y * FORCE[0])
-    loaded, rest = [*FORCE, *moment] + [0.0] * 6 * (len(corners) - 1), [0.0] * 6 * len(corners)
+    moment = (y * force[2] - z * force[1], z * force[0] - x * force[2], x * force[1] - y * force[0])
+    loaded, rest = [*force, *moment] + [0.0] * 6 * (len(corners) - 1), [0.0] * 6 * len(corners)
     analog = [loaded if 10 <= f // 2 < 30 else rest for f in range(80)]
     metres = 0.001 if length == "mm" else 1.0
     point = [[v * 0.001 / metres for v in (232.0, 254.0, 1000.0)]]
     n = len(corners)
     platform = [("USED", 2, [], [n]), ("TYPE", 2, [n], [2] * n), ("ZERO", 2, [2], [0, 0]), ("CORNERS", 4, dims or [3, 4, n], [v for plate in corners for v in plate]),
-                ("ORIGIN", 4, [3, n], list(origin) * n), ("CHANNEL", 2, [6, n], list(range(1, 6 * n + 1)))]  # fmt: skip
-    labels = [f"{part}{i + 1}" for i in range(n) for part in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")]
-    return c3d(name, [point] * 40 if markers else None, analog, labels, (["N"] * 3 + ["Nmm"] * 3) * n, 2, platform, length)
+                ("ORIGIN", 4, [3, n], list(origin) * n), ("CHANNEL", 2, [6, n], list(range(first, 6 * n + first)))]  # fmt: skip
+    labels = [f"{part}{i + 1}" if named else f"channel {6 * i + k}" for i in range(n) for k, part in enumerate(("Fx", "Fy", "Fz", "Mx", "My", "Mz"))]
+    return c3d(name, [point] * 40 if markers else None, analog, labels, (["N"] * 3 + [moments] * 3) * n, 2, platform, length)
 
 
 def loaded_right(path):
@@ -289,6 +392,31 @@ def corners_of_plates_as_they_come():
     wrong = [(name, seen) for name, good, seen in found if not good]
     both = "2 plates" in dict((name, seen) for name, _, seen in found)["crossed"]
     return not wrong and both, f"{len(files) - len(wrong)} of {len(files)} right{': not ' + str(wrong[0]) if wrong else ''}; the crossed one is there: {both}"
+
+
+@stranger("force and point of the plate, and each said")
+def plates_whose_numbers_contradict_each_other():
+    one = [flat(CORNERS)]
+    cases = {
+        "counts from 0": [plates("labels0.c3d", one, first=0), plates("bare0.c3d", one, first=0, named=False)],
+        "ORIGIN is taken for m": [plates("origin.c3d", one, origin=(0.0, 0.0, -0.04))],
+        "divided by 1000": [plates("moments.c3d", one, moments="Nm")],
+        "are exchanged, so that they go around it and its z points down": [
+            plates(f"over{k}.c3d", [flat([DOWN[c] for c in order])], down=True) for k, order in enumerate(((0, 2, 1, 3), (0, 1, 3, 2)))],
+    }  # fmt: skip
+    cases["taken for cm"] = [plates("cm.c3d", [flat(CORNERS, 0.1)])]
+    fine = [plates("fine.c3d", one), plates("down.c3d", [flat(DOWN)], down=True)]
+    notes = lambda file: run("convert", file, HERE / "f.mot", "--force").stderr  # noqa: E731
+    found = [(file.stem, *loaded_right(file), word in notes(file)) for word, files in cases.items() for file in files]
+    found += [(file.stem, *loaded_right(file), not any(word in notes(file) for word in cases)) for file in fine]
+    wrong = [(name, seen, f"said: {said_so}") for name, good, seen, said_so in found if not (good and said_so)]
+    return not wrong, f"{len(found) - len(wrong)} of {len(found)} right{': not ' + str(wrong[0]) if wrong else ''}"
+
+
+@stranger("exit 1, and what contradicts what")
+def pressure_beside_the_plate():
+    done = run("convert", plates("off.c3d", [flat(CORNERS)], moments="Ncm"), HERE / "f.mot", "--force")
+    return done.returncode == 1 and "leaves plate 1" in done.stderr, said(done)
 
 
 @stranger("EMG and plates measured by emg and analyze; paths need markers")

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "kinemark/core/number.h"
+#include "kinemark/io/clock_time.h"
+#include "kinemark/io/number_cell.h"
 
 namespace kinemark::io {
 namespace {
@@ -122,26 +126,13 @@ std::string_view bare(std::string_view cell) {
   return cell;
 }
 
-enum class Number : std::uint8_t { none, whole, with_point, with_comma };
-
-Number number_in(std::string_view cell) {
-  const auto comma = cell.find(',');
-  if (comma == std::string_view::npos) {
-    if (!parse_number(cell)) return Number::none;
-    return cell.find('.') == std::string_view::npos ? Number::whole : Number::with_point;
-  }
-  const auto is_digit = [&](std::size_t i) { return i < cell.size() && cell[i] >= '0' && cell[i] <= '9'; };
-  if (!is_digit(comma + 1) || cell.size() > 64) return Number::none;
-  std::string pointed(cell);
-  pointed[comma] = '.';
-  return pointed.find(',') == std::string::npos && parse_number(pointed) ? Number::with_comma : Number::none;
-}
-
 /// What is special about a text.
 struct Dialect {
   Between between = Between::commas;
   bool decimal_commas = false;
+  char thousands = 0;  ///< ',' or '.' between groups of three digits
   bool quoted_numbers = false;
+  bool odd_signs = false;  ///< with_usual_signs() makes numbers of cells
   bool table_of_blanks = false;
 };
 
@@ -203,28 +194,88 @@ bool has_tabs(std::string_view sample) {
   return 2 * with >= lines && with > 0;
 }
 
-/// Of rows that hold two cells or more and nothing but numbers.
+/// How often each kind of number stands in a text, and in its columns numbers that may be thousands.
+struct NumberKinds {
+  std::array<std::size_t, 8> count{};
+  struct Column {
+    double whole = 0.0;                     ///< largest number without comma and point
+    double by_point = 0.0, by_comma = 0.0;  ///< largest "1.234" as 1.234, and "1,234"
+  };
+  std::vector<Column> columns;
+
+  [[nodiscard]] std::size_t of(Number kind) const { return count[static_cast<std::size_t>(kind)]; }
+  void add(const std::vector<std::pair<Number, std::string>>& row) {
+    if (columns.size() < row.size()) columns.resize(row.size());
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const auto& [kind, cell] = row[c];
+      ++count[static_cast<std::size_t>(kind)];
+      std::string digits(cell);
+      std::ranges::replace(digits, ',', '.');
+      const double size = std::abs(parse_number(digits).value_or(0.0));
+      if (kind == Number::whole) columns[c].whole = std::max(columns[c].whole, size);
+      if (kind == Number::three_behind_point) columns[c].by_point = std::max(columns[c].by_point, size);
+      if (kind == Number::three_behind_comma) columns[c].by_comma = std::max(columns[c].by_comma, size);
+    }
+  }
+  /// Whether some column goes on from 987 to 1234 rather than to 1.234: numbers of one column are alike.
+  [[nodiscard]] bool are_thousands(double Column::* three) const {
+    constexpr double kLeast = 100.0, kMost = 1000.0;
+    return std::ranges::any_of(columns, [&](const Column& column) {
+      const double part = column.*three;
+      return part > 0.0 && column.whole >= kLeast && column.whole < kMost &&
+             column.whole * column.whole > 1e3 * part * part;
+    });
+  }
+};
+
+/// Which of ',' and '.' stands between thousands; 0: none.
+char thousands_of(const NumberKinds& kinds) {
+  const auto of = [&](Number kind) { return kinds.of(kind); };
+  const auto commas = of(Number::three_behind_comma), points = of(Number::three_behind_point);
+  const bool by_commas =
+      of(Number::groups_with_commas) > 0 ||
+      (commas > 0 && (of(Number::with_point) > 0 || kinds.are_thousands(&NumberKinds::Column::by_comma)));
+  const bool by_points =
+      of(Number::groups_with_points) > 0 ||
+      (points > 0 && (of(Number::with_comma) > 0 || kinds.are_thousands(&NumberKinds::Column::by_point)));
+  if (by_commas && of(Number::with_comma) + of(Number::groups_with_points) == 0) return ',';
+  if (by_points && of(Number::with_point) + of(Number::groups_with_commas) == 0) return '.';
+  return 0;
+}
+
+/// Of rows that hold two cells or more and nothing but numbers and the time of a clock.
 void judge_rows(std::string_view sample, Dialect& dialect) {
-  std::size_t commas = 0, points = 0;
+  NumberKinds kinds;
+  std::vector<std::pair<Number, std::string>> row;
   for_lines(sample, [&](std::string_view line, std::string_view) {
-    std::size_t cells = 0, with_comma = 0, with_point = 0, quoted = 0;
-    bool all = true;
+    row.clear();
+    std::size_t quoted = 0;
+    bool all = true, odd = false;
     for_cells(line, dialect.between, [&](std::string_view cell) {
       const auto inside = bare(cell);
-      ++cells;
+      auto number = inside.empty() ? Number::none : number_in(inside);
+      row.emplace_back(number, inside);
       if (inside.empty()) return;
-      const auto number = number_in(inside);
-      all = all && number != Number::none;
-      with_comma += number == Number::with_comma ? 1 : 0;
-      with_point += number == Number::with_point ? 1 : 0;
+      if (number == Number::none && is_decimal(inside.back())) {
+        row.back().second = with_usual_signs(inside);
+        row.back().first = number = number_in(row.back().second);
+        odd = odd || number != Number::none;
+      }
+      all = all && (number != Number::none || parse_clock_time(inside));
       quoted += inside.size() < trim(cell).size() ? 1 : 0;
     });
-    if (!all || cells < 2) return;
-    commas += with_comma;
-    points += with_point;
+    if (!all || row.size() < 2) return;
+    kinds.add(row);
+    dialect.odd_signs = dialect.odd_signs || odd;
     dialect.quoted_numbers = dialect.quoted_numbers || quoted > 0;
   });
-  dialect.decimal_commas = commas > 0 && points == 0;
+  dialect.thousands = thousands_of(kinds);
+  const auto commas = kinds.of(Number::with_comma) + kinds.of(Number::three_behind_comma) +
+                      kinds.of(Number::groups_with_points);
+  const auto points = kinds.of(Number::with_point) + kinds.of(Number::three_behind_point) +
+                      kinds.of(Number::groups_with_commas);
+  dialect.decimal_commas =
+      dialect.thousands == '.' ? commas > 0 : dialect.thousands == 0 && commas > 0 && points == 0;
 }
 
 /// What stands between the cells of its format; nothing: either may.
@@ -283,25 +334,46 @@ Dialect dialect_of(std::string_view text) {
   judge_rows(sample, out);
   out.table_of_blanks = out.between == Between::blanks && !separator_of(text) && is_table_of_blanks(sample);
   // Rows of pairs: "1,2" is no number there.
-  if (sample.find("DataType=Vec") != std::string_view::npos) out.decimal_commas = false;
+  if (sample.find("DataType=Vec") != std::string_view::npos) {
+    out.decimal_commas = false;
+    out.thousands = 0;
+  }
   return out;
+}
+
+/// What stands between the thousands of a cell; 0: nothing, or nobody knows.
+char thousands_in(Number number, const Dialect& dialect) {
+  switch (number) {
+    case Number::groups_with_commas:
+      return dialect.decimal_commas ? 0 : ',';
+    case Number::groups_with_points:
+      return dialect.decimal_commas || dialect.thousands == '.' ? '.' : 0;
+    case Number::three_behind_comma:
+      return dialect.thousands == ',' ? ',' : 0;
+    case Number::three_behind_point:
+      return dialect.decimal_commas || dialect.thousands == '.' ? '.' : 0;
+    default:
+      return 0;
+  }
 }
 
 /// One cell as it is written again.
 void append_cell(std::string& out, std::string_view cell, const Dialect& dialect, char separator) {
   const auto inside = bare(cell);
-  const auto number = number_in(inside);
-  if (number == Number::with_comma && dialect.decimal_commas) {
-    const auto begin = out.size();
-    out += inside;
-    out[begin + inside.find(',')] = '.';
-  } else if (inside.find(separator) != std::string_view::npos || inside.find('"') != std::string_view::npos) {
-    out += '"';
-    out += inside;
-    out += '"';
-  } else {
-    out += inside;
+  auto number = number_in(inside);
+  std::string plain(inside);
+  if (number == Number::none && dialect.odd_signs && !inside.empty() && is_decimal(inside.back())) {
+    auto usual = with_usual_signs(inside);
+    number = number_in(usual);
+    if (number != Number::none) plain = std::move(usual);
   }
+  if (const char group = thousands_in(number, dialect); group != 0) std::erase(plain, group);
+  const bool is_clock = number == Number::none && parse_clock_time(inside);
+  if (is_clock || (number != Number::none && dialect.decimal_commas)) std::ranges::replace(plain, ',', '.');
+  if (plain.find(separator) != std::string::npos || plain.find('"') != std::string::npos)
+    out += '"' + plain + '"';
+  else
+    out += plain;
 }
 
 std::string rewritten(std::string_view text, const Dialect& dialect) {
@@ -333,7 +405,9 @@ std::string in_plain_dialect(std::string text) {
   const bool moved = dialect.between == Between::semicolons ||
                      (dialect.between == Between::tabs && separator_of(text) == ',') ||
                      dialect.table_of_blanks;
-  if (!moved && !dialect.decimal_commas && !dialect.quoted_numbers) return text;
+  if (!moved && !dialect.decimal_commas && dialect.thousands == 0 && !dialect.quoted_numbers &&
+      !dialect.odd_signs)
+    return text;
   return rewritten(text, dialect);
 }
 

@@ -82,10 +82,69 @@ TEST(TextDialect, NumbersInQuotesLoseThem) {
   EXPECT_EQ(in_plain_dialect("t,x\n\"0.5\",\"1\"\n"), "t,x\n0.5,1\n");
 }
 
+TEST(TextDialect, ThousandsAreWrittenWithoutASign) {
+  EXPECT_EQ(in_plain_dialect("t;x\n0,5;1.234,5\n"), "t,x\n0.5,1234.5\n");
+  EXPECT_EQ(in_plain_dialect("t;x\n0,5;1.234\n1,0;-987,5\n"), "t,x\n0.5,1234\n1.0,-987.5\n");
+  EXPECT_EQ(in_plain_dialect("t,x\n0.5,\"1,234.5\"\n0.6,\"-1,234,567.25\"\n"),
+            "t,x\n0.5,1234.5\n0.6,-1234567.25\n");
+  EXPECT_EQ(in_plain_dialect("t\tx\n0.5\t1,234\n0.6\t987.5\n"), "t\tx\n0.5\t1234\n0.6\t987.5\n");
+  EXPECT_EQ(in_plain_dialect("t;x\n0;1.234.567\n1;12\n"), "t,x\n0,1234567\n1,12\n");
+  // Nothing but the column says so: 987, and then neither 1.234 nor 1,012.
+  EXPECT_EQ(in_plain_dialect("t;x\n0;987\n1;1.012\n2;1.234\n"), "t,x\n0,987\n1,1012\n2,1234\n");
+  EXPECT_EQ(in_plain_dialect("t\tx\n0\t987\n1\t1,012\n"), "t\tx\n0\t987\n1\t1012\n");
+}
+
+TEST(TextDialect, ThreeDigitsBehindASignAreAPartOfOneWhereNothingSaysThousands) {
+  EXPECT_EQ(in_plain_dialect("t;x\n0,000;1,234\n0,010;1,250\n"), "t,x\n0.000,1.234\n0.010,1.250\n");
+  EXPECT_EQ(in_plain_dialect("t;x\n0;1,234\n1;2\n"), "t,x\n0,1.234\n1,2\n");
+  for (const std::string text :
+       {"t\tx\n0\t1.234\n1\t2\n", "t\tx\n100\t1.234\n101\t1.250\n", "t\tx\n0\t123.456\n1\t234\n",
+        "t\tx\n0\t987\n1\t1.012\n2\t0.5\n", "t\tx\n0\t1987\n1\t1.012\n", "t\tx\n0\t0.123\n1\t987\n"})
+    EXPECT_EQ(in_plain_dialect(text), text);
+}
+
 TEST(TextDialect, NumbersWithBothAreLeftForTheReaderToRefuse) {
-  EXPECT_EQ(in_plain_dialect("t;x\n0,5;1.234,5\n"), "t,x\n\"0,5\",\"1.234,5\"\n");
   // Points elsewhere say that a comma is none.
   EXPECT_EQ(in_plain_dialect("t\tx\n0.5\t1,5\n"), "t\tx\n0.5\t1,5\n");
+  for (const std::string text :
+       {"t\tx\n1,234.5\t1.234,5\n", "t\tx\n1,23.5\t1,2345.6\n", "t\tx\n0,5\t1,234.5\n"})
+    EXPECT_EQ(in_plain_dialect(text), text);
+}
+
+TEST(TextDialect, SignsOfTypesettersAndOtherCountriesBecomeThoseOfPrograms) {
+  EXPECT_EQ(in_plain_dialect("t,x\n0.5,\xE2\x88\x92"
+                             "12.5\n0.6,3\n"),
+            "t,x\n0.5,-12.5\n0.6,3\n");
+  EXPECT_EQ(in_plain_dialect("t,x\n0.5,1'234.5\n0.6,-12'345'678.25\n"),
+            "t,x\n0.5,1234.5\n0.6,-12345678.25\n");
+  for (const std::string blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xA0", " "})
+    EXPECT_EQ(in_plain_dialect("t;x\n0,5;1" + blank + "234,5\n0,6;-987,5\n"),
+              "t,x\n0.5,1234.5\n0.6,-987.5\n");
+  EXPECT_EQ(in_plain_dialect("t\tx\n0.5\t0.125D+02\n0.6\t1.d-3\n"), "t\tx\n0.5\t0.125e+02\n0.6\t1.e-3\n");
+}
+
+TEST(TextDialect, OtherSignsAreLeftForTheReaderToRefuse) {
+  for (const std::string text : {"t,x\n0.5,1'23.5\n0.6,1'2345\n", "t\tx\n0.5\t1.5'234\n",
+                                 "t,x\n0.5,\xE2\x88\x92\n", "t,x\n0.5,12D\n", "t,x\n0.5,a D+02\n"})
+    EXPECT_EQ(in_plain_dialect(text), text);
+  EXPECT_EQ(in_plain_dialect("t;name\n0,5;marker 123\n0,6;1\n"), "t,name\n0.5,marker 123\n0.6,1\n")
+      << "a name is no number";
+}
+
+TEST(TextDialect, TimesOfAClockStandBesideDecimalCommas) {
+  EXPECT_EQ(in_plain_dialect("t;x\n10:00:00,010;1,5\n10:00:00,020;1,6\n"),
+            "t,x\n10:00:00.010,1.5\n10:00:00.020,1.6\n");
+  EXPECT_EQ(in_plain_dialect("t,x\n\"2024-05-01T10:00:00.010\",\"1.5\"\n"),
+            "t,x\n2024-05-01T10:00:00.010,1.5\n");
+}
+
+TEST(TextDialect, ThousandsBeyondTheLookAreThoseOfDecimalCommas) {
+  std::string text = "t;x\n", plain = "t,x\n";
+  while (text.size() < (65UL << 10)) {
+    text += "0,25;1,5\n";
+    plain += "0.25,1.5\n";
+  }
+  EXPECT_EQ(in_plain_dialect(text + "0,5;1.234\n0,6;1.234,5\n"), plain + "0.5,1234\n0.6,1234.5\n");
 }
 
 TEST(TextDialect, Utf16BecomesUtf8) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "kinemark/io/blank_rows.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/text_dialect.h"
 
@@ -32,6 +33,17 @@ Status judge(std::string_view begin, std::size_t size, const std::string& name) 
   return {};
 }
 
+/// Without what fills up the last block of a disk: zeros, and the end mark of DOS.
+std::string without_filling(std::string text) {
+  if (is_utf16(text)) return text;
+  while (!text.empty() && (text.back() == '\0' || text.back() == '\x1A')) text.pop_back();
+  return text;
+}
+
+std::string plain_text(std::string text) {
+  return without_blank_rows(in_plain_dialect(without_filling(std::move(text))));
+}
+
 }  // namespace
 
 Result<std::string> read_lines_of_text(const std::filesystem::path& path, std::size_t max_bytes) {
@@ -45,12 +57,12 @@ Result<std::string> read_lines_of_text(const std::filesystem::path& path, std::s
   if (file->size() > max_bytes)
     return fail(Code::bad_input, fmt::format("{}: has {} bytes; at most {} are read as text", path.string(),
                                              file->size(), max_bytes));
-  if (file->size() <= kJudged) return in_plain_dialect(std::move(text));
+  if (file->size() <= kJudged) return plain_text(std::move(text));
   text.resize(file->size());
   const auto n = file->read_at(kJudged, std::as_writable_bytes(std::span(text).subspan(kJudged)));
   if (!n) return std::unexpected(n.error());
   text.resize(kJudged + *n);
-  return in_plain_dialect(std::move(text));
+  return plain_text(std::move(text));
 }
 
 }  // namespace kinemark::io

@@ -24,6 +24,21 @@ TEST(TextInput, ReadsWhatIsText) {
   EXPECT_EQ(read_lines_of_text(scratch / "absent").error().code, Code::io);
 }
 
+TEST(TextInput, WhatFillsUpTheEndOfAFileIsNoText) {
+  const testing_support::ScratchFolder scratch;
+  for (const std::string& end :
+       {std::string(512, '\0'), std::string("\x1A"), std::string("\x1A") + std::string(100, '\0')}) {
+    ASSERT_TRUE(write_text(scratch / "a.trc", "A\tB\n" + end, true));
+    EXPECT_EQ(read_lines_of_text(scratch / "a.trc").value(), "A\tB\n");
+  }
+  ASSERT_TRUE(write_text(scratch / "a.trc", std::string("A\0B\n", 4), true));
+  EXPECT_EQ(read_lines_of_text(scratch / "a.trc").value().size(), 4U)
+      << "a zero inside is for the reader to refuse";
+  const std::string utf16("A\0\t\0B\0\n\0", 8);
+  ASSERT_TRUE(write_text(scratch / "a.trc", "\xFF\xFE" + utf16, true));
+  EXPECT_EQ(read_lines_of_text(scratch / "a.trc").value(), "A\tB\n");
+}
+
 TEST(TextInput, JudgesHugeFilesByTheirFirstMegabyte) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(write_text(scratch / "zeros.trc", "", false));

@@ -265,10 +265,10 @@ Result<data::Trial> parse_motion_bids(const MotionTexts& texts) {
 
 Result<data::Trial> read_motion_bids(const std::filesystem::path& path) {
   if (!is_motion_tsv(path))
-    return fail(
-        Code::bad_input,
-        fmt::format("{}: is no export of QTM, and no recording of Motion-BIDS, which ends in _motion.tsv",
-                    path.string()));
+    return fail(Code::bad_input,
+                fmt::format("{}: is no export of QTM, which begins with a header (export it with that), and "
+                            "no recording of Motion-BIDS, which ends in _motion.tsv",
+                            path.string()));
   std::array<std::string, 2> texts;
   MotionTexts out{.motion = {},
                   .channels = {},

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "kinemark/io/c3d/internal/count.h"
+#include "kinemark/io/c3d/internal/plate_channels.h"
 #include "kinemark/io/c3d/internal/plate_corners.h"
 
 namespace kinemark::io {
@@ -19,46 +21,10 @@ constexpr double kFar = 1000.0;  // m; a corner further away is an invalid numbe
 
 bool near(const Eigen::Vector3d& x) { return (x.array().abs() < kFar).all(); }
 
-std::size_t channels_of_type(int type, std::size_t rows) {
-  switch (type) {
-    case 1:
-    case 2:
-    case 4:
-      return std::min<std::size_t>(6, rows);
-    case 3:
-    case 5:
-    case 7:
-      return std::min<std::size_t>(8, rows);
-    case 6:
-      return std::min<std::size_t>(12, rows);
-    default:
-      return rows;
-  }
-}
-
-/// Types whose number of channels is known; of others those that the file names.
-bool knows_channels(int type) { return type >= 1 && type <= 7; }
-
 Eigen::Vector3d metres3(const std::vector<double>& values, std::size_t at, double metres) {
   return at + 3 <= values.size()
              ? Eigen::Vector3d(metres * Eigen::Map<const Eigen::Vector3d>(values.data() + at))
              : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-}
-
-/// Zero-based channels of plate i; empty when one of them is not in the file.
-std::vector<int> find_channels(const C3dParameter* channels, std::size_t i, int type,
-                               std::int64_t analog_channels) {
-  const std::size_t rows =
-      channels != nullptr && !channels->dims.empty() ? static_cast<std::size_t>(channels->dims[0]) : 0;
-  std::vector<int> found;
-  for (std::size_t r = 0; r < channels_of_type(type, rows); ++r) {
-    const std::size_t at = i * rows + r;
-    const double channel = at < channels->numbers.size() ? channels->numbers[at] : 0.0;
-    if (channel == 0.0 && !knows_channels(type)) break;
-    if (!(channel >= 1.0 && channel <= static_cast<double>(analog_channels))) return {};
-    found.push_back(static_cast<int>(channel) - 1);
-  }
-  return found;
 }
 
 void read_calibration(const C3dParameter* calibrations, std::size_t i, data::ForcePlate& plate) {
@@ -107,11 +73,17 @@ std::vector<data::ForcePlate> find_force_plates(const C3dParameters& parameters,
   const C3dParameter* corners = p.find("FORCE_PLATFORM", "CORNERS");
   const std::vector<double> origins = p.numbers("FORCE_PLATFORM", "ORIGIN");
   const C3dParameter* polynomials = p.find("FORCE_PLATFORM", "FPCOPPOLY");
+  const internal::AnalogLabels analog{.labels = p.texts("ANALOG", "LABELS"), .count = layout.analog_channels};
+  const auto used_types = std::span(types).first(std::min(used, types.size()));
+  const int first_number = internal::first_channel_number(channels, used_types, analog, warnings);
+  internal::note_other_labels(channels, used_types, analog, first_number, warnings);
   std::vector<data::ForcePlate> plates;
   for (std::size_t i = 0; i < used; ++i) {
     data::ForcePlate plate{.number = static_cast<int>(i) + 1, .metres_per_unit = layout.metres_per_unit};
     plate.type = i < types.size() ? static_cast<int>(internal::bounded_count(types[i], 1000)) : 0;
-    if (plate.type > 0) plate.channel_idx = find_channels(channels, i, plate.type, layout.analog_channels);
+    if (plate.type > 0)
+      plate.channel_idx =
+          internal::channels_of_plate(channels, i, plate.type, layout.analog_channels, first_number);
     if (plate.channel_idx.empty()) {
       warnings.push_back(
           fmt::format("force plate {} is left out: its type or its analog channels are not valid", i + 1));

@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "kinemark/io/c3d/internal/plate_corners.h"
@@ -19,6 +21,9 @@ using Corners = std::array<Vector3d, 4>;
 
 constexpr double kShortest = 0.1, kLongest = 3.0;  // m, of the longest side of a plate
 constexpr double kParallel = 0.95;                 // cosine
+constexpr double kLevel = 0.7;                     // cosine; of a plate in a floor, on stairs or on a ramp
+constexpr double kDeepest = 0.3;                   // m, of sensors below the surface
+constexpr std::array<std::pair<const char*, double>, 3> kUnits{{{"mm", 0.001}, {"m", 1.0}, {"cm", 0.01}}};
 
 bool is_side(double length_m) { return length_m >= kShortest && length_m <= kLongest; }
 
@@ -41,6 +46,36 @@ std::optional<Vector3d> normal_of(const Corners& c) {
   return normal.normalized();
 }
 
+/// The axis of the laboratory that a direction is nearest to.
+Eigen::Index axis_of(const Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+/// An origin that no plate has, and that would be one in mm or m, is taken so; said unless its corners were
+/// in the same unit (`applied` to them).
+void settle_origin_unit(data::ForcePlate& plate, double metres_per_unit, double applied,
+                        std::vector<std::string>& warnings) {
+  const Vector3d origin = plate.origin_in_plate;
+  if (is_depth(origin.norm()) || !(origin.norm() > 0.0) || !(metres_per_unit > 0.0)) return;
+  const double side = longest_side(plate.corners_in_world);
+  for (const auto& [unit, metres] : std::span(kUnits).first(2)) {  // a depth in cm may be one in mm
+    const double factor = metres / metres_per_unit;
+    const Vector3d other = factor * origin;
+    if (!is_depth(std::abs(other.z())) || std::abs(other.z()) > kDeepest) continue;
+    if (other.head<2>().cwiseAbs().maxCoeff() > side) continue;
+    plate.origin_in_plate = other;
+    if (factor != applied)
+      warnings.push_back(fmt::format(
+          "force plate {} would have its sensors {:.3g} mm below its surface by ORIGIN in the unit of the "
+          "points; ORIGIN is taken for {}, {:.3g} mm: the centre of pressure moves by that times the slope "
+          "of the force",
+          plate.number, 1e3 * std::abs(origin.z()), unit, 1e3 * std::abs(other.z())));
+    return;
+  }
+}
+
 }  // namespace
 
 Vector3d plate_corner(const C3dParameter* corners, std::size_t i, std::size_t c) {
@@ -55,27 +90,27 @@ Vector3d plate_corner(const C3dParameter* corners, std::size_t i, std::size_t c)
 
 void settle_plate_unit(data::ForcePlate& plate, double metres_per_unit, std::vector<std::string>& warnings) {
   const double side = longest_side(plate.corners_in_world);
-  if (is_side(side) || !(side > 0.0) || !(metres_per_unit > 0.0)) return;
-  for (const auto& [unit, metres] : {std::pair{"mm", 0.001}, std::pair{"m", 1.0}}) {
-    const double factor = metres / metres_per_unit;
-    if (!is_side(factor * side)) continue;
-    for (auto& corner : plate.corners_in_world) corner *= factor;
-    // The origin may be in the points' own unit all the same.
-    const double depth = plate.origin_in_plate.norm();
-    if (!is_depth(depth) && is_depth(factor * depth)) plate.origin_in_plate *= factor;
-    warnings.push_back(
-        fmt::format("force plate {} would have a side of {:.3g} m in the unit of the points; its corners "
-                    "are taken for {}, {:.3g} m",
-                    plate.number, side, unit, factor * side));
-    return;
-  }
+  double applied = 1.0;
+  if (!is_side(side) && side > 0.0 && metres_per_unit > 0.0)
+    for (const auto& [unit, metres] : kUnits) {
+      const double factor = metres / metres_per_unit;
+      if (!is_side(factor * side)) continue;
+      for (auto& corner : plate.corners_in_world) corner *= factor;
+      applied = factor;
+      warnings.push_back(
+          fmt::format("force plate {} would have a side of {:.3g} m in the unit of the points; its corners "
+                      "are taken for {}, {:.3g} m",
+                      plate.number, side, unit, factor * side));
+      break;
+    }
+  settle_origin_unit(plate, metres_per_unit, applied, warnings);
 }
 
 void settle_corner_order(std::span<data::ForcePlate> plates, std::vector<std::string>& warnings) {
   Vector3d usual = Vector3d::Zero();
   for (const auto& plate : plates)
     if (const auto normal = normal_of(plate.corners_in_world)) usual += *normal;
-  if (!(usual.norm() > 0.5)) return;
+  const bool alone = !(usual.norm() > 0.5);
   constexpr std::array<std::array<std::size_t, 2>, 4> kExchanges{{{2, 3}, {0, 1}, {1, 2}, {0, 3}}};
   for (auto& plate : plates) {
     if (normal_of(plate.corners_in_world)) continue;
@@ -83,12 +118,18 @@ void settle_corner_order(std::span<data::ForcePlate> plates, std::vector<std::st
       Corners other = plate.corners_in_world;
       std::swap(other[a], other[b]);
       const auto normal = normal_of(other);
-      if (!normal || normal->dot(usual) < kParallel * usual.norm()) continue;
+      if (!normal) continue;
+      const auto axis = axis_of(*normal);
+      if (alone ? !((*normal)[axis] < -kLevel) : normal->dot(usual) < kParallel * usual.norm()) continue;
       plate.corners_in_world = other;
-      warnings.push_back(
-          fmt::format("force plate {} has corners that cross over; corners {} and {} are exchanged, so that "
-                      "they go around it as those of the other plates do",
-                      plate.number, a + 1, b + 1));
+      warnings.push_back(fmt::format(
+          "force plate {} has corners that cross over; corners {} and {} are exchanged, so that they go "
+          "around it {}",
+          plate.number, a + 1, b + 1,
+          alone ? fmt::format("and its z points down ({} of the laboratory is taken as up); its x and y are "
+                              "those of this order, which nothing else in the file confirms",
+                              "xyz"[axis])
+                : std::string("as those of the other plates do")));
       break;
     }
   }

@@ -14,6 +14,7 @@
 #include "kinemark/io/markers/marker_format.h"
 #include "kinemark/io/osim/external_loads.h"
 #include "kinemark/io/plates/plate_forces.h"
+#include "kinemark/io/text/d_flow_forces.h"
 #include "kinemark/io/text/table_file.h"
 
 namespace kinemark::io {
@@ -68,7 +69,29 @@ Result<ExternalForces> read_columns(const std::filesystem::path& path, const Tim
       .wrenches = std::move(*wrenches), .files = {path}, .warnings = table->warnings, .contradicted = {}};
 }
 
+Result<ExternalForces> of_d_flow(const std::filesystem::path& path, data::Table table, const TimeBase& time) {
+  const auto loads = loads_of_columns(table, path);
+  if (!loads) return std::unexpected(loads.error());
+  auto wrenches = sample_external_loads(*loads, table, time);
+  if (!wrenches) return std::unexpected(wrenches.error());
+  return ExternalForces{.wrenches = std::move(*wrenches),
+                        .files = {path},
+                        .warnings = std::move(table.warnings),
+                        .contradicted = {}};
+}
+
 }  // namespace
+
+Result<ExternalForces> read_own_forces(const std::filesystem::path& path, const TimeBase& time,
+                                       double contact_force_n) {
+  auto table = read_d_flow_forces(path, contact_force_n);
+  if (!table) return std::unexpected(table.error());
+  // Rows are the frames of the markers, whose times may be uneven by a little.
+  if (table->rows() == time.frames)
+    for (std::int64_t f = 0; f < time.frames; ++f)
+      table->time_s[static_cast<std::size_t>(f)] = time.time_s(f);
+  return of_d_flow(path, std::move(*table), time);
+}
 
 Result<ExternalForces> read_external_forces(const std::filesystem::path& path, const TimeBase& time,
                                             double contact_force_n) {
@@ -77,12 +100,18 @@ Result<ExternalForces> read_external_forces(const std::filesystem::path& path, c
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (kind == ".xml") return read_loads(path, time);
   if (kind == ".mot" || kind == ".sto") return read_columns(path, time);
+  if (kind == ".txt") {
+    auto table = read_d_flow_forces(path, contact_force_n);
+    return table ? of_d_flow(path, std::move(*table), time)
+                 : Result<ExternalForces>(std::unexpected(table.error()));
+  }
   if (keeps_plates(kind)) return read_plates(path, time, contact_force_n);
   return fail(
       Code::usage,
-      fmt::format("{}: forces are read from the plates of a .c3d or .mat file, from a .mot or .sto with "
-                  "columns such as ground_force_vx, or from an OpenSim ExternalLoads .xml",
-                  path.string()));
+      fmt::format(
+          "{}: forces are read from the plates of a .c3d or .mat file, from a .mot or .sto with "
+          "columns such as ground_force_vx, from a .txt of D-Flow, or from an OpenSim ExternalLoads .xml",
+          path.string()));
 }
 
 }  // namespace kinemark::io

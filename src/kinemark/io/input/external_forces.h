@@ -21,10 +21,14 @@ struct ExternalForces {
 };
 
 /// Forces on the body at the frames of `time`: the plates of a .c3d or .mat file, an OpenSim ExternalLoads
-/// .xml with its table, or a table alone, by the names of its columns (loads_of_columns()). NaN where the
-/// file has no data. Another kind of file: Code::usage.
+/// .xml with its table, a table alone, by the names of its columns (loads_of_columns()), or a .txt of D-Flow.
+/// NaN where the file has no data. Another kind of file: Code::usage.
 /// @param contact_force_n  of plates, PlateOptions
 [[nodiscard]] Result<ExternalForces> read_external_forces(const std::filesystem::path& path,
                                                           const TimeBase& time, double contact_force_n);
+
+/// The forces beside the markers of a text of D-Flow (kForcesOfDFlow), on the frames of its markers.
+[[nodiscard]] Result<ExternalForces> read_own_forces(const std::filesystem::path& path, const TimeBase& time,
+                                                     double contact_force_n);
 
 }  // namespace kinemark::io

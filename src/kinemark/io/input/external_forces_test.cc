@@ -82,5 +82,23 @@ TEST(ExternalForces, OtherFilesAreRefusedInASentence) {
   EXPECT_THAT(gone.error().message, HasSubstr("(the <datafile> of "));
 }
 
+TEST(ExternalForces, OfDFlowByItsOwnClock) {
+  const testing_support::ScratchFolder scratch;
+  std::string text = "TimeStamp\tFP1.CopX\tFP1.CopY\tFP1.CopZ\tFP1.ForX\tFP1.ForY\tFP1.ForZ\n";
+  for (int f = 0; f < 5; ++f)
+    text += "1.0" + std::to_string(f) + "\t0.1\t0\t0.2\t0\t" + std::to_string(500 + 10 * f) + "\t0\n";
+  ASSERT_TRUE(write_text(scratch / "f.txt", text, false));
+  const auto read =
+      read_external_forces(scratch / "f.txt", {.rate_hz = 200.0, .t0_s = 1.0, .frames = 12}, 20.0);
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->wrenches.items.size(), 1U);
+  EXPECT_NEAR(of_frame(read->wrenches.items[0].force, 3).y(), 515.0, 1e-9);
+  EXPECT_TRUE(of_frame(read->wrenches.items[0].force, 11).hasNaN()) << "the file has ended";
+  EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("it writes no corners")));
+  ASSERT_TRUE(write_text(scratch / "g.txt", "a\tb\n1\t2\n", false));
+  EXPECT_THAT(read_external_forces(scratch / "g.txt", {.rate_hz = 100.0, .frames = 2}, 20.0).error().message,
+              HasSubstr("labels no forces of D-Flow"));
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -15,6 +15,7 @@
 #include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/plates/plate_forces.h"
+#include "kinemark/io/text/d_flow_forces.h"
 
 namespace kinemark::io {
 namespace {
@@ -30,6 +31,20 @@ void take_plates(const ForcesSource& forces, RecordingInput& input) {
   input.plates = std::move(found->wrenches);
   std::ranges::move(found->warnings, std::back_inserter(input.notes));
   input.contradicted = std::move(found->contradicted);
+}
+
+/// Forces that the text of the markers holds beside them.
+void take_own_forces(const ForcesSource& forces, RecordingInput& input) {
+  if (input.trial.format != "D-Flow" ||
+      std::ranges::find(input.trial.unread, kForcesOfDFlow) == input.trial.unread.end())
+    return;
+  auto found = read_own_forces(input.file.path, input.trial.markers.time, forces.contact_force_n);
+  if (!found) {
+    input.plates_fault = found.error().message;
+    return;
+  }
+  input.plates = std::move(found->wrenches);
+  std::ranges::move(found->warnings, std::back_inserter(input.notes));
 }
 
 /// Forces of a file of their own, on the recording's frames.
@@ -99,6 +114,7 @@ Result<RecordingInput> read_recording(const MarkerSource& markers, const ForcesS
   if (!journal) return std::unexpected(journal.error());
   input.journal = std::move(*journal);
   if (forces.wanted && forces.file.empty()) take_plates(forces, input);
+  if (forces.wanted && forces.file.empty()) take_own_forces(forces, input);
   if (forces.wanted && !forces.file.empty())
     if (auto s = take_forces(forces, input); !s) return std::unexpected(s.error());
   return input;

@@ -108,5 +108,37 @@ TEST_F(ReadMarkerInput, WhatCannotBeReadIsTheReadersSentence) {
   EXPECT_EQ(read_marker_input({.path = scratch_ / "notes.docx"}).error().code, Code::not_supported);
 }
 
+/// A heel marker, and one plate that bears 700 N from the third frame on.
+std::string d_flow(const char* force = "FP1.ForX\tFP1.ForY\tFP1.ForZ") {
+  std::string out =
+      std::string("TimeStamp\tFrameNumber\tLHEE.PosX\tLHEE.PosY\tLHEE.PosZ\tFP1.CopX\tFP1.CopY\tFP1.CopZ\t") +
+      force + "\n";
+  for (int f = 0; f < 6; ++f)
+    out += "0.0" + std::to_string(f) + "\t" + std::to_string(f + 1) + "\t0.1\t0.05\t0.2\t0.15\t0\t0.3\t10\t" +
+           (f < 2 ? "0.2" : "700") + "\t-20\n";
+  return out;
+}
+
+TEST_F(ReadMarkerInput, ForcesBesideTheMarkersOfDFlowAreThoseOfTheRecording) {
+  const auto txt = scratch_ / "walk.txt";
+  ASSERT_TRUE(write_text(txt, d_flow(), false));
+  const auto input = read_recording({.path = txt}, {.wanted = true}, {}, false).value();
+  ASSERT_TRUE(input.plates);
+  ASSERT_EQ(input.plates->items.size(), 1U);
+  const auto& plate = input.plates->items[0];
+  EXPECT_EQ(plate.name, "plate 1");
+  EXPECT_TRUE(plate.corners_in_world.empty());
+  EXPECT_EQ(plate.force[3 * 4 + 1], 700.0);
+  EXPECT_EQ(plate.point[3 * 4 + 2], 0.3);
+  EXPECT_EQ(plate.force[1], 0.0) << "0.2 N are nobody's";
+  EXPECT_THAT(input.notes, ::testing::Contains(HasSubstr("where the plates lie is not known")));
+  EXPECT_THAT(input.trial.warnings, ::testing::Not(::testing::Contains(HasSubstr("are not read"))));
+  EXPECT_FALSE(read_recording({.path = txt}, {.wanted = false}, {}, false).value().plates) << "nobody asks";
+  ASSERT_TRUE(write_text(txt, d_flow("FP1.MomX\tFP1.MomY\tFP1.MomZ"), true));
+  const auto without = read_recording({.path = txt}, {.wanted = true}, {}, false).value();
+  EXPECT_FALSE(without.plates);
+  EXPECT_THAT(without.trial.warnings, ::testing::Contains(HasSubstr("are not read: 'FP1.CopX'")));
+}
+
 }  // namespace
 }  // namespace kinemark::io

@@ -73,7 +73,14 @@ bool labels_quaternions(std::string_view head) {
 }  // namespace
 
 std::string foreign_text(std::string_view begin) {
+  if (begin.starts_with("PK\x03\x04"))
+    return "it is a ZIP archive, as a workbook of Excel is: unpack it, or save its sheet as CSV";
+  if (begin.starts_with("\x1F\x8B")) return "it is compressed by gzip: unpack it first";
   const std::string head = head_of(begin);
+  if (head.starts_with("version https://git-lfs."))
+    return "it is a pointer of Git LFS and not the file itself: 'git lfs pull' brings that";
+  if (head.starts_with("<!doctype html") || head.starts_with("<html"))
+    return "it is a web page, and not the file that its address was to give: download that again";
   const auto holds = [&](std::string_view word) { return head.find(word) != std::string::npos; };
   const auto words = words_of(head);
   const auto any_begins = [&](std::string_view part) {
@@ -83,6 +90,9 @@ std::string foreign_text(std::string_view begin) {
   if (head.starts_with("#kinovea") || holds("<kinovea") || (is_table && holds("kinovea")) ||
       (holds("trajectory") && (holds("/x") || holds("/0/"))))
     return "it holds paths that Kinovea followed in the image of one camera, and no positions in space";
+  if (holds("<opensimdocument"))
+    return "it is a model or a setup of OpenSim and no recording: a model is given by --model, a setup by "
+           "--setup";
   if (holds("<mvnx"))
     return "it is an MVNX file of Xsens: export the recording as C3D, whose points are read, or its "
            "orientations as "

@@ -27,6 +27,23 @@ TEST(ForeignText, IsKnownByItsWords) {
   EXPECT_THAT(foreign_text("X [s],Sensor 1: EMG 1 [V]\n0.0,1e-5\n"), HasSubstr("it holds EMG"));
 }
 
+TEST(ForeignText, ArchivesPagesAndPointersAreKnownByHowTheyBegin) {
+  EXPECT_THAT(foreign_text("PK\x03\x04\x14"),
+              HasSubstr("a workbook of Excel is: unpack it, or save its sheet as CSV"));
+  EXPECT_THAT(foreign_text("\x1F\x8B\x08"), HasSubstr("compressed by gzip: unpack it first"));
+  EXPECT_THAT(foreign_text("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n"),
+              HasSubstr("'git lfs pull' brings that"));
+  for (const char* text : {"<!DOCTYPE html>\n<html>", "<html lang=\"en\">"})
+    EXPECT_THAT(foreign_text(text), HasSubstr("it is a web page")) << text;
+  for (const char* text : {"PK marker,x\n1,2\n", "version 1\n", "<?xml version=\"1.0\"?>\n<Document>"})
+    EXPECT_THAT(foreign_text(text), IsEmpty()) << text;
+}
+
+TEST(ForeignText, ModelsAndSetupsOfOpenSimAreNoRecordings) {
+  EXPECT_THAT(foreign_text("<?xml version=\"1.0\"?>\n<OpenSimDocument Version=\"40000\">\n<Model>"),
+              HasSubstr("a model is given by --model"));
+}
+
 TEST(ForeignText, OtherTextsAreNotSpokenOf) {
   for (const char* text :
        {"", "time,LASI_X,LASI_Y,LASI_Z\n", "trajectory of a comet\n1,2\n", "w,x,y\n", "accession,number\n",

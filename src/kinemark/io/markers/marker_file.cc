@@ -79,9 +79,9 @@ bool is_text(std::string_view begin) { return begin.find('\0') == std::string_vi
 /// What a text is that no reader knows, and what would bring it in; empty: it is no text. Nothing of it is
 /// quoted: a page of `serve` shows this, and the file may be anybody's.
 std::string describe_text(std::string_view begin) {
+  if (const auto foreign = foreign_text(begin); !foreign.empty()) return ": " + foreign;
   if (!is_text(begin)) return {};
   const auto line = begin.substr(0, begin.find_first_of("\r\n"));
-  if (const auto foreign = foreign_text(begin); !foreign.empty()) return ": " + foreign;
   const auto tabs = std::ranges::count(line, '\t'), commas = std::ranges::count(line, ',');
   const std::string cells = tabs > 0     ? fmt::format("{} cells between tabs", tabs + 1)
                             : commas > 0 ? fmt::format("{} cells between commas", commas + 1)
@@ -115,8 +115,7 @@ Result<data::Trial> read_as_it_is(const std::filesystem::path& path, const Marke
                 fmt::format("{}: {} is not read as a marker file{}; supported are {}", path.string(),
                             named(extension), describe_text(*begin), names_of_read_formats()));
   const bool by_ending = format->begins == nullptr || !format->begins(*begin);
-  if (const auto foreign = by_ending && is_text(*begin) ? foreign_text(*begin) : std::string();
-      !foreign.empty())
+  if (const auto foreign = by_ending ? foreign_text(*begin) : std::string(); !foreign.empty())
     if (auto trial = format->read(path, options, box_m); !trial)
       return fail(Code::not_supported, fmt::format("{}: {}", path.string(), foreign));
   if (format->stores_rate && options.rate_hz != 0.0) {

@@ -9,20 +9,23 @@
 #include <utility>
 
 #include "kinemark/core/missing.h"
+#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
+#include "kinemark/core/utf8.h"
+#include "kinemark/io/plates/internal/moment_unit.h"
 #include "kinemark/io/plates/internal/plate_wrench.h"
 
 namespace kinemark::io {
 namespace {
 
 using Eigen::Vector3d;
+using internal::is_on_plate;
+using internal::kSurelyLoaded;
 using internal::plate_pose;
 using internal::PlateChannels;
 using internal::PlatePose;
 using internal::PlateWrench;
 using internal::Vector6;
-
-constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay below it
 
 /// A plate with valid geometry, and its measurements.
 struct Plate {
@@ -168,6 +171,36 @@ void measure(const data::Trial& trial, std::int64_t S, Plate& plate) {
   }
 }
 
+/// Moments whose unit, stated or not, puts the centre of pressure metres away or nails it to the middle, and
+/// that a thousandth or a thousand times as much puts on the plate, are taken so.
+void settle_moment_unit(const data::Trial& trial, std::int64_t S, Plate& plate,
+                        std::vector<std::string>& warnings) {
+  if (!plate.wrench.has_moment_unit()) return;
+  for (const double factor : {1e-3, 1e3}) {
+    Plate other = plate;
+    other.wrench.scale_moments(factor);
+    other.measured.clear();
+    measure(trial, S, other);
+    const auto& larger = factor < 1.0 ? plate : other;
+    const auto& smaller = factor < 1.0 ? other : plate;
+    if (!internal::is_a_thousandth(larger.measured, smaller.measured, factor < 1.0, plate.pose.half_size))
+      continue;
+    plate = std::move(other);
+    const auto at = static_cast<std::size_t>(plate.channel_idx[3]);
+    const auto unit = at < trial.analog.units.size() ? trim(trial.analog.units[at]) : std::string_view();
+    warnings.push_back(
+        fmt::format("{} has {} that {} makes a thousand times too {}: the centre of pressure would {}; they "
+                    "are {} by 1000",
+                    plate.name, plate.wrench.has_baseline(3) ? "moments" : "points of the force",
+                    unit.empty() ? std::string("the usual unit (none is stated)")
+                                 : fmt::format("the unit '{}'", printable(unit, 20)),
+                    factor < 1.0 ? "large" : "small",
+                    factor < 1.0 ? "lie metres beside the plate" : "stay at the middle of the sensors",
+                    factor < 1.0 ? "divided" : "multiplied"));
+    return;
+  }
+}
+
 /// Where no marker tells on which side the body is: laboratories have an axis that points up, and none that
 /// points down.
 double side_of_up(const Plate& plate, std::vector<std::string>& warnings) {
@@ -239,7 +272,7 @@ data::Wrench on_body(const Plate& plate, double side, const PlateOptions& option
       if (along >= 1.0) {
         point = corrected({-moment.y() / force.z(), moment.x() / force.z(), 0.0}, plate.pressure_correction);
         moment = {0.0, 0.0, moment.z() - point.x() * force.y() + point.y() * force.x()};
-        const bool inside = (point.head<2>().array().abs() < 1.2 * plate.pose.half_size.array() + 0.02).all();
+        const bool inside = is_on_plate(point.head<2>(), plate.pose.half_size);
         loaded += along >= kSurelyLoaded;
         off += along >= kSurelyLoaded && !inside;
       }
@@ -284,6 +317,7 @@ Result<PlateForces> plate_forces(const data::Trial& trial, const PlateOptions& o
   forces.wrenches.time = trial.markers.time;
   for (auto& plate : plates) {
     measure(trial, per_frame, plate);
+    settle_moment_unit(trial, per_frame, plate, forces.warnings);
     const double side = side_of_body(plate, markers, forces.warnings);
     settle_sign(plate, side, forces.warnings);
     forces.wrenches.items.push_back(on_body(plate, side, options, forces));

@@ -521,12 +521,51 @@ TEST(PlateForces, ASampleThatIsNoNumberIsNotKnown) {
 
 TEST(PlateForces, AWrongUnitShowsAtTheCentreOfPressure) {
   Setting setting;
-  setting.units = {"N", "N", "N", "Nm", "Nm", "Nm"};  // but the numbers are N mm
+  setting.units = {"N", "N", "N", "Ncm", "Ncm", "Ncm"};  // but the numbers are N mm
   const auto forces = through_a_file(setting.trial(6, [](double) { return 1.0; })).value();
   EXPECT_THAT(forces.warnings,
               ElementsAre(HasSubstr("the centre of pressure leaves plate 1 in 6 of 6 frames")));
   EXPECT_EQ(forces.contradicted, forces.warnings);
   EXPECT_THAT(through_a_file(Setting().trial(6, [](double) { return 1.0; })).value().contradicted, IsEmpty());
+}
+
+TEST(PlateForces, MomentsAThousandTimesTooLargeOrTooSmallAreCorrected) {
+  for (const int type : {2, 4})
+    for (const bool large : {true, false}) {
+      Setting setting{.type = type};
+      setting.calibration = Eigen::MatrixXd::Identity(6, 6);
+      setting.calibration(2, 2) = 1.25;
+      const std::string called = large ? "Nm" : "Nmm";
+      setting.units = {"N", "N", "N", called, called, called};
+      auto trial = setting.trial(6, [](double) { return 1.0; });  // in N mm
+      if (!large)
+        for (std::size_t i = 0; i < trial.analog.values.size(); ++i)
+          if (type == 2 && i % 7 > 3) trial.analog.values[i] *= 1e-3;
+      if (!large && type == 4) trial.force_plates[0].calibration[21] *= 1e-3;
+      if (!large && type == 4)
+        for (const std::size_t k : {28U, 35U}) trial.force_plates[0].calibration[k] *= 1e-3;
+      const auto forces = through_a_file(trial).value();
+      expect_truth(setting, forces.wrenches.items.at(0), 3);
+      EXPECT_THAT(
+          forces.warnings,
+          ElementsAre(HasSubstr(fmt::format(
+              "plate 1 has moments that the unit '{}' makes a thousand times too {}", called,
+              large ? "large: the centre of pressure would lie metres beside the plate; they are divided by "
+                      "1000"
+                    : "small: the centre of pressure would stay at the middle of the sensors; they are "
+                      "multiplied by 1000"))))
+          << type;
+      EXPECT_THAT(forces.contradicted, IsEmpty());
+    }
+}
+
+TEST(PlateForces, PointsOfTheForceInAnotherUnitThanTheirWordAreCorrected) {
+  Setting setting{.type = 1};
+  setting.units = {"N", "N", "N", "m", "m", "Nmm"};  // but the points are in mm
+  const auto forces = through_a_file(setting.trial(6, [](double) { return 1.0; })).value();
+  expect_truth(setting, forces.wrenches.items.at(0), 3);
+  EXPECT_THAT(forces.warnings,
+              ElementsAre(HasSubstr("plate 1 has points of the force that the unit 'm' makes")));
 }
 
 TEST(PlateForces, WhatCannotBeReadIsReportedInASentence) {

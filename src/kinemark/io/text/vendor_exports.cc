@@ -131,8 +131,10 @@ Result<data::Trial> parse(std::string_view text, VendorExport which, std::string
     return std::unexpected(s.error());
   note_rest(lines, which, trial);
   if (auto s = move_outputs(*header, trial); !s) return std::unexpected(s.error());
-  if (header->is_unit_open)
+  if (header->is_unit_open) {
     if (auto s = settle_unit_by_size(trial); !s) return std::unexpected(s.error());
+    internal::take_zeros_as_missing(trial, 0);
+  }
   for (std::int64_t m = 0; m < std::ssize(header->state); ++m) {
     if (header->state[static_cast<std::size_t>(m)] == data::SampleState::measured) continue;
     for (std::int64_t f = 0; f < trial.markers.frames(); ++f)

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kinemark/io/text/body_orientations.h"
+#include "kinemark/io/text/d_flow_forces.h"
 #include "kinemark/io/text/orientation_csv.h"
 #include "kinemark/io/text/vendor_exports.h"
 
@@ -16,6 +17,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto turned = kinemark::io::parse_orientation_csv(text, "fuzz");
   if (turned ? !turned->validate() : turned.error().message.find('\n') != std::string::npos) std::abort();
   if (turned && turned->quaternion.size() > 4 * (size + 1'000'000)) std::abort();
+  const auto forces = kinemark::io::parse_d_flow_forces(text, "fuzz", 20.0);
+  if (forces ? !forces->validate() : forces.error().message.find('\n') != std::string::npos) std::abort();
+  if (forces && forces->values.size() > 9 * 32 * (size + 1)) std::abort();
   const auto which = kinemark::io::vendor_export_of(text);
   if (!which) return 0;
   const auto trial = kinemark::io::parse_vendor_export(text, "fuzz", *which);

@@ -17,6 +17,7 @@
 #include "kinemark/core/name_pattern.h"
 #include "kinemark/core/nearest_name.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/plate_component.h"
 #include "kinemark/stages/analysis/emg/channel_facts.h"
 
 namespace kinemark::workflow {
@@ -69,17 +70,6 @@ bool names_a_muscle(const std::string& name) {
       if (begins_a_name(name, at) && text.substr(at, 4) != "trig") return true;
     return false;
   });
-}
-
-// A component of a force plate: "Fx", "Electric Potential.Fz", "Force.My2", "F1X".
-bool names_a_force(const std::string& name) {
-  auto text = lowered(name);
-  while (!text.empty() && !is_letter(text.back())) text.pop_back();
-  const auto begin = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz0123456789") + 1;
-  std::string word;  // the last one, without numbers
-  for (const char c : text.substr(begin))
-    if (is_letter(c)) word += c;
-  return word.size() == 2 && (word[0] == 'f' || word[0] == 'm') && word[1] >= 'x' && word[1] <= 'z';
 }
 
 analysis::EmgStretch emg_stretch_of(const data::Region& region, const data::Trial& trial) {
@@ -168,7 +158,7 @@ Result<std::vector<std::size_t>> emg_channels(const data::Trial& trial,
   const auto take = [&](const auto& is_one) {
     for (std::size_t c = 0; c < names.size(); ++c)
       if (!std::isnan(volts_of(trial.analog.units[c])) && !of_plates.contains(c) &&
-          !names_a_force(names[c]) && is_one(names[c]))
+          data::plate_component(names[c]).empty() && is_one(names[c]))
         out.push_back(c);
   };
   take([](const std::string& name) { return lowered(name).find("emg") != std::string::npos; });

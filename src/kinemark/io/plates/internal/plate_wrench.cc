@@ -124,6 +124,7 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
   if (wrench.origin_flipped_ && sensors) wrench.centre_.z() *= -1.0;
   if (wrench.origin_flipped_ && !sensors) wrench.centre_ *= -1.0;
 
+  wrench.has_moment_unit_ = !sensors;
   ChannelUnits of{.plate = plate, .units = units, .unknown = {}};
   wrench.scale_.setOnes(static_cast<Eigen::Index>(n));
   for (std::size_t c = 0; c < n; ++c) {
@@ -155,6 +156,13 @@ Result<PlateWrench> PlateWrench::create(const data::ForcePlate& plate,
   // Sensors lie evenly about the middle: the remaining component of ORIGIN is the depth.
   if (sensors) wrench.centre_.head<2>().setZero();
   return wrench;
+}
+
+void PlateWrench::scale_moments(double factor) {
+  if (is_pressure_point_)
+    scale_.segment<2>(3) *= factor;
+  else
+    matrix_.bottomRows<3>() *= factor;
 }
 
 Vector6 PlateWrench::operator()(const PlateChannels& channels) const {

@@ -33,6 +33,11 @@ class PlateWrench {
   [[nodiscard]] bool has_baseline(std::size_t channel) const {
     return !is_pressure_point_ || channel < 3 || channel > 4;
   }
+  /// Whether the point of the force comes from channels whose unit a word gives: moments, or the point itself
+  /// (type 1); of four sensors it comes from where these are.
+  [[nodiscard]] bool has_moment_unit() const { return has_moment_unit_; }
+  /// Take these channels for `factor` times what their unit says.
+  void scale_moments(double factor);
   /// Whether ORIGIN lay above the surface, and was reversed.
   [[nodiscard]] bool origin_flipped() const { return origin_flipped_; }
   /// Channels whose unit is no word of their quantity, "channel 4 in 'furlong'": taken as N, and N times the
@@ -42,6 +47,7 @@ class PlateWrench {
  private:
   bool is_pressure_point_ = false;  ///< type 1: channels 3 and 4 are the centre of pressure
   bool origin_flipped_ = false;
+  bool has_moment_unit_ = false;
   std::vector<std::string> unknown_units_;
   PlateChannels scale_;  ///< of each channel, to N, N m and m
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 12> matrix_;

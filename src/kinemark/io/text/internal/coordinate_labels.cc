@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -129,9 +130,10 @@ bool take_clock(Label& label) {
   constexpr std::array<std::string_view, 10> kFrames{"frame",   "frames",   "framenumber", "frameno",
                                                      "frameid", "frameidx", "fnum",        "field",
                                                      "framenr", "framenum"};
-  constexpr std::array<std::string_view, 17> kTimes{
-      "time", "t",    "times",  "timestamp", "timestamps", "temps", "second", "elapsedtime", "seconds",
-      "sec",  "zeit", "tiempo", "tempo",     "tijd",       "tid",   "secs",   "frametime"};
+  constexpr std::array<std::string_view, 22> kTimes{
+      "time",    "t",     "times",    "timestamp", "timestamps", "temps",    "second", "elapsedtime",
+      "sec",     "zeit",  "tiempo",   "tempo",     "tijd",       "tid",      "secs",   "frametime",
+      "utctime", "clock", "datetime", "seconds",   "timeofday",  "localtime"};
   std::string word = letters_of(label.name), unit = lower(label.unit);
   label.is_frame = is_one_of(kFrames, word);
   if (label.is_frame) return true;
@@ -228,12 +230,76 @@ bool holds_markers(CoordinateLabels& table) {
   return first->marker >= 0 || 2 * coordinates >= table.columns.size() - clocks;
 }
 
+/// "LASI_1", "LASI.2", "LASI[0]": a name and a number of one digit. Words for a point of any name have
+/// numbers to tell markers apart.
+std::optional<std::pair<std::string, int>> numbered_component(const Label& label) {
+  constexpr std::array<std::string_view, 14> kAnyPoint{"marker", "markers", "point", "points", "mkr",
+                                                       "m",      "p",       "pt",    "sensor", "channel",
+                                                       "ch",     "column",  "col",   "unnamed"};
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string_view stem = label.name;
+  char digit = 0;
+  if (label.unit.size() == 1 && is_digit(label.unit.front())) {
+    digit = label.unit.front();
+  } else if (stem.size() > 2 && is_digit(stem.back()) && is_between(stem[stem.size() - 2])) {
+    digit = stem.back();
+    stem.remove_suffix(1);
+  }
+  while (!stem.empty() && is_between(stem.back())) stem.remove_suffix(1);
+  if (digit == 0 || stem.empty() || is_one_of(kAnyPoint, lower(stem))) return std::nullopt;
+  return std::pair{std::string(stem), digit - '0'};
+}
+
+/// Every column but clocks is one of three of its name, numbered from 0 or from 1 in all of them. A fourth
+/// that is 1 in the first row is that of homogeneous coordinates, which kineticstoolkit writes.
+bool take_numbered_axes(std::vector<Label>& labels, const std::vector<std::string>& first_row) {
+  std::map<std::string, std::vector<std::size_t>> columns;  // of a name
+  int lowest = 2;
+  for (std::size_t c = 0; c < labels.size(); ++c) {
+    if (is_clock(labels[c])) continue;
+    const auto component = numbered_component(labels[c]);
+    if (!component) return false;
+    columns[component->first].push_back(c);
+    lowest = std::min(lowest, component->second);
+  }
+  const auto axis = [&](std::size_t c) { return numbered_component(labels[c])->second - lowest; };
+  const auto is_one = [&](std::size_t c) {
+    return c < first_row.size() && parse_number(first_row[c]) == 1.0;
+  };
+  const bool threes =
+      lowest < 2 && std::ranges::all_of(
+                        columns,
+                        [&](const auto& named) {
+                          std::set<int> axes;
+                          for (const std::size_t c : named.second) axes.insert(axis(c));
+                          const auto& last = named.second.back();
+                          return axes.size() == named.second.size() &&
+                                 (axes == std::set{0, 1, 2} ||
+                                  (axes == std::set{0, 1, 2, 3} && axis(last) == 3 && is_one(last)));
+                        });
+  if (columns.empty() || !threes) return false;
+  for (const auto& [name, of_name] : columns)
+    for (const std::size_t c : of_name) {
+      const int of = axis(c);
+      if (of == Label::kW) continue;
+      labels[c].axis = of;
+      if (labels[c].unit.size() == 1 && !metres_per_unit(labels[c].unit)) labels[c].unit.clear();
+      labels[c].name = name;
+    }
+  return true;
+}
+
 /// The labels of one line.
-CoordinateLabels in_one_line(const std::vector<std::string>& cells) {
+CoordinateLabels in_one_line(const std::vector<std::string>& cells,
+                             const std::vector<std::string>& first_row) {
   CoordinateLabels out;
   for (const auto& cell : cells) out.columns.push_back(coordinate_label(cell));
   take_row_numbers(out.columns);
   if (holds_markers(out)) return out;
+  if (auto numbered = out; take_numbered_axes(numbered.columns, first_row) && holds_markers(numbered)) {
+    numbered.are_numbered = true;
+    return numbered;
+  }
   bool changed = false;
   for (auto& label : out.columns)
     changed = (!is_clock(label) && (take_axis_at_end(label) || take_number(label))) || changed;
@@ -282,6 +348,32 @@ bool is_line_of_axes(const std::vector<std::string>& cells) {
   return axes >= 3 && 2 * axes >= cells.size();
 }
 
+/// The cells of the next line, without going there; none where it is no row of cells.
+std::vector<std::string> next_cells(Lines ahead) {
+  std::string_view line;
+  std::vector<std::string> cells;
+  if (!ahead.next(line) || !check_header_line(line, ahead.number()) || !split_labels(line, cells))
+    cells.clear();
+  return cells;
+}
+
+/// A line below the axes with the names of the columns that have none, and nothing else, as pandas writes it
+/// ("time,,,"): these columns get them, and `lines` goes there.
+void take_index_names(Lines& lines, std::vector<Label>& columns) {
+  const auto cells = next_cells(lines);
+  bool any = false;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (cells[c].empty()) continue;
+    if (c >= columns.size() || columns[c].marker >= 0 || parse_number(cells[c])) return;
+    any = true;
+  }
+  if (!any || cells.size() != columns.size()) return;
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (!cells[c].empty()) columns[c] = coordinate_label(cells[c]);
+  std::string_view line;
+  lines.next(line);
+}
+
 /// The labels whose first line is the next one.
 CoordinateLabels labels_here(Lines& lines) {
   std::vector<std::vector<std::string>> above;
@@ -295,7 +387,7 @@ CoordinateLabels labels_here(Lines& lines) {
         text.starts_with('#') || text.starts_with('%');  // as numpy.savetxt() writes its header
     if (!split_labels(noted ? trim(text.substr(1)) : line, cells)) return {};
     if (k == 0) {
-      auto found = in_one_line(cells);
+      auto found = in_one_line(cells, next_cells(ahead));
       if (!found.columns.empty()) return lines = ahead, found;
     } else if (is_line_of_axes(cells)) {
       // The names are the last line above that is none of units.
@@ -305,6 +397,7 @@ CoordinateLabels labels_here(Lines& lines) {
       if (found.columns.empty()) return {};
       const auto units = std::ranges::find_if(above, is_line_of_units);
       if (units != above.end()) found.units = *units;
+      take_index_names(ahead, found.columns);
       return lines = ahead, found;
     }
     above.push_back(std::move(cells));

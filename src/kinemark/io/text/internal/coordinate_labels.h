@@ -31,6 +31,7 @@ struct CoordinateLabels {
   std::vector<CoordinateLabel> columns;  ///< empty: no table of coordinates
   std::vector<std::string> names;        ///< of the markers; "" of x, y and z alone
   std::vector<std::string> units;        ///< a line of units above the axes, a cell a column; may be empty
+  bool are_numbered = false;             ///< 1, 2 and 3, or 0, 1 and 2, stand for x, y and z
 };
 
 /// A label by itself: "LASI_X", "LASI.x", "x_LASI", "LASI[X]", "LASI X (mm)", "LASI_pos_x", "LASI/X_mm". What
@@ -38,9 +39,12 @@ struct CoordinateLabels {
 [[nodiscard]] CoordinateLabel coordinate_label(std::string_view cell);
 
 /// The labels of the table that begins here: in one line, or names above a line of x, y and z with other
-/// lines between, and with titles or comments before it. Columns of one marker may stand in any order.
-/// `lines` is then at the last line of labels. Nothing where no marker has all of x, y and z, or where most
-/// columns are others and the first is none of a marker.
+/// lines between, and with titles or comments before it. Columns of one marker may stand in any order. Where
+/// every column but times and frames is one of three of its name, they may be numbered: "LASI_1", "LASI.2",
+/// "LASI[0]"; three of "Marker" are three markers, and no marker with three coordinates. A line below names
+/// and axes that names the other columns alone ("time,,,") is the last of the labels. `lines` is then at the
+/// last line of labels. Nothing where no marker has all of x, y and z, or where most columns are others and
+/// the first is none of a marker.
 [[nodiscard]] CoordinateLabels read_coordinate_labels(Lines& lines);
 
 /// Cells of a line between tabs, else between commas, without quotes. False: a quote is open at its end.

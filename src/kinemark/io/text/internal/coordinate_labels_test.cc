@@ -106,6 +106,63 @@ TEST(CoordinateLabels, NamesStandAboveAxesWithOtherLinesBetween) {
   EXPECT_THAT(units.units, ElementsAre("units", "m", "m", "m", "m", "m", "m"));
 }
 
+TEST(CoordinateLabels, NumbersStandForAxesWhereEveryNameHasThree) {
+  for (const char* text :
+       {"time,LASI_1,LASI_2,LASI_3,RASI_1,RASI_2,RASI_3\n",
+        "time,LASI.1,LASI.2,LASI.3,RASI.1,RASI.2,RASI.3\n",
+        "time,LASI[0],LASI[1],LASI[2],RASI[0],RASI[1],RASI[2]\n",
+        "t\tLASI(1)\tLASI(2)\tLASI(3)\tRASI(1)\tRASI(2)\tRASI(3)\n",
+        "time,LASI_1 (mm),LASI_2 (mm),LASI_3 (mm),RASI_1 (mm),RASI_2 (mm),RASI_3 (mm)\n"}) {
+    const auto found = read(text);
+    ASSERT_EQ(found.columns.size(), 7U) << text;
+    EXPECT_THAT(found.names, ElementsAre("LASI", "RASI")) << text;
+    EXPECT_TRUE(found.are_numbered) << text;
+    EXPECT_EQ(found.columns[3].axis, 2) << text;
+    EXPECT_EQ(found.columns[4].marker, 1) << text;
+  }
+  EXPECT_EQ(read("time,LASI_1 (mm),LASI_2 (mm),LASI_3 (mm)\n").columns.at(1).unit, "mm");
+  EXPECT_EQ(read("time,LASI[0],LASI[1],LASI[2]\n").columns.at(1).unit, "");
+  // By axis, as a table that was stacked.
+  EXPECT_EQ(read("time,A_1,B_1,A_2,B_2,A_3,B_3\n").columns.at(6).axis, 2);
+  EXPECT_FALSE(read("time,LASI_1_x,LASI_1_y,LASI_1_z\n").are_numbered);
+}
+
+TEST(CoordinateLabels, AFourthThatIsOneIsOfHomogeneousCoordinates) {
+  const auto found =
+      read("Time,LASI[0],LASI[1],LASI[2],LASI[3],RASI[0],RASI[1],RASI[2],RASI[3]\n0,1,2,3,1.0,1,2,3,1.0\n");
+  EXPECT_THAT(found.names, ElementsAre("LASI", "RASI"));
+  EXPECT_EQ(found.columns.at(5).marker, 1);
+  EXPECT_LT(found.columns.at(4).marker, 0);
+  for (const char* row : {"0,0.1,0.2,0.3,0.9\n", "0,1,2,3,\n", ""})
+    EXPECT_THAT(read(std::string("Time,q[0],q[1],q[2],q[3]\n") + row).columns, IsEmpty())
+        << "a quaternion: " << row;
+}
+
+TEST(CoordinateLabels, PandasNamesItsIndexBelowTheAxes) {
+  std::int64_t last = 0;
+  for (const char* head : {",A,A,A,B,B,B\n,x,y,z,x,y,z\n", "channel,A,A,A,B,B,B\naxis,x,y,z,x,y,z\n"}) {
+    const auto found = read(std::string(head) + "time,,,,,,\n0,1,2,3,4,5,6\n", &last);
+    EXPECT_THAT(found.names, ElementsAre("A", "B")) << head;
+    EXPECT_EQ(found.columns.at(0).units_per_second, 1.0) << head;
+    EXPECT_FALSE(found.columns.at(0).is_frame) << head;
+    EXPECT_EQ(last, 3) << head;
+    read(std::string(head) + "0,1,2,3,4,5,6\n", &last);
+    EXPECT_EQ(last, 2) << "no such line";
+    read(std::string(head) + "time,,,,1,,\n", &last);
+    EXPECT_EQ(last, 2) << "a number of a marker";
+  }
+}
+
+TEST(CoordinateLabels, NumbersThatTellMarkersOrChannelsApartAreNoAxes) {
+  for (const char* text :
+       {"time,LASI_1,LASI_2\n", "time,LASI_1,LASI_2,LASI_3,LASI_4\n", "time,LASI_1,LASI_2,LASI_4\n",
+        "time,LASI_2,LASI_3,LASI_4\n", "time,Marker_1,Marker_2,Marker_3\n",
+        "time,sensor 1,sensor 2,sensor 3\n", "time,LASI_1,LASI_2,LASI_3,RASI_0,RASI_1,RASI_2\n",
+        "time,LASI_1,LASI_2,LASI_3,force\n", "time,acc_1,acc_2,acc_3\n", "time,LASI_1,LASI_1,LASI_2\n",
+        "time,A1,A2,A3\n"})
+    EXPECT_THAT(read(text).columns, IsEmpty()) << text;
+}
+
 TEST(CoordinateLabels, TitlesAndCommentsArePassedOver) {
   std::int64_t last = 0;
   EXPECT_THAT(read("Subject: A\nDate: today\n\ntime,A_X,A_Y,A_Z\n0,1,2,3\n", &last).names, ElementsAre("A"));

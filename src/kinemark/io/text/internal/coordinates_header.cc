@@ -10,6 +10,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/io/rate.h"
+#include "kinemark/io/text/d_flow_forces.h"
 #include "kinemark/io/text/internal/coordinate_labels.h"
 #include "kinemark/io/text/internal/vendor_headers.h"
 
@@ -66,7 +67,9 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
   const auto line = lines.number();
   VendorHeader out;
   std::vector<std::string> stated;  // of coordinates, where a label has one
-  std::vector<std::string> unread;
+  std::vector<std::string> unread, whole;
+  for (const auto& label : labels) whole.push_back(label.name);
+  const auto forces = d_flow_force_labels(whole);  // read_d_flow_forces() reads them
   auto& columns = out.columns.columns;
   bool has_time = false, has_frame = false;
   for (std::size_t c = 0; c < labels.size(); ++c) {
@@ -87,7 +90,7 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
     has_time = has_time || is_time;
     has_frame = has_frame || is_frame;
     columns.push_back({.kind = is_time ? Kind::time : is_frame ? Kind::frame : Kind::unread});
-    if (!is_time && !is_frame && !label.name.empty())
+    if (!is_time && !is_frame && !label.name.empty() && std::ranges::find(forces, label.name) == forces.end())
       unread.push_back(fmt::format("'{}'", excerpt(label.name)));
   }
   for (const auto& name : table.names) out.columns.names.push_back(name_of_bytes(name));
@@ -113,13 +116,25 @@ Result<VendorHeader> parse_coordinates_header(Lines& lines, data::Trial& trial, 
         fmt::format("line {}: x, y and z name no marker, and nothing tells that they are a position; if "
                     "they are, give their unit of length with --unit mm, cm or m",
                     line));
+  if (table.are_numbered && stated.empty())
+    return fail(
+        Code::bad_input,
+        fmt::format(
+            "line {}: has three numbered columns of each name ('{}'), and nothing tells that they are "
+            "x, y and z of a marker; if they are, give their unit of length with --unit mm, cm or m",
+            line, excerpt(table.names.front())));
+  if (table.are_numbered)
+    trial.warnings.push_back(
+        fmt::format("its three numbered columns of each name ('{}') are taken for x, y and z",
+                    excerpt(table.names.front())));
   if (std::ranges::any_of(labels, &CoordinateLabel::of_d_flow)) {
-    // D-Flow streams metres, and zeros of what it does not see.
+    // D-Flow streams metres.
     trial.format = "D-Flow";
-    out.columns.zeros_are_missing = true;
+    if (!forces.empty()) trial.unread.emplace_back(kForcesOfDFlow);
     if (stated.empty()) stated.emplace_back("m");
   }
   out.is_unit_open = stated.empty();
+  out.columns.zeros_are_missing = !out.is_unit_open;  // else once the unit is known
   out.columns.units_per_metre = 1.0;
   for (const auto& word : stated) {
     const auto per_metre = units_per_metre(word, line);

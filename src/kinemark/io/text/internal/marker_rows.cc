@@ -11,6 +11,7 @@
 
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
+#include "kinemark/io/clock_time.h"
 
 namespace kinemark::io::internal {
 namespace {
@@ -30,6 +31,9 @@ struct Rows {
   std::vector<double> time_s;                                     ///< where the file has times
   std::vector<std::int64_t> number;                               ///< frame numbers, where the file has them
   double resolution_s = std::numeric_limits<double>::infinity();  ///< of the times
+  std::string first_instant;   ///< where times are those of a clock: the first, as it is written
+  ClockTime first_clock;       ///< the same
+  std::int64_t midnights = 0;  ///< passed by a clock without a date
   std::int64_t part_blank = 0, infinite = 0, marked = 0, short_rows = 0, extra_rows = 0;
 };
 
@@ -39,6 +43,27 @@ std::string_view with_tabs(std::string_view line, char separator, std::string& b
   buffer.assign(line);
   std::ranges::replace(buffer, separator, '\t');
   return buffer;
+}
+
+/// A time of a clock, as seconds from the first; false where it is none, or where other rows have numbers.
+bool take_instant(std::string_view text, Rows& rows) {
+  constexpr double kDay_s = 86400.0;
+  const auto clock = parse_clock_time(text);
+  if (!clock || (rows.first_instant.empty() && !rows.time_s.empty())) return false;
+  if (rows.first_instant.empty()) {
+    rows.first_instant = text;
+    rows.first_clock = *clock;
+  }
+  double time_s = clock->second - rows.first_clock.second +
+                  kDay_s * static_cast<double>(clock->day - rows.first_clock.day + rows.midnights);
+  const bool has_date = clock->day != 0;
+  if (!has_date && !rows.time_s.empty() && time_s < rows.time_s.back() - 0.5 * kDay_s) {
+    ++rows.midnights;
+    time_s += kDay_s;
+  }
+  rows.time_s.push_back(time_s);
+  rows.resolution_s = std::min(rows.resolution_s, clock->resolution_s);
+  return true;
 }
 
 Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& columns, double* x,
@@ -61,7 +86,8 @@ Status read_row(std::string_view text, std::int64_t line, const MarkerColumns& c
         rows.number.push_back(static_cast<std::int64_t>(number));
         break;
       case Kind::time:
-        if (kind != Cell::number || !std::isfinite(number))
+        if (kind == Cell::text && take_instant(cells.text(), rows)) break;
+        if (kind != Cell::number || !std::isfinite(number) || !rows.first_instant.empty())
           return bad_cell(line, place, "the time", cells.text());
         rows.time_s.push_back(number / columns.time_units_per_second);
         if (number != 0.0)
@@ -170,7 +196,11 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
                         .place = place},
                        trial.warnings);
   if (!clock) return std::unexpected(clock.error());
-  if (columns.is_time_unit_open && clock->time.rate_hz <= kSlowest_hz)
+  if (!rows.first_instant.empty())
+    trial.warnings.push_back(
+        fmt::format("times are those of a clock; they are taken as seconds from the first, '{}'",
+                    excerpt(rows.first_instant)));
+  if (columns.is_time_unit_open && rows.first_instant.empty() && clock->time.rate_hz <= kSlowest_hz)
     return fail(
         Code::bad_input,
         fmt::format("rows are {:.6g} s apart, if the times are in seconds; if they are in milliseconds, call "
@@ -178,21 +208,6 @@ Status settle_time(const MarkerColumns& columns, const Rows& rows, std::int64_t 
                     1.0 / clock->time.rate_hz));
   spread_rows(markers, *clock);
   return {};
-}
-
-void take_zeros_as_missing(data::Trial& trial, std::int64_t others) {
-  std::vector<std::string> names;
-  std::int64_t zeros = 0;
-  for (std::int64_t m = 0; m < trial.markers.markers() - others; ++m) {
-    const std::int64_t removed = remove_zeros(trial.markers, m);
-    if (removed == 0) continue;
-    names.push_back("'" + excerpt(trial.markers.names[static_cast<std::size_t>(m)]) + "'");
-    zeros += removed;
-  }
-  if (zeros > 0)
-    trial.warnings.push_back(
-        fmt::format("{} samples of {} markers are exactly (0, 0, 0), taken as not seen: {}", zeros,
-                    names.size(), join_some(names, kNamesInWarning)));
 }
 
 void warn(const MarkerColumns& columns, const Rows& rows, std::int64_t count, data::Trial& trial) {
@@ -310,6 +325,21 @@ Status read_marker_rows(Lines& lines, const MarkerColumns& columns, std::size_t 
     return s;
   if (columns.zeros_are_missing) take_zeros_as_missing(trial, columns.others);
   return {};
+}
+
+void take_zeros_as_missing(data::Trial& trial, std::int64_t others) {
+  std::vector<std::string> names;
+  std::int64_t zeros = 0;
+  for (std::int64_t m = 0; m < trial.markers.markers() - others; ++m) {
+    const std::int64_t removed = remove_zeros(trial.markers, m);
+    if (removed == 0) continue;
+    names.push_back("'" + excerpt(trial.markers.names[static_cast<std::size_t>(m)]) + "'");
+    zeros += removed;
+  }
+  if (zeros > 0)
+    trial.warnings.push_back(
+        fmt::format("{} samples of {} markers are exactly (0, 0, 0), taken as not seen: {}", zeros,
+                    names.size(), join_some(names, kNamesInWarning)));
 }
 
 }  // namespace kinemark::io::internal

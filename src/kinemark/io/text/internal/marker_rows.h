@@ -55,6 +55,9 @@ struct MarkerColumns {
 /// before and after the zeros lie within 5 mm of it. How many of marker `m` were turned.
 std::int64_t remove_zeros(data::Trajectories& markers, std::int64_t m);
 
+/// The same of all markers but the last `others`, with a warning that names them.
+void take_zeros_as_missing(data::Trial& trial, std::int64_t others);
+
 /// Whether three coordinates, in the file's own unit, are one number by which programs mark what was not
 /// seen: 999, 9999, 99999, ... or its negative.
 [[nodiscard]] bool marks_missing(double x, double y, double z);

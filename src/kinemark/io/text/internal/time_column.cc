@@ -20,6 +20,7 @@ constexpr double kMaxRoundingFrames = 0.35;  ///< more is not rounding: a lost f
 constexpr double kSameMilliseconds = 0.01;   // of the steps that the header's rate has
 constexpr double kSameRate = 1e-5;           ///< relative; headers round 59.94006 to 59.94
 
+constexpr double kSlowestCamera = 5.0;   ///< Hz, of a header beside times that count 1 by 1
 constexpr double kEvenStep = 0.2;        ///< share of the median by which steps of a table may differ
 constexpr double kWholeMultiple = 0.25;  ///< frame intervals by which a hole may differ from a whole number
 
@@ -190,6 +191,25 @@ Result<EvenClock> clock_of_milliseconds(const TimeColumn& column, std::vector<st
   return even_clock(scaled, warnings);
 }
 
+/// Times that count 1 by 1, in whole numbers, are numbers of frames: no camera is as slow.
+bool counts_frames(std::span<const double> time_s) {
+  for (std::size_t i = 0; i < time_s.size(); ++i)
+    if (time_s[i] != std::floor(time_s[i]) || (i > 0 && time_s[i] != time_s[i - 1] + 1.0)) return false;
+  return time_s.size() >= 3;
+}
+
+/// Such a column at the header's rate: frame 1, or 0 where it is the first, is at 0 s.
+Result<EvenClock> clock_of_frames(const TimeColumn& column, double header_hz,
+                                  std::vector<std::string>& warnings) {
+  const double zero = column.time_s.front() >= 1.0 ? 1.0 : 0.0;
+  warnings.push_back(
+      fmt::format("times count frames, 1 by 1; the header's {:.6g} Hz gives them their seconds", header_hz));
+  return EvenClock{.time = {.rate_hz = header_hz,
+                            .t0_s = (column.time_s.front() - zero) / header_hz,
+                            .frames = static_cast<std::int64_t>(column.time_s.size())},
+                   .frame = {}};
+}
+
 }  // namespace
 
 double resolution_of(std::string_view number) {
@@ -228,6 +248,8 @@ Result<EvenClock> even_clock(const TimeColumn& column, std::vector<std::string>&
   if (header_hz > 0.0 && std::abs(1e-3 * median_step(time_s) * header_hz - 1.0) <
                              kSameMilliseconds + 0.5e-3 * resolution_s * header_hz)
     return clock_of_milliseconds(column, warnings);
+  if (header_hz >= kSlowestCamera && counts_frames(time_s))
+    return clock_of_frames(column, header_hz, warnings);
 
   for (const double rate_hz : column.stated) {
     if (!is_rate(rate_hz) || spread(time_s, rate_hz) > tolerance(resolution_s, rate_hz)) continue;

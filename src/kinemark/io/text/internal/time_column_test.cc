@@ -108,6 +108,18 @@ TEST(EvenTime, AColumnAThousandTimesTheHeadersIsInMilliseconds) {
   EXPECT_EQ(fit({0.0, 5.0, 10.0, 15.0}, 5.0, {100.0}).time.rate_hz, 0.2);
 }
 
+TEST(EvenTime, AColumnThatCountsFramesGetsTheHeadersRate) {
+  const auto found = fit({1.0, 2.0, 3.0, 4.0}, 1.0, {100.0});
+  EXPECT_EQ(found.time, (TimeBase{100.0, 0.0, 4}));
+  EXPECT_THAT(found.warnings, ElementsAre(HasSubstr("times count frames, 1 by 1; the header's 100 Hz")));
+  EXPECT_EQ(fit({0.0, 1.0, 2.0}, 1.0, {50.0}).time.t0_s, 0.0);
+  EXPECT_EQ(fit({11.0, 12.0, 13.0}, 1.0, {50.0}).time.t0_s, 0.2);
+  // Of a slow header, of none, and of steps that are not 1, the column is taken at its word.
+  EXPECT_EQ(fit({1.0, 2.0, 3.0}, 1.0, {1.0}).time.t0_s, 1.0);
+  EXPECT_EQ(fit({1.0, 2.0, 3.0}, 1.0, {}).time.rate_hz, 1.0);
+  EXPECT_EQ(fit({0.5, 1.5, 2.5}, 0.1, {100.0}).time.rate_hz, 1.0);
+}
+
 TEST(EvenTime, PrefersAnotherStatedRateThatFits) {
   const auto out = fit(clock(50, 120.0, 0.001), 0.001, {60.0, 120.0});
   EXPECT_EQ(out.time.rate_hz, 120.0);

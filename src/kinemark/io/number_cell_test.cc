@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/io/number_cell.h"
+
+#include <gtest/gtest.h>
+
+namespace kinemark::io {
+namespace {
+
+TEST(NumberCell, IsOfOneKind) {
+  for (const char* cell : {"0", "-12", "1e5", "NaN"}) EXPECT_EQ(number_in(cell), Number::whole) << cell;
+  for (const char* cell : {"1.5", "-.5", "0.123", "1234.567", "1.2345"})
+    EXPECT_EQ(number_in(cell), Number::with_point) << cell;
+  for (const char* cell : {"1,5", "0,123", "1234,567", "-,5"})
+    EXPECT_EQ(number_in(cell), Number::with_comma) << cell;
+  for (const char* cell : {"1.234", "-12.345", "+123.456"})
+    EXPECT_EQ(number_in(cell), Number::three_behind_point) << cell;
+  EXPECT_EQ(number_in("1,234"), Number::three_behind_comma);
+  for (const char* cell : {"1,234.5", "-1,234,567", "12,345,678.25"})
+    EXPECT_EQ(number_in(cell), Number::groups_with_commas) << cell;
+  for (const char* cell : {"1.234,5", "1.234.567", "-12.345.678,25"})
+    EXPECT_EQ(number_in(cell), Number::groups_with_points) << cell;
+  for (const char* cell : {"", "a", "1,2,3", "1,23.5", "1.234,5,6", "1,2345.6", ",", "1,", "1'234"})
+    EXPECT_EQ(number_in(cell), Number::none) << cell;
+}
+
+TEST(NumberCell, UsualSignsTakeThePlaceOfOthers) {
+  EXPECT_EQ(with_usual_signs("\xE2\x88\x92"
+                             "1'234.5"),
+            "-1234.5");
+  EXPECT_EQ(with_usual_signs("1 234 567,5"), "1234567,5");
+  EXPECT_EQ(with_usual_signs("0.12D+02"), "0.12e+02");
+  for (const char* cell : {"1 23", "1 2345", "a 123", "1.5 234", "12 mm", "D2", "marker D1"})
+    EXPECT_EQ(with_usual_signs(cell), cell);
+}
+
+}  // namespace
+}  // namespace kinemark::io
