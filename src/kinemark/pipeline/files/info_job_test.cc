@@ -152,21 +152,23 @@ TEST(RunInfo, AMarkerSetIsNamedWithWhatIsMissing) {
     trial.markers.state[trial.markers.index(0, m)] = data::SampleState::measured;
   }
   ASSERT_TRUE(io::write_markers(scratch / "set.csv", trial, false));
-  const auto facts = facts_of(scratch / "set.csv").value();
+  InfoJob job;
+  job.file = scratch / "set.csv";
+  const auto named = run_info(job).value();
+  const auto facts = info_json(named);
   EXPECT_EQ(facts["marker_set"]["name"], "Plug-in Gait");
   EXPECT_EQ(facts["marker_set"]["part"], "lower body");
   EXPECT_EQ(facts["marker_set"]["markers"], 16);
   EXPECT_EQ(facts["marker_set"]["missing"], nlohmann::ordered_json({"RTOE"}));
   EXPECT_EQ(facts["marker_set"]["said"], "Plug-in Gait, lower body: 15 of 16 markers, without RTOE");
-  InfoJob job;
-  job.file = scratch / "set.csv";
-  EXPECT_THAT(info_text(run_info(job).value()),
+  EXPECT_THAT(info_text(named),
               HasSubstr("marker_set        Plug-in Gait, lower body: 15 of 16 markers, without RTOE\n"));
   for (std::size_t m = 0; m < names.size(); ++m) trial.markers.names[m] = "M" + std::to_string(m);
   ASSERT_TRUE(io::write_markers(scratch / "none.csv", trial, false));
-  EXPECT_FALSE(facts_of(scratch / "none.csv")->contains("marker_set"));
   job.file = scratch / "none.csv";
-  EXPECT_THAT(info_text(run_info(job).value()), ::testing::Not(HasSubstr("marker_set")));
+  const auto nameless = run_info(job).value();
+  EXPECT_FALSE(info_json(nameless).contains("marker_set"));
+  EXPECT_THAT(info_text(nameless), ::testing::Not(HasSubstr("marker_set")));
 }
 
 TEST(RunInfo, AnEmptyTableHasNoTimes) {

@@ -13,8 +13,8 @@
 #include "kinemark/core/check.h"
 #include "kinemark/io/place.h"
 #include "kinemark/io/placement.h"
+#include "kinemark/io/temporary.h"
 #include "kinemark/pipeline/files/output_check.h"
-#include "kinemark/pipeline/internal/new_folder.h"
 
 namespace kinemark::pipeline {
 
@@ -28,6 +28,38 @@ fs::path normal_path(const fs::path& path) {
 }
 
 }  // namespace
+
+/// Creates a folder and its parents; those that were created are removed again if they stay empty, also where
+/// a signal ends the program.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path folder) {
+    std::error_code ignored;
+    std::vector<fs::path> missing;  // innermost first
+    for (folder = fs::absolute(folder, ignored).lexically_normal();
+         folder.has_relative_path() && !fs::exists(folder, ignored); folder = folder.parent_path())
+      missing.push_back(folder);
+    for (const auto& outer : std::views::reverse(missing))
+      made_.push_back(io::Temporary::watch_folder(outer));
+    if (!missing.empty()) fs::create_directories(missing.front(), error_);
+  }
+  ~NewFolder() {
+    while (!made_.empty()) made_.pop_back();
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  [[nodiscard]] const std::error_code& error() const { return error_; }
+  /// Those that were not there before, outermost first.
+  [[nodiscard]] std::vector<fs::path> made() const {
+    std::vector<fs::path> out;
+    for (const auto& folder : made_) out.push_back(folder.path());
+    return out;
+  }
+
+ private:
+  std::vector<io::Temporary> made_;  ///< outermost first
+  std::error_code error_;
+};
 
 Status Staging::add_target(const fs::path& target) {
   // What a killed run left is no result that is in the way.

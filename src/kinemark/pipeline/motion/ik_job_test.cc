@@ -55,6 +55,19 @@ class IkSetupOptions : public ::testing::Test {
     for (const auto& marker : model_->description().markers) names.push_back(marker.name);
     markers_ = data::Trajectories::all_missing(names, {.rate_hz = 4.0, .t0_s = 0.0, .frames = 5});
   }
+  /// A job whose setup names a range of time and nothing else, its tasks applied.
+  IkJob job_of_range(const std::string& range) const {
+    IkJob job;
+    job.setup = scratch_ / "range.xml";
+    EXPECT_TRUE(io::write_text(job.setup,
+                               "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"t\">"
+                               "<time_range>" +
+                                   range + "</time_range></InverseKinematicsTool></OpenSimDocument>",
+                               false));
+    EXPECT_TRUE(apply_setup(job));
+    EXPECT_TRUE(apply_tasks(job, *model_, markers_));
+    return job;
+  }
   std::map<std::string, double> weights(const IkJob& job) const {
     std::map<std::string, double> all;
     for (const auto& w : job.options.marker_weights) all[w.marker] = w.weight;
@@ -97,14 +110,7 @@ TEST_F(IkSetupOptions, TasksBecomeWeightsAndTargets) {
 }
 
 TEST_F(IkSetupOptions, TheRangeOfASetupTakesTheNearestFramesAndThatOfTheUserIsTaken) {
-  ASSERT_TRUE(io::write_text(scratch_ / "between.xml",
-                             "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"t\">"
-                             "<time_range>0.37 0.63</time_range></InverseKinematicsTool></OpenSimDocument>",
-                             false));
-  IkJob job;
-  job.setup = scratch_ / "between.xml";
-  ASSERT_TRUE(apply_setup(job));
-  ASSERT_TRUE(apply_tasks(job, *model_, markers_));
+  auto job = job_of_range("0.37 0.63");
   EXPECT_EQ(job.options.first_time_s, 0.25);
   EXPECT_EQ(job.options.last_time_s, 0.75);
   job.options.first_time_s = 0.38;  // as an option would
@@ -115,14 +121,7 @@ TEST_F(IkSetupOptions, TheRangeOfASetupTakesTheNearestFramesAndThatOfTheUserIsTa
 }
 
 TEST_F(IkSetupOptions, ARangeBeyondTheRecordingTakesNoFrameOfIt) {
-  ASSERT_TRUE(io::write_text(scratch_ / "late.xml",
-                             "<OpenSimDocument Version=\"40000\"><InverseKinematicsTool name=\"t\">"
-                             "<time_range>7 9</time_range></InverseKinematicsTool></OpenSimDocument>",
-                             false));
-  IkJob job;
-  job.setup = scratch_ / "late.xml";
-  ASSERT_TRUE(apply_setup(job));
-  ASSERT_TRUE(apply_tasks(job, *model_, markers_));
+  const auto job = job_of_range("7 9");
   EXPECT_EQ(job.options.first_time_s, 7.0);
   EXPECT_EQ(job.options.last_time_s, 9.0);
 }
@@ -317,6 +316,7 @@ TEST_F(RunIk, ARecordingElsewhereIsSaidToBeSoWithTheShiftThatMendsIt) {
     if (!coordinate.is_rotation) coordinate.locked = true;
   ASSERT_TRUE(io::write_osim(at("bound.osim"), bound));
   away.model = at("bound.osim");
+  away.options.last_time_s = 0.15;  // ten frames are as far away as all
   const auto outcome = run_ik(away).value();
   EXPECT_EQ(outcome.exit_status(), 1);
   const auto mean = sentence_of_gate(outcome, "mean_marker_offset");

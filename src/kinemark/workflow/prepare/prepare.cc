@@ -25,13 +25,6 @@ Status take_edits(const PrepareOptions& options, data::Recording& recording) {
   return apply_edits(recording, *in_force, options.seed, options.threads);
 }
 
-/// Forces stand on the frames that are left.
-void follow_frames(data::Recording& recording) {
-  const auto& time = recording.trial.markers.time;
-  if (recording.plates && recording.plates->time != time)
-    recording.plates = resample(*recording.plates, time);
-}
-
 /// Which way is up as it is said, beside what the plates say of it.
 void state_up(const Vertical& stated, data::Recording& recording) {
   if (const auto plates = vertical_of_plates(recording.trial); plates && !plates->up.isApprox(stated.up))
@@ -70,7 +63,10 @@ Result<data::Recording> prepare(data::Recording recording, const PrepareOptions&
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = take_edits(options, recording); !s) return std::unexpected(s.error());
   if (auto s = take_selection(options.selection, recording.trial); !s) return std::unexpected(s.error());
-  follow_frames(recording);
+  // Forces stand on the frames that are left.
+  const auto& time = recording.trial.markers.time;
+  if (recording.plates && recording.plates->time != time)
+    recording.plates = resample(*recording.plates, time);
   turn_axes(options.axes, recording);
   if (auto s = hold(options.facts, recording); !s) return std::unexpected(s.error());
   return recording;

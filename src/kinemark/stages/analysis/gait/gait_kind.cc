@@ -26,8 +26,6 @@ using Eigen::RowVector2d;
 constexpr EnumNames<GaitManner::sprint> kManners{"walk", "run", "sprint"};
 constexpr EnumNames<GaitDirection::sideways> kDirections{"unknown", "forward", "backward", "sideways"};
 
-constexpr double kFlight = 0.03, kBounce_m = 0.01, kShortStance = 0.45, kNoWalk_m_per_s = 2.2,
-                 kQuarter = 0.25;
 constexpr double kSprint_m_per_s = 6.0;
 constexpr double kBelt_m_per_s = 0.12, kBeltOfBody = 0.5;
 constexpr double kLeastStride_m = 0.3, kShort_s = 2.0, kShortSpeed_m_per_s = 0.4;
@@ -357,51 +355,6 @@ double longer_than(const GaitPaths& paths, const Steps& steps, const std::vector
 
 std::string_view to_string(GaitManner manner) { return kManners[manner]; }
 std::string_view to_string(GaitDirection direction) { return kDirections[direction]; }
-
-bool RunEvidence::runs() const {
-  if (!(flight_share > kFlight)) return false;
-  if (std::isfinite(bounce_m)) return bounce_m < kBounce_m;
-  return stance_share < kShortStance || speed_m_per_s > kNoWalk_m_per_s;
-}
-
-RunEvidence run_evidence(const GaitPaths& paths, const Steps& steps, const RowVector2d& ground) {
-  RunEvidence out;
-  std::int64_t first = 0, last = paths.frames() - 1;
-  const auto goes = [&](std::int64_t f) { return paths.pelvis_known[at(f)] && steps.going[at(f)]; };
-  while (first < last && !goes(first)) ++first;
-  while (last > first && !goes(last)) --last;
-  if (last > first)
-    out.speed_m_per_s = ((paths.pelvis.row(last) - paths.pelvis.row(first)).leftCols<2>() * paths.rate_hz /
-                             static_cast<double>(last - first) -
-                         ground)
-                            .norm();
-  std::vector<double> bounces, swings;
-  const auto quarter = static_cast<std::int64_t>(kQuarter * steps.stride_s * paths.rate_hz);
-  for (const auto& foot : steps.feet)
-    for (std::size_t i = 0; i < foot.swings.size(); ++i) {
-      const auto& swing = foot.swings[i];
-      if (swing.leaves && swing.lands)
-        swings.push_back(static_cast<double>(*swing.lands - *swing.leaves) / paths.rate_hz);
-      if (i + 1 == foot.swings.size() || !swing.lands || !foot.swings[i + 1].leaves) continue;
-      const auto middle = (*swing.lands + *foot.swings[i + 1].leaves) / 2;
-      if (*foot.swings[i + 1].leaves <= *swing.lands || middle < quarter ||
-          middle + quarter >= paths.frames())
-        continue;
-      bounces.push_back(paths.pelvis(middle, 2) -
-                        0.5 * (paths.pelvis(middle - quarter, 2) + paths.pelvis(middle + quarter, 2)));
-    }
-  if (!bounces.empty()) out.bounce_m = math::median(bounces);
-  if (!swings.empty()) out.stance_share = 1.0 - math::median(swings) / steps.stride_s;
-  if (steps.feet[0].speed.size() == 0 || steps.feet[1].speed.size() == 0) return out;
-  std::int64_t both = 0;
-  for (std::int64_t f = 0; f < paths.frames(); ++f)
-    both += steps.going[at(f)] && std::ranges::all_of(data::kBothSides, [&](Side side) {
-              return paths.foot(side).known[at(f)] && steps.foot(side).speed[f] > kStands * steps.usual[f];
-            });
-  out.flight_share =
-      static_cast<double>(both) / std::max(1.0, static_cast<double>(std::ranges::count(steps.going, true)));
-  return out;
-}
 
 GaitKind judge_kind(const GaitPaths& paths, const Ground& ground, const Steps& steps,
                     const Progress& progress, const std::vector<data::GaitEvent>& events) {

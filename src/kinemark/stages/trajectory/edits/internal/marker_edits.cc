@@ -76,13 +76,13 @@ Status check_time(const data::Trial& trial, const data::Edit& edit, double time_
 using data::SampleState;
 
 /// A marker that has to be there.
-Result<std::int64_t> find_marker(const data::Trial& trial, const std::string& name) {
-  const auto& names = trial.markers.names;
-  const data::NameIndex index(names);
+/// @param index  of the recording's markers
+Result<std::int64_t> find_marker(const data::Trial& trial, const data::NameIndex& index,
+                                 const std::string& name) {
   if (const auto marker = index.find(name); marker >= 0) return marker;
   if (std::ranges::find(trial.channels.names, name) != trial.channels.names.end())
     return fail(Code::bad_input, fmt::format("'{}' is an output of a model; need a marker", name));
-  const auto near = nearest_names(name, names);
+  const auto near = nearest_names(name, trial.markers.names);
   if (index.ambiguous(name) || near.empty())
     return fail(Code::bad_input,
                 fmt::format("no marker is named '{}'; there are {}", name, index.instead_of(name)));
@@ -102,12 +102,17 @@ struct Target {
   std::string name;  ///< of the marker, as the recording has it
 };
 
-Result<Target> target_of(const data::Edit& edit, const data::Trial& trial) {
-  const auto marker = find_marker(trial, edit.marker);
-  if (!marker) return std::unexpected(marker.error());
+/// @param index  of the recording's markers
+Result<Target> target_of(const data::Edit& edit, const data::Trial& trial, const data::NameIndex& index) {
   const auto frames = frames_of(edit, trial);
   if (!frames) return std::unexpected(frames.error());
+  const auto marker = find_marker(trial, index, edit.marker);
+  if (!marker) return std::unexpected(marker.error());
   return Target{.marker = *marker, .frames = *frames, .name = trial.markers.names[at(*marker)]};
+}
+
+Result<Target> target_of(const data::Edit& edit, const data::Trial& trial) {
+  return target_of(edit, trial, data::NameIndex(trial.markers.names));
 }
 
 template <class Wanted>
@@ -214,14 +219,15 @@ Result<FrameSpan> frames_of(const data::Edit& edit, const data::Trial& trial) {
 }
 
 Status relabel(data::Trial& trial, const data::Edit& edit) {
-  const auto target = target_of(edit, trial);
+  const data::NameIndex index(trial.markers.names);
+  const auto target = target_of(edit, trial, index);
   if (!target) return std::unexpected(target.error());
   if (std::ranges::find(trial.channels.names, edit.other) != trial.channels.names.end())
     return fail(Code::bad_input, fmt::format("'{}' is an output of a model; need another name", edit.other));
   auto& markers = trial.markers;
   const auto from = target->marker;
   const bool whole = !edit.first_frame && !edit.last_frame;
-  auto to = data::NameIndex(markers.names).find(edit.other);
+  auto to = index.find(edit.other);
   if (to == from) to = markers.find(edit.other);  // "LASI" of "Ann:LASI" is a new name for it
   if (to == from) return fail(Code::bad_input, fmt::format("'{}' has that name already", edit.other));
   if (to < 0 && whole) {
@@ -244,13 +250,14 @@ Status relabel(data::Trial& trial, const data::Edit& edit) {
 }
 
 Status swap_markers(data::Trial& trial, const data::Edit& edit) {
-  const auto a = find_marker(trial, edit.marker), b = find_marker(trial, edit.other);
+  const auto spans = spans_of(edit, trial);
+  if (!spans) return std::unexpected(spans.error());
+  const data::NameIndex index(trial.markers.names);
+  const auto a = find_marker(trial, index, edit.marker), b = find_marker(trial, index, edit.other);
   if (!a) return std::unexpected(a.error());
   if (!b) return std::unexpected(b.error());
   if (*a == *b)
     return fail(Code::bad_input, fmt::format("'{}' and '{}' are one marker", edit.marker, edit.other));
-  const auto spans = spans_of(edit, trial);
-  if (!spans) return std::unexpected(spans.error());
   for (const FrameSpan& span : *spans) swap_samples(trial, *a, *b, span);
   gather_times(trial.markers);
   return {};

@@ -59,8 +59,7 @@ void widen(Array<T>& values, std::int64_t columns, std::int64_t n, T blank) {
 
 void swap_samples(data::Trial& trial, std::int64_t a, std::int64_t b, const FrameSpan& frames) {
   auto& markers = trial.markers;
-  if (one_time_per_marker(markers) && markers.sample_offset_s[at(a)] != markers.sample_offset_s[at(b)])
-    spread_times(markers);
+  spread_times(markers);  // gather_times() takes them together again where they can be
   const auto exchange = [&](auto& array, std::int64_t n, auto /*blank*/) {
     for (std::int64_t f = frames.first; f < frames.first + frames.count; ++f) {
       const auto i = array.begin() + n * static_cast<std::int64_t>(markers.index(f, a));
@@ -69,10 +68,9 @@ void swap_samples(data::Trial& trial, std::int64_t a, std::int64_t b, const Fram
     }
   };
   for_each_array(trial, exchange);
+  if (!markers.sample_offset_s.empty()) exchange(markers.sample_offset_s, 1, 0.0);
   if (!markers.filters.empty() && frames.count == markers.frames() && markers.frames() > 1)
-    std::swap(markers.filters[at(a)], markers.filters[at(b)]);
-  if (!markers.sample_offset_s.empty() && !one_time_per_marker(markers))
-    exchange(markers.sample_offset_s, 1, 0.0);
+    std::iter_swap(markers.filters.begin() + a, markers.filters.begin() + b);
 }
 
 void move_samples(data::Trial& trial, std::int64_t from, std::int64_t to, const FrameSpan& frames) {
