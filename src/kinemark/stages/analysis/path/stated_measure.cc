@@ -60,9 +60,9 @@ bool is_size(const PathDefinition& definition) {
          definition.what.quantity != data::Quantity::count;
 }
 
-// Sizes cannot be below 0, whatever the bias that is taken off.
+// Sizes and deviations cannot be below 0, whatever the bias that is taken off.
 double at_least_none(const PathDefinition& definition, double value) {
-  return is_size(definition) ? std::max(0.0, value) : value;
+  return is_size(definition) || definition.what.id.ends_with("_sd") ? std::max(0.0, value) : value;
 }
 
 // Peaks and what needs derivatives beyond the first: what a filter takes first.

@@ -76,6 +76,14 @@ TEST_F(StatedMeasure, RatiosOfWhatMayBeNothingHaveNoUpperEnd) {
   }
 }
 
+TEST_F(StatedMeasure, DeviationsAreNotBelowNone) {
+  const auto even = tell("cycle_time_sd", 0.001, 0.002, 0.004);
+  EXPECT_EQ(even.value, 0.0);
+  EXPECT_EQ(even.interval.low, 0.0);
+  EXPECT_GT(even.interval.high, 0.0);
+  EXPECT_LT(tell("onset", 0.001, 0.002, 0.004).value, 0.0);  // an instant may lie before the first sample
+}
+
 TEST_F(StatedMeasure, LengthsAcrossARestAreAtMost) {
   frame_.share_at_rest = 0.4;
   const auto m = tell("path_length", 1.0, 0.02, 0.05);
