@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/rival_poses.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -21,15 +23,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLessKnown = 2.0;     // times the variance with all markers: the limb lost what held it
+constexpr double kFew = 0.02;          // rad or m: deviation by all markers, were they enough to fix a body
 constexpr double kOpen = 0.25;         // rad^2 or m^2: beyond it a coordinate is not determined anyway
 constexpr double kParallel = 0.95;     // correlation of two directions that lead to the same rivals
 constexpr int kDirections = 8;         // of one frame
 constexpr std::array kWays{0.6, 1.4};  // rad or m along each, both ways
-constexpr double kFarthest = 2.6;      // rad or m, of any coordinate
-constexpr double kDiffers = 0.06;      // rad or m, and ...
-constexpr double kDiffersInSd = 3.0;   // ... so many deviations: another pose
-constexpr double kWorse = 36.0;        // chi-square by which a rival may fit worse
-constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' errors last for many frames
+constexpr int kStepsOfATurn = 8;       // of half a turn about a line
+constexpr int kSwings = 12;            // positions of a joint beyond it
+constexpr double kOffTurn = 0.3;       // of a joint that does not turn about it
+constexpr double kFastestTurn =
+    4.0;                           // rad of a coordinate for one of the turn: beyond, its axes lie together
+constexpr double kFarthest = 2.6;  // rad or m, of any coordinate
+constexpr double kDiffers = 0.06;  // rad or m, and ...
+constexpr double kDiffersInSd = 3.0;  // ... so many deviations: another pose
+constexpr double kWorse = 36.0;       // chi-square by which a rival may fit worse
+constexpr double kTemper = 0.25;      // of a chi-square in nats: markers' errors last for many frames
 constexpr std::size_t kMostRivals = 8;
 constexpr int kRoundsOfRivals = 2;
 constexpr double kSearchEvery_s = 0.05;  // between searches rivals are followed
@@ -161,6 +169,25 @@ class Rivals {
 
   [[nodiscard]] std::vector<Candidate>& of(std::int64_t f) { return of_frame_[at(f)]; }
 
+  /// Poses of a frame in which a body with all its points on one line is turned half about it, and what hangs
+  /// on it the other way round: no frame beside tells more of them than this one.
+  void find_turned(std::int64_t f, const VectorXd& taken, std::vector<RivalPose>& out) {
+    visit(f);
+    for (const UnseenTurn& unseen : loose_.turns) {
+      std::vector<Candidate> both{candidate(taken)};
+      start_ = taken;
+      if (!turn(unseen, start_)) continue;
+      clamp_start();
+      swing_beyond(unseen.body, start_);
+      take(start_, both);
+      if (both.size() < 2) continue;
+      const double worse = std::max(0.0, both[1].chi_square - both[0].chi_square);
+      out.push_back({.frame = f,
+                     .state = std::move(both[1].state),
+                     .probability = std::min(kAnywhere, std::exp(-kTemper * worse))});
+    }
+  }
+
  private:
   [[nodiscard]] bool is_loose(std::int64_t f) const {
     return f >= 0 && f < problem_.frames && pattern_[at(f)] >= 0;
@@ -193,9 +220,7 @@ class Rivals {
     covariance_.factor(w_, information_);
     covariance_.invert(K_);
     c.variance = K_.diagonal();
-    for (Eigen::Index m = 0; m < weight_.size(); ++m)
-      if (information_[m] > 0.0)
-        c.chi_square += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
+    c.chi_square = squares();
     return c;
   }
 
@@ -208,7 +233,8 @@ class Rivals {
     const auto& at_loose = loose_.speeds[at(pattern_[at(frame_)])];
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
-      const double ratio = now.variance[i] / whole_(i, i);
+      const bool few = !loose_.never_fixed.empty() && loose_.never_fixed[at(i)] != 0;
+      const double ratio = now.variance[i] / (few ? std::min(whole_(i, i), kFew * kFew) : whole_(i, i));
       if (at_loose[at(i)] != 0 && ratio > kLessKnown) found.emplace_back(-ratio, i);
     }
     std::ranges::sort(found);
@@ -245,6 +271,82 @@ class Rivals {
     });
   }
 
+  /// Turn a body half about its line; false where its joint does not.
+  bool turn(const UnseenTurn& unseen, VectorXd& state) {
+    const auto& body = problem_.model.bodies()[at(unseen.body)];
+    for (int k = 0; k < kStepsOfATurn; ++k) {
+      model::kinematics(problem_.model, w_, state);
+      const Eigen::Vector3d along = model::point_in_world(w_, unseen.body, unseen.along) -
+                                    model::point_in_world(w_, unseen.body, Eigen::Vector3d::Zero());
+      Eigen::Matrix3Xd axes = Eigen::Matrix3Xd::Zero(3, body.last_column - body.first_column);
+      for (int c = body.first_column; c < body.last_column; ++c)
+        if (!problem_.fixed_speed[at(problem_.model.columns()[at(c)].speed)])
+          axes.col(c - body.first_column) = w_.column[at(c)].w;
+      const VectorXd rate = axes.completeOrthogonalDecomposition().solve(along);
+      if ((axes * rate - along).norm() > kOffTurn || rate.cwiseAbs().maxCoeff() > kFastestTurn) return false;
+      move_.setZero(problem_.model.speed_count());
+      for (int c = body.first_column; c < body.last_column; ++c)
+        move_[problem_.model.columns()[at(c)].speed] +=
+            std::numbers::pi / kStepsOfATurn * rate[c - body.first_column];
+      model::integrate(problem_.model, state, move_);
+    }
+    return true;
+  }
+
+  /// Turn each joint beyond a body, one after the other, to where the markers fit best: a knee then bends the
+  /// other way, and the toes point away from it again.
+  void swing_beyond(int body, VectorXd& state) {
+    const int first = problem_.model.bodies()[at(body)].first_column;
+    for (std::size_t b = at(body) + 1; b < problem_.model.bodies().size(); ++b) {
+      const auto& beyond = problem_.model.bodies()[b];
+      if (std::ranges::find(beyond.support, first) == beyond.support.end()) continue;
+      for (int c = beyond.first_column; c < beyond.last_column; ++c) swing(c, state);
+    }
+  }
+
+  void swing(int column, VectorXd& state) {
+    const int speed = problem_.model.columns()[at(column)].speed;
+    model::kinematics(problem_.model, w_, state);
+    if (problem_.fixed_speed[at(speed)] || !(w_.column[at(column)].w.norm() > 0.5)) return;
+    double least = squares();
+    VectorXd best = state;
+    for (int k = 1; k < kSwings; ++k) {
+      x_ = state;
+      move_.setZero(problem_.model.speed_count());
+      move_[speed] = std::remainder(2.0 * std::numbers::pi * k / kSwings, 2.0 * std::numbers::pi);
+      model::integrate(problem_.model, x_, move_);
+      if (beyond_limits(x_)) continue;
+      model::kinematics(problem_.model, w_, x_);
+      if (const double here = squares(); here < least) {
+        least = here;
+        best = x_;
+      }
+    }
+    state = best;
+  }
+
+  /// Chi-square of the pose that w_ has.
+  [[nodiscard]] double squares() const {
+    double sum = 0.0;
+    for (Eigen::Index m = 0; m < weight_.size(); ++m)
+      if (information_[m] > 0.0) sum += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
+    return sum;
+  }
+
+  [[nodiscard]] bool beyond_limits(const VectorXd& state) const {
+    return std::ranges::any_of(problem_.model.coordinates(), [&](const auto& c) {
+      return c.speed_idx >= 0 && !(state[c.state_idx] >= problem_.lower[c.speed_idx] &&
+                                   state[c.state_idx] <= problem_.upper[c.speed_idx]);
+    });
+  }
+
+  void clamp_start() {
+    for (const auto& c : problem_.model.coordinates())
+      if (c.speed_idx >= 0)
+        start_[c.state_idx] =
+            std::clamp(start_[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
+  }
+
   /// Poses on the ways along which the markers that are missing held the body.
   void search(std::vector<Candidate>& here) {
     const VectorXd begin = here.front().state;
@@ -257,10 +359,7 @@ class Rivals {
           if (longest > kFarthest) continue;
           start_ = begin;
           model::integrate(problem_.model, start_, move_);
-          for (const auto& c : problem_.model.coordinates())
-            if (c.speed_idx >= 0)
-              start_[c.state_idx] =
-                  std::clamp(start_[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
+          clamp_start();
           take(start_, here);
         }
   }
@@ -385,6 +484,10 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
       }
     }
     if (std::ranges::count(again, std::uint8_t{1}) == 0) break;
+  }
+  if (!loose.turns.empty()) {
+    Rivals rivals(problem, options, markers, loose, variances, solved);
+    for (std::int64_t f = 0; f < problem.frames; ++f) rivals.find_turned(f, solved.states.col(f), left);
   }
   std::ranges::stable_sort(left, {}, &RivalPose::frame);
   return left;
