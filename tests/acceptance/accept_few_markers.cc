@@ -53,7 +53,7 @@ double share(std::int64_t n, std::int64_t whole) {
   return 100.0 * static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(1, whole));
 }
 
-/// Subjects that move within the limits, solved with or without them: elbows and knees then bend both ways.
+/// Subjects that move within the limits, solved with or without them: elbows and knees then flex both ways.
 void check(const std::string& name, bool limits, int subjects, std::uint64_t first) {
   const auto model = model::Model::compile(joint_centres()).value();
   auto free = joint_centres();

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/internal/rival_poses.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -15,6 +13,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/profile_errors.h"
+#include "kinemark/stages/motion/internal/turned_poses.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -28,16 +27,11 @@ constexpr double kOpen = 0.25;         // rad^2 or m^2: beyond it a coordinate i
 constexpr double kParallel = 0.95;     // correlation of two directions that lead to the same rivals
 constexpr int kDirections = 8;         // of one frame
 constexpr std::array kWays{0.6, 1.4};  // rad or m along each, both ways
-constexpr int kStepsOfATurn = 8;       // of half a turn about a line
-constexpr int kSwings = 12;            // positions of a joint beyond it
-constexpr double kOffTurn = 0.3;       // of a joint that does not turn about it
-constexpr double kFastestTurn =
-    4.0;                           // rad of a coordinate for one of the turn: beyond, its axes lie together
-constexpr double kFarthest = 2.6;  // rad or m, of any coordinate
-constexpr double kDiffers = 0.06;  // rad or m, and ...
-constexpr double kDiffersInSd = 3.0;  // ... so many deviations: another pose
-constexpr double kWorse = 36.0;       // chi-square by which a rival may fit worse
-constexpr double kTemper = 0.25;      // of a chi-square in nats: markers' errors last for many frames
+constexpr double kFarthest = 2.6;      // rad or m, of any coordinate
+constexpr double kDiffers = 0.06;      // rad or m, and ...
+constexpr double kDiffersInSd = 3.0;   // ... so many deviations: another pose
+constexpr double kWorse = 36.0;        // chi-square by which a rival may fit worse
+constexpr double kTemper = 0.25;       // of a chi-square in nats: markers' errors last for many frames
 constexpr std::size_t kMostRivals = 8;
 constexpr int kRoundsOfRivals = 2;
 constexpr double kSearchEvery_s = 0.05;  // between searches rivals are followed
@@ -71,6 +65,7 @@ class Rivals {
         pattern_(loose.pattern),
         solved_(solved),
         solver_(problem, options),
+        turned_(problem),
         covariance_(problem),
         w_(problem.model),
         y_(3, problem.model.marker_count()),
@@ -176,9 +171,7 @@ class Rivals {
     for (const UnseenTurn& unseen : loose_.turns) {
       std::vector<Candidate> both{candidate(taken)};
       start_ = taken;
-      if (!turn(unseen, start_)) continue;
-      clamp_start();
-      swing_beyond(unseen.body, start_);
+      if (!turned_.turn(unseen, y_, information_, start_)) continue;
       take(start_, both);
       if (both.size() < 2) continue;
       const double worse = std::max(0.0, both[1].chi_square - both[0].chi_square);
@@ -271,73 +264,12 @@ class Rivals {
     });
   }
 
-  /// Turn a body half about its line; false where its joint does not.
-  bool turn(const UnseenTurn& unseen, VectorXd& state) {
-    const auto& body = problem_.model.bodies()[at(unseen.body)];
-    for (int k = 0; k < kStepsOfATurn; ++k) {
-      model::kinematics(problem_.model, w_, state);
-      const Eigen::Vector3d along = model::point_in_world(w_, unseen.body, unseen.along) -
-                                    model::point_in_world(w_, unseen.body, Eigen::Vector3d::Zero());
-      Eigen::Matrix3Xd axes = Eigen::Matrix3Xd::Zero(3, body.last_column - body.first_column);
-      for (int c = body.first_column; c < body.last_column; ++c)
-        if (!problem_.fixed_speed[at(problem_.model.columns()[at(c)].speed)])
-          axes.col(c - body.first_column) = w_.column[at(c)].w;
-      const VectorXd rate = axes.completeOrthogonalDecomposition().solve(along);
-      if ((axes * rate - along).norm() > kOffTurn || rate.cwiseAbs().maxCoeff() > kFastestTurn) return false;
-      move_.setZero(problem_.model.speed_count());
-      for (int c = body.first_column; c < body.last_column; ++c)
-        move_[problem_.model.columns()[at(c)].speed] +=
-            std::numbers::pi / kStepsOfATurn * rate[c - body.first_column];
-      model::integrate(problem_.model, state, move_);
-    }
-    return true;
-  }
-
-  /// Turn each joint beyond a body, one after the other, to where the markers fit best: a knee then bends the
-  /// other way, and the toes point away from it again.
-  void swing_beyond(int body, VectorXd& state) {
-    const int first = problem_.model.bodies()[at(body)].first_column;
-    for (std::size_t b = at(body) + 1; b < problem_.model.bodies().size(); ++b) {
-      const auto& beyond = problem_.model.bodies()[b];
-      if (std::ranges::find(beyond.support, first) == beyond.support.end()) continue;
-      for (int c = beyond.first_column; c < beyond.last_column; ++c) swing(c, state);
-    }
-  }
-
-  void swing(int column, VectorXd& state) {
-    const int speed = problem_.model.columns()[at(column)].speed;
-    model::kinematics(problem_.model, w_, state);
-    if (problem_.fixed_speed[at(speed)] || !(w_.column[at(column)].w.norm() > 0.5)) return;
-    double least = squares();
-    VectorXd best = state;
-    for (int k = 1; k < kSwings; ++k) {
-      x_ = state;
-      move_.setZero(problem_.model.speed_count());
-      move_[speed] = std::remainder(2.0 * std::numbers::pi * k / kSwings, 2.0 * std::numbers::pi);
-      model::integrate(problem_.model, x_, move_);
-      if (beyond_limits(x_)) continue;
-      model::kinematics(problem_.model, w_, x_);
-      if (const double here = squares(); here < least) {
-        least = here;
-        best = x_;
-      }
-    }
-    state = best;
-  }
-
   /// Chi-square of the pose that w_ has.
   [[nodiscard]] double squares() const {
     double sum = 0.0;
     for (Eigen::Index m = 0; m < weight_.size(); ++m)
       if (information_[m] > 0.0) sum += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
     return sum;
-  }
-
-  [[nodiscard]] bool beyond_limits(const VectorXd& state) const {
-    return std::ranges::any_of(problem_.model.coordinates(), [&](const auto& c) {
-      return c.speed_idx >= 0 && !(state[c.state_idx] >= problem_.lower[c.speed_idx] &&
-                                   state[c.state_idx] <= problem_.upper[c.speed_idx]);
-    });
   }
 
   void clamp_start() {
@@ -438,6 +370,7 @@ class Rivals {
   std::vector<std::int64_t> pattern_;  // of `loose`, -1 in frames that are not looked at
   const SolvedFrames& solved_;
   FrameSolver solver_;
+  TurnedPoses turned_;
   SpeedCovariance covariance_;
   model::Workspace w_;
   Eigen::Matrix3Xd y_;

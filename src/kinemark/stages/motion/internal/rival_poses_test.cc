@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/internal/loose_bodies.h"
+#include "kinemark/stages/motion/internal/turned_poses.h"
 #include "kinemark/stages/motion/testing/planar_arm.h"
 
 namespace kinemark::motion::internal {
@@ -257,7 +259,7 @@ class OneMarkerAtEachJoint : public ::testing::Test {
   }
 };
 
-TEST_F(OneMarkerAtEachJoint, AnElbowThatBendsBothWaysIsNotDetermined) {
+TEST_F(OneMarkerAtEachJoint, AnElbowWithoutLimitsIsNotDetermined) {
   const auto motion = solve(false).motion;
   for (std::int64_t f = 0; f < 60; ++f) {
     EXPECT_EQ(motion.determined[motion.index(f, 2)], 0) << "the arm turned half about itself, frame " << f;
@@ -265,6 +267,29 @@ TEST_F(OneMarkerAtEachJoint, AnElbowThatBendsBothWaysIsNotDetermined) {
     EXPECT_NE(motion.determined[motion.index(f, 0)], 0) << "where the elbow is, is known";
     EXPECT_NE(motion.determined[motion.index(f, 1)], 0);
   }
+}
+
+TEST_F(OneMarkerAtEachJoint, ATurnedPoseFitsAsWellAndAHingeDoesNotTurn) {
+  const auto model = model::Model::compile(arm(false)).value();
+  auto t = data::Trajectories::all_missing({"E", "W"}, {.rate_hz = 100.0, .frames = 1});
+  model::Workspace w(model);
+  Eigen::VectorXd state =
+      model::state_from_coordinates(model, Eigen::Vector4d(0.3, 0.2, 0.1, std::numbers::pi / 6));
+  model::kinematics(model, w, state);
+  const Eigen::Matrix3Xd y = w.marker;
+  for (int m = 0; m < 2; ++m) {
+    t.x(0, m) = y.col(m);
+    t.state[t.index(0, m)] = data::SampleState::measured;
+  }
+  const auto problem = make_problem(model, t, {}).value();
+  TurnedPoses turned(problem);
+  ASSERT_TRUE(turned.turn({.body = 0, .along = -Vector3d::UnitY()}, y, Eigen::Vector2d::Ones(), state));
+  Eigen::VectorXd q = Eigen::Vector4d::Zero();
+  model::coordinates_from_state(model, state, q, q);
+  EXPECT_NEAR(q[3], -std::numbers::pi / 6, 1e-9) << "a twelfth of a turn, the other way";
+  model::kinematics(model, w, state);
+  EXPECT_LT((w.marker - y).norm(), 1e-6);
+  EXPECT_FALSE(turned.turn({.body = 1, .along = -Vector3d::UnitY()}, y, Eigen::Vector2d::Ones(), state));
 }
 
 TEST_F(OneMarkerAtEachJoint, ALimitOfTheElbowTellsWhichWay) {
