@@ -24,7 +24,7 @@ constexpr double kShutLoopSd_m = 1e-5;
 using Eigen::VectorXd;
 
 constexpr double kWeak = 0.03;          // rad or m: what is known better is linear enough
-constexpr double kWeakOfFew = 0.08;     // the same where all markers together are few
+constexpr double kWeakOfFew = 0.06;     // the same where all markers together are few
 constexpr double kLooser = 2.0;         // times the variance with all markers: it lost what held it
 constexpr double kMostMoved = 1.5;      // rad or m, of a direction's largest part
 constexpr std::size_t kMost = 12;       // directions
