@@ -394,7 +394,8 @@ class Search {
     std::vector<double> d1, d2;
     for (std::int64_t k = 0; k < P_; ++k) {
       if (k == one || k == other) continue;
-      const double should_one = search_.distance(one, k), should_other = search_.distance(other, k);
+      const double should_one = search_.distance(one, k, other),
+                   should_other = search_.distance(other, k, one);
       if (std::isnan(should_one) || std::isnan(should_other)) continue;
       distances(l, one, other, k, d1, d2);
       if (d1.size() < 3) continue;

@@ -23,9 +23,10 @@ struct PointPaths {
 struct ExchangeSearch {
   double least_m = 0.03;       ///< > 0; points that are nearer to each other are not told apart
   double longest_gap_s = 0.1;  ///< > 0; paths are continued over that
-  /// Distance that two points should have, m; NaN where nothing is known. Asked only where the frames in
-  /// which two points are exchanged have been found, for which of the two sides is wrong. May be empty.
-  std::function<double(std::int64_t, std::int64_t)> distance;
+  /// Distance that a point should have from another, m; NaN where nothing is known. Asked only where the
+  /// frames in which that point and its partner (the third argument) are exchanged have been found, for which
+  /// of the two sides is wrong: no sample of either of the two can tell. May be empty.
+  std::function<double(std::int64_t, std::int64_t, std::int64_t)> distance;
 };
 
 /// Two points and the frames in which they carry each other's names.

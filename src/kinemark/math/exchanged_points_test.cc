@@ -114,7 +114,8 @@ TEST(ExchangedPoints, HalfTheFramesAreDecidedByDistancesOrNotAtAll) {
   ASSERT_EQ(open.size(), 1U);
   EXPECT_EQ(open[0].frames.size(), 120U);
   EXPECT_FALSE(open[0].side_known) << "either half may be right";
-  const auto known = [](std::int64_t one, std::int64_t other) {
+  const auto known = [](std::int64_t one, std::int64_t other, std::int64_t partner) {
+    EXPECT_EQ(one + partner, 3) << "asked of the two that are exchanged";
     const double heel[] = {kNan, std::hypot(0.20, 0.02), std::hypot(0.17, 0.07), kNan, kNan, kNan};
     return other == 0 ? heel[one] : kNan;
   };

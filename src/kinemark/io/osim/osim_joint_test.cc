@@ -261,13 +261,44 @@ TEST(OsimJoint, CouplersWithScaleAndSplineAndDisabledOnes) {
       "<ConstraintSet><objects>" + coupler("one", "<scale_factor>0.5</scale_factor>") +
           coupler("two", "<isDisabled>true</isDisabled>") +
           coupler("three", "<isEnforced> False </isEnforced>") +
-          R"(<WeldConstraint name="glue"/><PointOnLineConstraint name="rail"/></objects></ConstraintSet>)"));
+          R"(<ConstantDistanceConstraint name="rod"/><PointOnLineConstraint name="rail"/></objects></ConstraintSet>)"));
   ASSERT_EQ(model.couplings.size(), 1U);
   EXPECT_DOUBLE_EQ(model.couplings[0].function(0.3).f, 0.3);
   EXPECT_EQ(model.couplings[0].independent_idx, 0);
   EXPECT_EQ(model.couplings[0].dependent_idx, 1);
-  EXPECT_THAT(model.warnings, ElementsAre("WeldConstraint 'glue' is not enforced",
+  EXPECT_THAT(model.warnings, ElementsAre("ConstantDistanceConstraint 'rod' is not enforced",
                                           "PointOnLineConstraint 'rail' is not enforced"));
+}
+
+TEST(OsimJoint, AWeldIsThreePointsThatLieOnEachOther) {
+  const auto loop = [](const std::string& inside) {
+    return R"(<ConstraintSet><objects><WeldConstraint name="glue">)" + inside +
+           "</WeldConstraint></objects></ConstraintSet>";
+  };
+  const auto check = [](const data::ModelDescription& model, const Matrix3d& turned) {
+    ASSERT_EQ(model.point_constraints.size(), 3U);
+    EXPECT_THAT(model.warnings, IsEmpty());
+    for (int k = 0; k < 3; ++k) {
+      const auto& point = model.point_constraints[static_cast<std::size_t>(k)];
+      EXPECT_EQ(point.body_a_idx, 0);
+      EXPECT_EQ(point.body_b_idx, 1);
+      const Vector3d of_frame = k == 0 ? Vector3d(0, 0, 0) : 0.1 * (k == 1 ? X : Y);
+      EXPECT_TRUE(point.point_in_a.isApprox(Vector3d(1, 2, 3) + turned * of_frame, 1e-12)) << k;
+      EXPECT_TRUE((point.point_in_b - Vector3d(0, 0, 4) - of_frame).norm() < 1e-12) << k;
+    }
+  };
+  const std::string joints = joint_ab("UniversalJoint", "");
+  check(parse(model_4(joints, loop(R"(<frames>
+      <PhysicalOffsetFrame name="p"><socket_parent>/bodyset/a</socket_parent><translation>1 2 3</translation>
+        <orientation>0.5 0 0</orientation></PhysicalOffsetFrame>
+      <PhysicalOffsetFrame name="c"><socket_parent>/bodyset/b</socket_parent><translation>0 0 4</translation>
+        <orientation>0 0 0</orientation></PhysicalOffsetFrame></frames>
+      <socket_frame1>p</socket_frame1><socket_frame2>c</socket_frame2>)"))),
+        rotation(X, 0.5));
+  check(parse(model_4(joints,
+                      loop(R"(<body_1>a</body_1><body_2>b</body_2><location_body_1>1 2 3</location_body_1>
+      <orientation_body_1>0.5 0 0</orientation_body_1><location_body_2>0 0 4</location_body_2>)"))),
+        rotation(X, 0.5));
 }
 
 TEST(OsimJoint, APrescribedCoordinateHasItsFunctionOfTime) {

@@ -5,15 +5,35 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/stages/motion/foundations/landmarks.h"
 #include "kinemark/stages/motion/foundations/stillness.h"
 
 namespace kinemark::workflow {
+namespace {
+
+/// Whether a name is that of a landmark of pelvis or legs.
+bool is_of_legs(const std::string& name) {
+  const auto landmark = motion::landmark_of(name);
+  return landmark &&
+         (landmark->part == motion::BodyPart::pelvis || landmark->part == motion::BodyPart::thigh ||
+          landmark->part == motion::BodyPart::shank || landmark->part == motion::BodyPart::foot);
+}
+
+std::vector<std::string> legs_of(const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  std::ranges::copy_if(names, std::back_inserter(out), is_of_legs);
+  return out;
+}
+
+}  // namespace
 
 Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
                                                        const motion::StandingBody& body,
@@ -67,16 +87,18 @@ Result<motion::FoundationJudgement> judge_static_trial(const std::string& name,
 
 Result<std::vector<motion::FoundationFinding>> find_exchanged_pairs(const std::string& name,
                                                                     const data::Trajectories& recording) {
-  std::vector<std::string> names;
-  for (const auto& marker : recording.names)
-    if (const auto landmark = motion::landmark_of(marker);
-        landmark &&
-        (landmark->part == motion::BodyPart::pelvis || landmark->part == motion::BodyPart::thigh ||
-         landmark->part == motion::BodyPart::shank || landmark->part == motion::BodyPart::foot))
-      names.push_back(marker);
-  auto found = motion::judge_movement(motion::body_of_names(names), recording);
+  auto found = motion::judge_movement(motion::body_of_names(legs_of(recording.names)), recording);
   if (!found) return fail_at(name, found.error());
   return found;
+}
+
+int side_by_body(const data::Trajectories& recording, std::int64_t one, std::int64_t other) {
+  const std::string &a = recording.names[at(one)], &b = recording.names[at(other)];
+  const auto names = is_of_legs(a) && is_of_legs(b) ? legs_of(recording.names) : recording.names;
+  const auto score = motion::score_exchange(motion::body_of_names(names), recording, a, b);
+  const double least = motion::FoundationOptions{}.least_score;
+  if (!score || std::abs(*score) < least) return 0;
+  return *score < 0.0 ? 1 : -1;
 }
 
 Result<std::vector<motion::FoundationFinding>> judge_recording(const std::string& name,

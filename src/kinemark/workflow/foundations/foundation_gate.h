@@ -3,6 +3,7 @@
 // The gate in front of everything that builds on a static trial.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,11 @@ namespace kinemark::workflow {
 /// motion::judge_movement(), naming the recording.
 [[nodiscard]] Result<std::vector<motion::FoundationFinding>> find_exchanged_pairs(
     const std::string& name, const data::Trajectories& recording);
+
+/// Which labels two markers of a recording have, as a body has markers of their names: 1: their own, -1: each
+/// other's throughout, 0: the body does not tell. Pairs of pelvis and legs are asked without the rest of the
+/// body. As motion::score_exchange().
+[[nodiscard]] int side_by_body(const data::Trajectories& recording, std::int64_t one, std::int64_t other);
 
 /// Judge pairs of pelvis and legs throughout a recording in which somebody moves, and add the gate
 /// `recording` to the remarks: missed where a pair is exchanged, with a warning that names it. No gate where

@@ -227,5 +227,18 @@ TEST(FoundationGate, IsNotThereWhereNothingCanBeJudged) {
   EXPECT_TRUE(remarks.warnings.empty());
 }
 
+TEST(SideByBody, IsThatOfTheNamesUnlessTheyAreExchangedOrNobodys) {
+  auto walk = motion::testing::walking_body(kNames, 60);
+  const auto left = walk.find("LKNE"), right = walk.find("RKNE"), front = walk.find("LASI"),
+             back = walk.find("LPSI");
+  EXPECT_EQ(side_by_body(walk, left, right), 1);
+  EXPECT_EQ(side_by_body(walk, front, back), 1);
+  exchange(walk, "LKNE", "RKNE");
+  EXPECT_EQ(side_by_body(walk, left, right), -1);
+  EXPECT_EQ(side_by_body(walk, front, back), 1);
+  walk.names[at(front)] = "Wand";
+  EXPECT_EQ(side_by_body(walk, front, back), 0) << "no landmark";
+}
+
 }  // namespace
 }  // namespace kinemark::workflow

@@ -10,6 +10,7 @@
 #include "kinemark/data/frame_list.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
 
 namespace kinemark::workflow {
 namespace {
@@ -61,7 +62,8 @@ Result<std::vector<data::Finding>> find_label_swaps(const data::Trial& trial) {
                                                   .duplicated_frames = false,
                                                   .clock_jumps = false,
                                                   .unit_slips = false,
-                                                  .spikes = false});
+                                                  .spikes = false,
+                                                  .side = side_by_body});
   if (!found) return found;
   std::erase_if(*found, [](const auto& f) { return f.kind != data::FindingKind::label_swap; });
   return found;

@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "kinemark/core/random.h"
+#include "kinemark/stages/motion/foundations/testing/walking_body.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 
 namespace kinemark::workflow {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A foot of three markers that swings, frames counted from 5.
 data::Trial swinging_foot() {
@@ -74,6 +81,49 @@ TEST(ExchangedLabels, WhatIsFoundIsUndoneToTheBitAndSaysSo) {
   EXPECT_EQ(trial.markers.made_by(2, 1), "") << "as recorded";
   EXPECT_EQ(trial.markers.made_by(1, 0), "");
   EXPECT_EQ(trial.markers.state[trial.markers.index(1, 1)], data::SampleState::measured);
+}
+
+/// Two labels of a walking body exchanged from a frame on.
+data::Trial walk_with(const std::string& one, const std::string& other, std::int64_t first) {
+  data::Trial trial;
+  auto& t = trial.markers;
+  t = motion::testing::walking_body(
+      {"LASI", "RASI", "LPSI", "RPSI", "LKNE", "RKNE", "LANK", "RANK", "LHEE", "RHEE", "LTOE", "RTOE"}, 120);
+  const auto a = t.find(one), b = t.find(other);
+  for (std::int64_t f = first; f < t.frames(); ++f) {
+    const Eigen::Vector3d kept = t.x(f, a);
+    t.x(f, a) = t.x(f, b);
+    t.x(f, b) = kept;
+  }
+  return trial;
+}
+
+TEST(ExchangedLabels, TheBodySaysWhichHalfIsRight) {
+  const auto clean = walk_with("LKNE", "LKNE", 0);
+  for (const auto& [one, other] : {std::pair("LKNE", "RKNE"), std::pair("LASI", "LPSI")})
+    for (const std::int64_t first : {36, 84}) {
+      auto trial = walk_with(one, other, first);
+      const auto found = sure_swaps(find_label_swaps(trial).value());
+      ASSERT_EQ(found.size(), 1U) << one << " " << first;
+      EXPECT_EQ(std::pair(found[0].first_frame, found[0].last_frame), std::pair(first, std::int64_t{119}));
+      if (found[0].subject.ends_with("KNE"))  // of LASI and LPSI the right side's distances say it
+        EXPECT_THAT(found[0].description,
+                    HasSubstr("; the other frames are right, as a body has markers of these names there"));
+      ASSERT_TRUE(screen_markers(trial, {.exchange_back = true}));
+      EXPECT_EQ(trial.markers.x_in_world, clean.markers.x_in_world);
+    }
+}
+
+TEST(ExchangedLabels, OfNamesThatNoBodyHasTheFewerFramesAreNamed) {
+  auto trial = walk_with("LKNE", "RKNE", 36);
+  for (std::size_t m = 0; m < trial.markers.names.size(); ++m)
+    trial.markers.names[m] = "point " + std::to_string(m);
+  const auto found = find_label_swaps(trial).value();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(std::pair(found[0].first_frame, found[0].last_frame),
+            (std::pair<std::int64_t, std::int64_t>(0, 35)));
+  EXPECT_THAT(found[0].description,
+              Not(HasSubstr("; the other frames are right, as a body has markers of these names there")));
 }
 
 TEST(ExchangedLabels, OfACleanRecordingNothingIsSaid) {

@@ -16,6 +16,7 @@
 #include "kinemark/stages/trajectory/screening/real_samples.h"
 #include "kinemark/stages/trajectory/screening/screen.h"
 #include "kinemark/stages/trajectory/screening/upsampling.h"
+#include "kinemark/workflow/foundations/foundation_gate.h"
 #include "kinemark/workflow/prepare/exchanged_labels.h"
 
 namespace kinemark::workflow {
@@ -46,7 +47,7 @@ bool is_of(const std::vector<std::int64_t>& which, const std::vector<std::string
 Status find_defects(data::Trial& trial, const ScreeningRules& rules, Screening& out) {
   if (!rules.find_defects) return {};
   const auto& markers = trial.markers;
-  auto defects = trajectory::screen(markers);
+  auto defects = trajectory::screen(markers, {.side = side_by_body});
   if (!defects) return std::unexpected(defects.error());
   out.defects = std::move(*defects);
   std::erase_if(out.defects, [&](const auto& defect) { return is_of(rules.apart, markers.names, defect); });

@@ -10,8 +10,9 @@
 
 namespace kinemark::io::osim {
 
-/// Reads one constraint into the description: CoordinateCouplerConstraint and PointConstraint. A disabled one
-/// is passed over, any other type leaves a warning that it is not enforced.
+/// Reads one constraint into the description: CoordinateCouplerConstraint, PointConstraint, and
+/// WeldConstraint as three points. A disabled one is passed over, any other type leaves a warning that it is
+/// not enforced.
 void read_constraint(XmlFile& file, FrameTable& frames, pugi::xml_node node,
                      data::ModelDescription& description);
 

@@ -374,6 +374,27 @@ Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
   return out;
 }
 
+std::optional<double> score_exchange(const StandingBody& body, const data::Trajectories& movement,
+                                     const std::string& one, const std::string& other,
+                                     const FoundationOptions& options) {
+  const auto index_of = [&](const std::string& name) {
+    const auto found = std::ranges::find(body.markers, name, &StandingBody::Marker::name);
+    return found == body.markers.end() ? -1 : static_cast<int>(found - body.markers.begin());
+  };
+  const int first = index_of(one), second = index_of(other);
+  if (first < 0 || second < 0 || are_of_one_cluster(body.markers[at(first)], body.markers[at(second)]))
+    return std::nullopt;
+  auto frames = frames_of(body, movement, options);
+  const auto prior = internal::prior_of(body);
+  if (are_mirrored(body, prior, frames))
+    for (auto& frame : frames) frame = internal::mirror_image(std::move(frame));
+  if (std::ranges::none_of(frames, [&](const auto& frame) {
+        return frame.x.col(first).allFinite() && frame.x.col(second).allFinite();
+      }))
+    return std::nullopt;
+  return mean_score(body, prior, frames, first, second);
+}
+
 bool shows_mirrored_body(const StandingBody& whole, const data::Trajectories& recording) {
   const StandingBody body = without_arms(whole);
   const auto frames = body.markers.empty() ? std::vector<internal::SeenFrame>{}

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,6 +75,16 @@ struct FoundationJudgement {
 [[nodiscard]] Result<std::vector<FoundationFinding>> judge_movement(const StandingBody& body,
                                                                     const data::Trajectories& movement,
                                                                     const FoundationOptions& options = {});
+
+/// Which of two bodies a recording in which somebody moves shows: the one of its names, or that of two of
+/// them exchanged throughout. Mean score over FoundationOptions::moving_frames frames that see both, of what
+/// moves with them (pelvis and legs, or all): above 0 the exchange explains more, below 0 the names as they
+/// are. Nothing where one of the two is no landmark, both are of one cluster, or fewer than six are seen; the
+/// mirror image is asked where that shows the body. About 20 ms.
+[[nodiscard]] std::optional<double> score_exchange(const StandingBody& body,
+                                                   const data::Trajectories& movement, const std::string& one,
+                                                   const std::string& other,
+                                                   const FoundationOptions& options = {});
 
 /// Whether the mirror image of a recording of any movement shows the body, and the recording does not: in
 /// most of three evenly picked frames. False where fewer than six markers of the body are seen. About 0.1 s.

@@ -479,5 +479,31 @@ TEST(Judge, OptionsAreChecked) {
   EXPECT_TRUE(FoundationOptions{}.check());
 }
 
+TEST(ScoreExchange, IsBelowZeroForTheNamesAsTheyAreAndAboveForExchangedOnes) {
+  const auto body = body_of_names(frames(legs(), 1, 0.0, 1).names);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    auto movement = frames(subject(seed), 12, 0.25, seed);
+    for (const auto& [one, other] :
+         {std::pair("LKNE", "RKNE"), std::pair("RHEE", "RTOE"), std::pair("LASI", "LPSI")}) {
+      const auto clean = score_exchange(body, movement, one, other);
+      ASSERT_TRUE(clean);
+      EXPECT_LT(*clean, -12.0) << one << " " << seed;
+      exchange(movement, one, other);
+      EXPECT_GT(*score_exchange(body, movement, one, other), 12.0) << one << " " << seed;
+      exchange(movement, one, other);
+    }
+  }
+}
+
+TEST(ScoreExchange, AsksNothingOfMarkersThatNoBodyHasOrNoFrameShows) {
+  auto movement = frames(subject(1), 12, 0.25, 1);
+  const auto body = body_of_names(movement.names);
+  EXPECT_FALSE(score_exchange(body, movement, "LKNE", "Wand"));
+  const auto knee = movement.find("LKNE");
+  for (std::int64_t f = 0; f < movement.frames(); ++f) movement.set_missing(f, knee);
+  EXPECT_FALSE(score_exchange(body, movement, "LKNE", "RKNE"));
+  EXPECT_TRUE(score_exchange(body, movement, "LANK", "RANK"));
+}
+
 }  // namespace
 }  // namespace kinemark::motion

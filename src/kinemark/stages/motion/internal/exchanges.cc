@@ -39,7 +39,7 @@ void swap_in(T& array, std::size_t i, std::size_t j, std::size_t n) {
 
 std::vector<Exchange> find_path_exchanges(const Problem& problem, const data::Trajectories& markers) {
   const auto& on_model = problem.model.markers();
-  const auto distance = [&](std::int64_t one, std::int64_t other) {
+  const auto distance = [&](std::int64_t one, std::int64_t other, std::int64_t) {
     const auto &a = on_model[at(one)], &b = on_model[at(other)];
     return a.body == b.body && a.body >= 0 ? (a.x_in_body - b.x_in_body).norm() : kNaN;
   };

@@ -4,6 +4,8 @@
 // rejection.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,10 @@ struct ScreenOptions {
   double min_jump_m = 0.03;     ///< > 0, swaps across less cannot be distinguished from motion
   double min_stuck_s = 0.1;     ///< > 0; and never below 8 frames
   double min_confidence = 0.5;  ///< 0 to 1, defects below are not reported
+  /// What else tells which side of an exchange is right. Asked of the trajectories with all exchanges undone
+  /// and of the indices of two markers: 1: the two have their own labels, -1: each has the other's
+  /// throughout, 0: not known. Empty: distances and the number of frames alone tell.
+  std::function<int(const data::Trajectories&, std::int64_t, std::int64_t)> side = {};
 
   [[nodiscard]] Status check() const;  ///< Ranges hold and no number is NaN.
 };

@@ -153,69 +153,131 @@ std::int64_t other_side(const Trajectories& t, std::int64_t marker) {
   return -1;
 }
 
-/// The usual distance of the same two markers on the other side of the body, m; NaN where there are none.
-double distance_beside(const Trajectories& t, std::int64_t one, std::int64_t other) {
+/// The usual distance of the same two markers on the other side of the body, m; NaN where there are none, or
+/// where that distance is one of `partner` or of the marker itself, which are exchanged with each other.
+double usual_distance_beside(const Trajectories& t, std::int64_t one, std::int64_t other,
+                             std::int64_t partner) {
   const std::int64_t a = other_side(t, one), b = other_side(t, other);
+  for (const std::int64_t exchanged : {one, partner})
+    if (a == exchanged || b == exchanged) return kNaN;
   std::vector<double> distances;
   for (std::int64_t f = 0; f < t.frames() && a >= 0 && b >= 0; ++f)
     if (t.present(f, a) && t.present(f, b)) distances.push_back((t.x(f, a) - t.x(f, b)).norm());
   return distances.empty() ? kNaN : median_of(std::move(distances));
 }
 
-/// Where the distances of the other side of the body speak against the greater part of the frames, that side
-/// may as well have its markers elsewhere: the fewer frames are named, and that nobody can decide.
-math::ExchangedPair fewer_of(const Trajectories& t, math::ExchangedPair pair) {
-  if (!pair.stated_by_distances) return pair;
+/// An exchange, and whether it is the body that has said which of its sides is right: where the paths show
+/// both ends of the fewer frames, it has only confirmed that.
+struct Exchange {
+  math::ExchangedPair pair;
+  bool stated_by_body = false;
+};
+
+/// The other frames that see both; none where these are all.
+std::vector<std::int64_t> rest_of(const Trajectories& t, const math::ExchangedPair& pair) {
   std::vector<std::int64_t> rest;
   for (std::int64_t f = 0; f < t.frames(); ++f)
     if (t.present(f, pair.one) && t.present(f, pair.other) && !std::ranges::binary_search(pair.frames, f))
       rest.push_back(f);
+  return rest;
+}
+
+/// Where the distances of the other side of the body speak against the greater part of the frames, that side
+/// may as well have its markers elsewhere: the fewer frames are named, and that nobody can decide.
+math::ExchangedPair fewer_of(const Trajectories& t, math::ExchangedPair pair) {
+  if (!pair.stated_by_distances) return pair;
+  auto rest = rest_of(t, pair);
   if (rest.empty() || rest.size() >= pair.frames.size()) return pair;
   pair.frames = std::move(rest);
   pair.side_known = pair.stated_by_distances = false;
   return pair;
 }
 
-/// Exchanges by paths and distances, each pair once; and the recording without them.
-void report_exchanges(Trajectories& t, double least, Defects& out) {
+void swap_samples(Trajectories& t, const math::ExchangedPair& pair) {
+  for (const std::int64_t f : pair.frames) {
+    const Vector3d x = t.x(f, pair.one);
+    t.x(f, pair.one) = t.x(f, pair.other);
+    t.x(f, pair.other) = x;
+  }
+}
+
+/// Let the body say which side of an exchange is right; `t` is without exchanges, and stays so. Where the
+/// distances of the other side contradict the body nobody can decide.
+Exchange ask_body(Trajectories& t, const ScreenOptions& options, math::ExchangedPair pair) {
+  const int side = options.side ? options.side(t, pair.one, pair.other) : 0;
+  if (side == 0) return {.pair = std::move(pair)};
+  const bool confirms = side > 0 && pair.side_known && (pair.ends || pair.stated_by_distances);
+  if (side < 0 && pair.stated_by_distances) {
+    pair.side_known = pair.stated_by_distances = false;
+    return {.pair = std::move(pair)};
+  }
+  if (side < 0) {
+    auto rest = rest_of(t, pair);
+    if (rest.empty()) return {.pair = std::move(pair)};
+    swap_samples(t, pair);
+    pair.frames = std::move(rest);
+    swap_samples(t, pair);
+  }
+  pair.side_known = true;
+  return {.pair = std::move(pair), .stated_by_body = !confirms};
+}
+
+/// What is known of the side that is right, as the end of a sentence; empty: nobody asks.
+const char* side_of(const Exchange& exchange, bool whole) {
+  const auto& pair = exchange.pair;
+  if (!pair.side_known)
+    return "; which of these and the other frames are right cannot be decided, the fewer are named";
+  if (exchange.stated_by_body)
+    return "; the other frames are right, as a body has markers of these names there";
+  return whole && !pair.ends && !pair.stated_by_distances
+             ? "; which side is right cannot be decided by the paths, the far fewer frames are named"
+             : "";
+}
+
+void report_exchange(const Trajectories& t, const Exchange& exchange, Defects& out) {
+  const auto& pair = exchange.pair;
+  const std::int64_t first = pair.frames.front(), last = pair.frames.back();
+  const bool whole = last - first + 1 == std::ssize(pair.frames);
+  const auto frames =
+      whole ? describe_frames(t.time, first, last)
+            : fmt::format("{} frames: {}", pair.frames.size(), data::words_of_frames(pair.frames, t.time));
+  const double sure = confidence_of(pair.ratio, 0.4);
+  out.push_back(
+      {.kind = FindingKind::label_swap,
+       .marker = pair.one,
+       .other_marker = pair.other,
+       .first_frame = first,
+       .last_frame = last,
+       .frames = whole ? std::vector<std::int64_t>() : pair.frames,
+       .size = pair.apart_m,
+       .confidence = pair.side_known ? sure : std::min(sure, kSideUnknown),
+       .description = fmt::format("markers '{}' and '{}' are exchanged in {}: exchanged back they continue "
+                                  "their paths {:.0f} times "
+                                  "better{}",
+                                  t.names[static_cast<std::size_t>(pair.one)],
+                                  t.names[static_cast<std::size_t>(pair.other)], frames, pair.ratio,
+                                  side_of(exchange, whole))});
+}
+
+/// Exchanges by paths, distances and the body, each pair once; and the recording without them.
+void report_exchanges(Trajectories& t, const ScreenOptions& options, Defects& out) {
   const auto found = math::find_exchanges(
       {.x = t.x_in_world.data(), .frames = t.frames(), .points = t.markers(), .rate_hz = t.time.rate_hz},
-      {.least_m = least, .longest_gap_s = kLongestGap, .distance = [&](std::int64_t one, std::int64_t other) {
-         return distance_beside(t, one, other);
+      {.least_m = options.min_jump_m,
+       .longest_gap_s = kLongestGap,
+       .distance = [&](std::int64_t one, std::int64_t other, std::int64_t partner) {
+         return usual_distance_beside(t, one, other, partner);
        }});
-  for (const math::ExchangedPair& as_found : found) {
-    const math::ExchangedPair pair = fewer_of(t, as_found);
-    const std::int64_t first = pair.frames.front(), last = pair.frames.back();
-    const bool whole = last - first + 1 == std::ssize(pair.frames);
-    const auto frames =
-        whole ? describe_frames(t.time, first, last)
-              : fmt::format("{} frames: {}", pair.frames.size(), data::words_of_frames(pair.frames, t.time));
-    const double sure = confidence_of(pair.ratio, 0.4);
-    const bool one_turn = whole && !pair.ends && !pair.stated_by_distances;
-    const char* side =
-        !pair.side_known
-            ? "; which of these and the other frames are right cannot be decided, the fewer are named"
-        : one_turn ? "; which side is right cannot be decided by the paths, the far fewer frames are named"
-                   : "";
-    out.push_back({.kind = FindingKind::label_swap,
-                   .marker = pair.one,
-                   .other_marker = pair.other,
-                   .first_frame = first,
-                   .last_frame = last,
-                   .frames = whole ? std::vector<std::int64_t>() : pair.frames,
-                   .size = pair.apart_m,
-                   .confidence = pair.side_known ? sure : std::min(sure, kSideUnknown),
-                   .description =
-                       fmt::format("markers '{}' and '{}' are exchanged in {}: exchanged back they continue "
-                                   "their paths {:.0f} times "
-                                   "better{}",
-                                   t.names[static_cast<std::size_t>(pair.one)],
-                                   t.names[static_cast<std::size_t>(pair.other)], frames, pair.ratio, side)});
-    for (const std::int64_t f : pair.frames) {
-      const Vector3d x = t.x(f, pair.one);
-      t.x(f, pair.one) = t.x(f, pair.other);
-      t.x(f, pair.other) = x;
-    }
+  std::vector<math::ExchangedPair> pairs;
+  for (const auto& pair : found) pairs.push_back(fewer_of(t, pair));
+  for (const auto& pair : pairs) swap_samples(t, pair);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    // Exchanges of one marker with two others are undone in their order: none of them is turned by itself.
+    const bool alone = std::ranges::none_of(pairs, [&](const math::ExchangedPair& p) {
+      return &p != &pairs[i] && (p.one == pairs[i].one || p.other == pairs[i].one ||
+                                 p.one == pairs[i].other || p.other == pairs[i].other);
+    });
+    report_exchange(t, alone ? ask_body(t, options, pairs[i]) : Exchange{.pair = pairs[i]}, out);
   }
 }
 
@@ -307,7 +369,7 @@ void report_visits(const Trajectories& t, const std::vector<Jump>& jumps, double
 
 void find_swaps(const Trajectories& recorded, const ScreenOptions& options, Defects& out) {
   Trajectories t = recorded;
-  report_exchanges(t, options.min_jump_m, out);
+  report_exchanges(t, options, out);
   std::vector<Jump> jumps;
   follow(t, options.min_jump_m, jumps);
   report_visits(t, jumps, options.min_jump_m, out);

@@ -132,6 +132,78 @@ TEST(Swaps, TheOtherSideOfTheBodyTellsWhichHalfIsWrong) {
   }
 }
 
+TEST(Swaps, AMarkersOwnPartnerIsNoOtherSide) {
+  // Two heels that change names at 30 %: the distance of the one from its toe is that of the other,
+  // exchanged.
+  auto t = Trajectories::all_missing({"LHEE", "LTOE", "RHEE", "RTOE"},
+                                     {.rate_hz = 100.0, .t0_s = 0.0, .frames = 200});
+  Random random(4, 1);
+  for (std::int64_t f = 0; f < 200; ++f)
+    for (std::int64_t m = 0; m < 4; ++m) {
+      const double s = t.time.time_s(f), side = m < 2 ? 1.0 : -1.0;
+      t.x(f, m) = Eigen::Vector3d(m % 2 == 0 ? 0.0 : 0.2, 0.1 * side, 0.0) +
+                  Eigen::Vector3d(s + 0.1 * std::sin(6 * s + side), 0.0, 0.0);
+      for (double& x : t.x(f, m)) x += 0.0003 * random.gaussian();
+      t.state[t.index(f, m)] = data::SampleState::measured;
+    }
+  exchange(t, {0, 2, 60, 199});
+  const Defects found = swaps_in(t);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(std::tuple(found[0].first_frame, found[0].last_frame),
+            (std::tuple<std::int64_t, std::int64_t>(0, 59)))
+      << "by number";
+  EXPECT_THAT(found[0].description, HasSubstr("which side is right cannot be decided by the paths"));
+}
+
+TEST(Swaps, ABodyThatIsAskedSaysWhichSideIsRight) {
+  const Trajectories whole = testing::walker({.frames = 200});
+  const auto said = [&](const Swap& planted, int by_names) {
+    Trajectories t = whole;
+    exchange(t, planted);
+    ScreenOptions options;
+    int asked = 0;
+    options.side = [&](const Trajectories& rest, std::int64_t one, std::int64_t other) {
+      ++asked;
+      EXPECT_EQ(std::tuple(one, other), std::tuple(planted.one, planted.other));
+      const bool own = rest.x(100, one).isApprox(whole.x(100, one));
+      return by_names == 0 ? 0 : own ? 1 : -1;
+    };
+    auto found = swaps_in(t, options);
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(found.size(), 1U);
+    return found.front();
+  };
+  constexpr const char* kBody = "; the other frames are right, as a body has markers of these names there";
+  for (const std::int64_t at : {20, 60, 110, 140}) {
+    const auto known = said({2, 4, at, 199}, 1);
+    EXPECT_EQ(std::tuple(known.first_frame, known.last_frame), std::tuple(at, std::int64_t{199})) << at;
+    EXPECT_THAT(known.description, HasSubstr(kBody));
+    EXPECT_GE(known.confidence, 0.8);
+    const auto open = said({2, 4, at, 199}, 0);
+    EXPECT_EQ(open.first_frame, at < 100 ? 0 : at) << "the fewer";
+    EXPECT_THAT(open.description, Not(HasSubstr(kBody)));
+  }
+  const auto middle = said({2, 4, 60, 80}, 1);
+  EXPECT_EQ(std::tuple(middle.first_frame, middle.last_frame),
+            (std::tuple<std::int64_t, std::int64_t>(60, 80)));
+  EXPECT_THAT(middle.description, Not(HasSubstr(kBody))) << "the paths have said so";
+  const auto most = said({2, 4, 20, 179}, 1);
+  EXPECT_EQ(std::tuple(most.first_frame, most.last_frame), (std::tuple<std::int64_t, std::int64_t>(20, 179)));
+  EXPECT_THAT(most.description, HasSubstr(kBody));
+}
+
+TEST(Swaps, ExchangesThatShareAMarkerAreNotTurned) {
+  Trajectories t = testing::walker({.frames = 200});
+  exchange(t, {2, 4, 150, 199});
+  exchange(t, {4, 6, 50, 80});
+  ScreenOptions options;
+  options.side = [](const Trajectories&, std::int64_t, std::int64_t) {
+    ADD_FAILURE() << "their order matters";
+    return -1;
+  };
+  EXPECT_EQ(swaps_in(t, options).size(), 2U);
+}
+
 TEST(Swaps, AnotherHabitOnTheOtherSideDoesNotMakeMostFramesWrong) {
   // The right foot has toe and MT5 the other way round; on the left one they are exchanged in every fifth
   // frame.
