@@ -106,7 +106,7 @@ Result<IkResult> solve_ik(const model::Model& model, const data::Trajectories& m
   internal::add_sample_findings(*problem, *judged, markers, motion, result.fit);
 
   if (options.error_bars) {
-    compute_error_bars(*problem, kept, solved.states, variances, loose.never_fixed, options.threads, motion);
+    compute_error_bars(*problem, kept, solved.states, variances, options.threads, motion);
     internal::doubt_rivals(*problem, rivals, motion);
     internal::flag_underdetermined(motion);
     internal::add_marker_noise(problem->model, variances, result.fit);

@@ -266,8 +266,7 @@ MarkerVariances estimate_variances(const internal::Problem& problem, const data:
 }
 
 void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
-                        const MatrixXd& states, const MarkerVariances& variances,
-                        const std::vector<std::uint8_t>& never_fixed, int threads,
+                        const MatrixXd& states, const MarkerVariances& variances, int threads,
                         data::JointMotion& motion) {
   const auto& model = problem.model;
   const int n = model.coordinate_count(), M = model.marker_count();
@@ -277,7 +276,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
   const VectorXd all = information_of(model, variances);
   parallel_for(problem.frames, 16, threads, [&](std::int64_t begin, std::int64_t end) {
     Frame frame(problem);
-    internal::ProfileErrors profile(problem, never_fixed);
+    internal::ProfileErrors profile(problem);
     MatrixXd unit_H, unit_K, B, rows, segment;
     VectorXd seen(M), spread(M), information(M), variance(n);
     for (std::int64_t f = begin; f < end; ++f) {
@@ -317,7 +316,7 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
         B.noalias() += variances.common[b] * segment.transpose() * segment;
       }
       rows.noalias() = frame.E * frame.K;
-      bool lost = !never_fixed.empty(), vague = false;
+      bool lost = false, vague = false;
       for (int m = 0; m < M; ++m) {
         information[m] = frame.weight[m] > 0.0 ? all[m] : 0.0;
         lost = lost || information[m] != all[m];

@@ -71,10 +71,9 @@ class VarianceSums {
 /// determined: with the markers of the frame alone, coordinate error per metre of marker error is below 333
 /// rad (a marker lever of 3 mm), or 20 m for translations, and the standard deviation below 0.5 rad or 0.5 m,
 /// the range in which a linear error bar is valid; tasks and limits do not count. q_sd is NaN where not
-/// determined and 0 where locked. `never_fixed`: speeds that all markers leave loose (LooseFrames).
-/// open_frames counts where the first of these was not so.
+/// determined and 0 where locked. open_frames counts where the first of these was not so.
 void compute_error_bars(const internal::Problem& problem, const data::Trajectories& markers,
-                        const Eigen::MatrixXd& states, const MarkerVariances& variances,
-                        const std::vector<std::uint8_t>& never_fixed, int threads, data::JointMotion& motion);
+                        const Eigen::MatrixXd& states, const MarkerVariances& variances, int threads,
+                        data::JointMotion& motion);
 
 }  // namespace kinemark::motion

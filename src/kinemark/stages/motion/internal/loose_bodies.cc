@@ -38,7 +38,6 @@ bool fix_a_body(const std::vector<Vector3d>& points) {
 /// A joint that moves, between two groups of bodies; group 0 is the ground.
 struct Link {
   std::size_t parent = 0, child = 0;
-  int body = 0;                  ///< of the child, which the joint carries
   std::vector<Vector3d> points;  ///< that both have in common, m
 };
 
@@ -55,10 +54,7 @@ class Groups {
       const auto moving = moving_columns(bodies[b]);
       of_body_.push_back(moving.empty() ? parent : count++);
       if (!moving.empty())
-        links_.push_back({.parent = parent,
-                          .child = of_body_[b],
-                          .body = static_cast<int>(b),
-                          .points = points_of(b, moving)});
+        links_.push_back({.parent = parent, .child = of_body_[b], .points = points_of(b, moving)});
     }
     for (const auto& marker : model.markers())
       group_.push_back(marker.body < 0 ? 0 : of_body_[at(marker.body)]);
@@ -66,18 +62,9 @@ class Groups {
     fixed_.resize(count);
     carries_.resize(count);
     lost_.resize(count);
-    never_fixed_.resize(count);
   }
 
-  /// Note the groups that are loose with all markers that are ever seen; they are loose in every frame.
-  void note_never_fixed(const std::vector<std::uint8_t>& used) {
-    std::ranges::fill(never_fixed_, std::uint8_t{1});
-    never_fixed_ = find_loose(used, used);
-  }
-  [[nodiscard]] const std::vector<std::uint8_t>& never_fixed() const { return never_fixed_; }
-
-  /// 1 for each group that lost a marker, or is never fixed, and is loose. For each marker: whether it is
-  /// seen, and ever is.
+  /// 1 for each group that lost a marker and is loose. For each marker: whether it is seen, and ever is.
   std::vector<std::uint8_t> find_loose(const std::vector<std::uint8_t>& seen,
                                        const std::vector<std::uint8_t>& used) {
     std::ranges::fill(carries_, std::uint8_t{0});
@@ -99,33 +86,8 @@ class Groups {
       if (fixed_[g] == 0 && fix_a_body(points_[g])) fix(g);
     std::vector<std::uint8_t> loose(points_.size(), 0);
     for (std::size_t g = 1; g < loose.size(); ++g)
-      loose[g] = (lost_[g] != 0 || never_fixed_[g] != 0) && carries_[g] != 0 && fixed_[g] == 0 ? 1 : 0;
+      loose[g] = lost_[g] != 0 && carries_[g] != 0 && fixed_[g] == 0 ? 1 : 0;
     return loose;
-  }
-
-  /// The lines of the groups that are never fixed.
-  [[nodiscard]] std::vector<UnseenTurn> turns() const {
-    std::vector<UnseenTurn> out;
-    for (const Link& link : links_) {
-      if (never_fixed_[link.child] == 0 || link.points.empty()) continue;
-      const Vector3d& centre = link.points.front();
-      std::vector<Vector3d> points{centre};
-      for (std::size_t m = 0; m < group_.size(); ++m)
-        if (group_[m] == link.child) points.emplace_back(w_.marker.col(static_cast<Eigen::Index>(m)));
-      for (const Link& beyond : links_)
-        if (beyond.parent == link.child && carries_[beyond.child] != 0 && !beyond.points.empty())
-          points.push_back(beyond.points.front());
-      const auto far =
-          std::ranges::max_element(points, {}, [&](const Vector3d& p) { return (p - centre).norm(); });
-      if ((*far - centre).norm() < kOffLine_m || fix_a_body(points)) continue;
-      const Vector3d along = (*far - centre).normalized();
-      Eigen::Matrix3d axes;  // of the body, in the world
-      const Vector3d origin = model::point_in_world(w_, link.body, Vector3d::Zero());
-      for (int a = 0; a < 3; ++a)
-        axes.col(a) = model::point_in_world(w_, link.body, Vector3d::Unit(a)) - origin;
-      out.push_back({.body = link.body, .along = axes.transpose() * along});
-    }
-    return out;
   }
 
   [[nodiscard]] std::size_t count() const { return points_.size(); }
@@ -184,13 +146,12 @@ class Groups {
   std::vector<Link> links_;
   std::vector<std::size_t> of_body_, group_;  ///< group of each body and of each marker
   std::vector<std::vector<Vector3d>> points_;
-  std::vector<std::uint8_t> fixed_, carries_, lost_, never_fixed_;
+  std::vector<std::uint8_t> fixed_, carries_, lost_;
 };
 
 }  // namespace
 
-LooseFrames find_loose_frames(const Problem& problem, const data::Trajectories& markers, double least_s,
-                              bool with_few) {
+LooseFrames find_loose_frames(const Problem& problem, const data::Trajectories& markers, double least_s) {
   const std::size_t M = problem.data_marker.size(), F = at(problem.frames);
   const auto present = [&](std::size_t f, std::size_t m) {
     return markers.present(problem.first_frame + static_cast<std::int64_t>(f), problem.data_marker[m]);
@@ -200,12 +161,11 @@ LooseFrames find_loose_frames(const Problem& problem, const data::Trajectories& 
     for (std::size_t m = 0; m < M; ++m) used[m] = used[m] != 0 || present(f, m) ? 1 : 0;
   Groups groups(problem);
   const std::vector<std::uint8_t> none(groups.count(), 0);
-  if (with_few) groups.note_never_fixed(used);
   std::map<std::vector<std::uint8_t>, std::vector<std::uint8_t>> known;  // loose groups by the markers seen
   std::vector<std::vector<std::uint8_t>> loose(F, none);
   for (std::size_t f = 0; f < F; ++f) {
     for (std::size_t m = 0; m < M; ++m) seen[m] = present(f, m) ? 1 : 0;
-    if (seen == used && groups.never_fixed() == none) continue;
+    if (seen == used) continue;
     const auto [it, is_new] = known.try_emplace(seen);
     if (is_new) it->second = groups.find_loose(seen, used);
     loose[f] = it->second;
@@ -221,10 +181,6 @@ LooseFrames find_loose_frames(const Problem& problem, const data::Trajectories& 
     }
   LooseFrames out;
   out.pattern.assign(F, -1);
-  if (groups.never_fixed() != none) {
-    out.never_fixed = groups.speeds_at(groups.never_fixed());
-    out.turns = groups.turns();
-  }
   std::map<std::vector<std::uint8_t>, std::int64_t> number_of;
   for (std::size_t f = 0; f < F; ++f) {
     if (loose[f] == none) continue;

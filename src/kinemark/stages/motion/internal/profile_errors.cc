@@ -24,7 +24,6 @@ constexpr double kShutLoopSd_m = 1e-5;
 using Eigen::VectorXd;
 
 constexpr double kWeak = 0.03;          // rad or m: what is known better is linear enough
-constexpr double kWeakOfFew = 0.06;     // the same where all markers together are few
 constexpr double kLooser = 2.0;         // times the variance with all markers: it lost what held it
 constexpr double kMostMoved = 1.5;      // rad or m, of a direction's largest part
 constexpr std::size_t kMost = 12;       // directions
@@ -66,9 +65,8 @@ void SpeedCovariance::invert(Eigen::MatrixXd& K) const {
   llt_.solveInPlace(K);
 }
 
-ProfileErrors::ProfileErrors(const Problem& problem, std::vector<std::uint8_t> never_fixed)
+ProfileErrors::ProfileErrors(const Problem& problem)
     : problem_(problem),
-      never_fixed_(std::move(never_fixed)),
       w_(problem.model),
       covariance_(problem),
       residual_(3, problem.model.marker_count()),
@@ -170,8 +168,6 @@ void ProfileErrors::add(const VectorXd& x, const Eigen::Matrix3Xd& y, const Vect
   covariance_.factor(w_, all);
   covariance_.invert(K_);
   whole_ = K_.diagonal();
-  for (std::size_t i = 0; i < never_fixed_.size(); ++i)
-    if (never_fixed_[i] != 0) whole_[static_cast<Eigen::Index>(i)] = kWeakOfFew * kWeakOfFew / kLooser;
   covariance_.factor(w_, information);
   covariance_.invert(K_);
   known_ = K_;

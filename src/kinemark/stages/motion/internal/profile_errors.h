@@ -47,9 +47,7 @@ struct Problem;
 /// Profiles the poses that fit one frame; use it for one frame after the other.
 class ProfileErrors {
  public:
-  /// @param never_fixed  speeds that all markers together leave loose (LooseFrames): asked wherever they are
-  ///                     known badly
-  explicit ProfileErrors(const Problem& problem, std::vector<std::uint8_t> never_fixed = {});
+  explicit ProfileErrors(const Problem& problem);
 
   /// What the variance of each coordinate lacks to first order, rad^2 or m^2, is added to `variance` (n).
   ///
@@ -89,7 +87,6 @@ class ProfileErrors {
   double residuals(const Eigen::VectorXd& state);
 
   const Problem& problem_;
-  std::vector<std::uint8_t> never_fixed_;
   model::Workspace w_;
   SpeedCovariance covariance_;
   const Eigen::Matrix3Xd* y_ = nullptr;

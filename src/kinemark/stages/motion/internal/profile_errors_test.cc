@@ -26,9 +26,7 @@ data::ModelDescription arm_with_lever(double upper_lever_m) {
 }
 
 /// What is added to the variances of shoulder and elbow with markers where the model has them at `pose`.
-Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const Eigen::Vector2d& seen,
-                      const Eigen::Vector2d& ever_seen = Eigen::Vector2d::Ones(),
-                      const std::vector<std::uint8_t>& never_fixed = {}) {
+Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const Eigen::Vector2d& seen) {
   const auto model = model::Model::compile(arm_with_lever(upper_lever_m)).value();
   auto all = data::Trajectories::all_missing({"U", "H"}, {.rate_hz = 100.0, .t0_s = 0.0, .frames = 1});
   model::Workspace w(model);
@@ -39,25 +37,16 @@ Eigen::VectorXd lacks(double upper_lever_m, const Eigen::Vector2d& pose, const E
     all.state[all.index(0, m)] = data::SampleState::measured;
   }
   const auto problem = make_problem(model, all, {}).value();
-  ProfileErrors profile(problem, never_fixed);
+  ProfileErrors profile(problem);
   Eigen::VectorXd variance = Eigen::Vector2d::Zero();
-  profile.add(x, w.marker, seen / (kSd_m * kSd_m), ever_seen / (kSd_m * kSd_m), Eigen::Matrix2d::Identity(),
-              variance);
+  profile.add(x, w.marker, seen / (kSd_m * kSd_m), Eigen::Vector2d::Ones() / (kSd_m * kSd_m),
+              Eigen::Matrix2d::Identity(), variance);
   return variance;
 }
 
 TEST(ProfileErrors, AddNothingWhereNoMarkerIsLostOrLeversAreLong) {
   EXPECT_EQ(lacks(0.01, {0.4, 1.0}, {1.0, 1.0}), Eigen::VectorXd(Eigen::Vector2d::Zero()));
   EXPECT_EQ(lacks(0.3, {0.4, 1.0}, {1.0, 0.0})[0], 0.0);
-}
-
-TEST(ProfileErrors, WhatAllMarkersLeaveLooseIsAskedWhereNoneIsLost) {
-  // The shoulder is held by nothing but a lever of 10 mm: in other frames, too.
-  const Eigen::Vector2d pose(0.4, 1.0), seen(1.0, 0.0);
-  EXPECT_EQ(lacks(0.01, pose, seen, seen), Eigen::VectorXd(Eigen::Vector2d::Zero())) << "nothing is lost";
-  EXPECT_EQ(lacks(0.01, pose, seen, seen, {1, 1}), lacks(0.01, pose, seen)) << "as if it were";
-  EXPECT_GT(lacks(0.01, pose, seen, seen, {1, 1})[0], 0.04);
-  EXPECT_EQ(lacks(0.3, pose, seen, seen, {1, 1})[0], 0.0) << "a long lever";
 }
 
 TEST(ProfileErrors, OfOneHingeAreThoseOfItsChord) {

@@ -13,7 +13,6 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/internal/profile_errors.h"
-#include "kinemark/stages/motion/internal/turned_poses.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -22,7 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLessKnown = 2.0;     // times the variance with all markers: the limb lost what held it
-constexpr double kFew = 0.02;          // rad or m: deviation by all markers, were they enough to fix a body
 constexpr double kOpen = 0.25;         // rad^2 or m^2: beyond it a coordinate is not determined anyway
 constexpr double kParallel = 0.95;     // correlation of two directions that lead to the same rivals
 constexpr int kDirections = 8;         // of one frame
@@ -65,7 +63,6 @@ class Rivals {
         pattern_(loose.pattern),
         solved_(solved),
         solver_(problem, options),
-        turned_(problem),
         covariance_(problem),
         w_(problem.model),
         y_(3, problem.model.marker_count()),
@@ -164,23 +161,6 @@ class Rivals {
 
   [[nodiscard]] std::vector<Candidate>& of(std::int64_t f) { return of_frame_[at(f)]; }
 
-  /// Poses of a frame in which a body with all its points on one line is turned half about it, and what hangs
-  /// on it the other way round: no frame beside tells more of them than this one.
-  void find_turned(std::int64_t f, const VectorXd& taken, std::vector<RivalPose>& out) {
-    visit(f);
-    for (const UnseenTurn& unseen : loose_.turns) {
-      std::vector<Candidate> both{candidate(taken)};
-      start_ = taken;
-      if (!turned_.turn(unseen, y_, information_, start_)) continue;
-      take(start_, both);
-      if (both.size() < 2) continue;
-      const double worse = std::max(0.0, both[1].chi_square - both[0].chi_square);
-      out.push_back({.frame = f,
-                     .state = std::move(both[1].state),
-                     .probability = std::min(kAnywhere, std::exp(-kTemper * worse))});
-    }
-  }
-
  private:
   [[nodiscard]] bool is_loose(std::int64_t f) const {
     return f >= 0 && f < problem_.frames && pattern_[at(f)] >= 0;
@@ -213,7 +193,9 @@ class Rivals {
     covariance_.factor(w_, information_);
     covariance_.invert(K_);
     c.variance = K_.diagonal();
-    c.chi_square = squares();
+    for (Eigen::Index m = 0; m < weight_.size(); ++m)
+      if (information_[m] > 0.0)
+        c.chi_square += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
     return c;
   }
 
@@ -226,8 +208,7 @@ class Rivals {
     const auto& at_loose = loose_.speeds[at(pattern_[at(frame_)])];
     std::vector<std::pair<double, Eigen::Index>> found;
     for (Eigen::Index i = 0; i < now.variance.size(); ++i) {
-      const bool few = !loose_.never_fixed.empty() && loose_.never_fixed[at(i)] != 0;
-      const double ratio = now.variance[i] / (few ? std::min(whole_(i, i), kFew * kFew) : whole_(i, i));
+      const double ratio = now.variance[i] / whole_(i, i);
       if (at_loose[at(i)] != 0 && ratio > kLessKnown) found.emplace_back(-ratio, i);
     }
     std::ranges::sort(found);
@@ -264,21 +245,6 @@ class Rivals {
     });
   }
 
-  /// Chi-square of the pose that w_ has.
-  [[nodiscard]] double squares() const {
-    double sum = 0.0;
-    for (Eigen::Index m = 0; m < weight_.size(); ++m)
-      if (information_[m] > 0.0) sum += information_[m] * (y_.col(m) - w_.marker.col(m)).squaredNorm();
-    return sum;
-  }
-
-  void clamp_start() {
-    for (const auto& c : problem_.model.coordinates())
-      if (c.speed_idx >= 0)
-        start_[c.state_idx] =
-            std::clamp(start_[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
-  }
-
   /// Poses on the ways along which the markers that are missing held the body.
   void search(std::vector<Candidate>& here) {
     const VectorXd begin = here.front().state;
@@ -291,7 +257,10 @@ class Rivals {
           if (longest > kFarthest) continue;
           start_ = begin;
           model::integrate(problem_.model, start_, move_);
-          clamp_start();
+          for (const auto& c : problem_.model.coordinates())
+            if (c.speed_idx >= 0)
+              start_[c.state_idx] =
+                  std::clamp(start_[c.state_idx], problem_.lower[c.speed_idx], problem_.upper[c.speed_idx]);
           take(start_, here);
         }
   }
@@ -370,7 +339,6 @@ class Rivals {
   std::vector<std::int64_t> pattern_;  // of `loose`, -1 in frames that are not looked at
   const SolvedFrames& solved_;
   FrameSolver solver_;
-  TurnedPoses turned_;
   SpeedCovariance covariance_;
   model::Workspace w_;
   Eigen::Matrix3Xd y_;
@@ -417,10 +385,6 @@ std::vector<RivalPose> choose_among_rivals(const Problem& problem, const IkOptio
       }
     }
     if (std::ranges::count(again, std::uint8_t{1}) == 0) break;
-  }
-  if (!loose.turns.empty()) {
-    Rivals rivals(problem, options, markers, loose, variances, solved);
-    for (std::int64_t f = 0; f < problem.frames; ++f) rivals.find_turned(f, solved.states.col(f), left);
   }
   std::ranges::stable_sort(left, {}, &RivalPose::frame);
   return left;

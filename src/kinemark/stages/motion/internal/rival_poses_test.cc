@@ -7,14 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "kinemark/core/random.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/internal/loose_bodies.h"
-#include "kinemark/stages/motion/internal/turned_poses.h"
 #include "kinemark/stages/motion/testing/planar_arm.h"
 
 namespace kinemark::motion::internal {
@@ -204,98 +202,6 @@ TEST_F(RivalPoses, ASmallDifferenceWidensWhatIsKnownWell) {
   EXPECT_NEAR(motion.q_sd[0], std::hypot(0.001, std::sqrt(0.05) * 0.008), 1e-9);
   EXPECT_EQ(motion.determined[0], 1);
   EXPECT_EQ(motion.determined[1], 0);
-}
-
-/// An arm on a ball, its elbow a hinge, one marker at the elbow and one at the wrist, 1 mm of noise; the
-/// elbow between 0.7 and 1.3 rad.
-class OneMarkerAtEachJoint : public ::testing::Test {
- protected:
-  static data::ModelDescription arm(bool limits) {
-    data::ModelDescription m;
-    m.name = "arm";
-    for (const char* name : {"upper", "fore"})
-      m.bodies.push_back(
-          {.name = name, .mass = 1.0, .inertia_about_com = Eigen::Matrix3d::Identity() * 0.01});
-    for (const char* name : {"flexion", "adduction", "rotation", "elbow"})
-      m.coordinates.push_back({.name = name});
-    if (limits) {
-      m.coordinates[3].clamped = true;
-      m.coordinates[3].range_min = 0.0;
-      m.coordinates[3].range_max = 2.5;
-    }
-    const auto turns = [](const Vector3d& axis, int coordinate) {
-      return data::AxisDescription{.is_rotation = true, .axis = axis, .coordinate_idx = coordinate};
-    };
-    m.joints.push_back(
-        {.name = "shoulder",
-         .child_body_idx = 0,
-         .axes = {turns(Vector3d::UnitZ(), 0), turns(Vector3d::UnitX(), 1), turns(Vector3d::UnitY(), 2)}});
-    m.joints.push_back({.name = "elbow",
-                        .parent_body_idx = 0,
-                        .child_body_idx = 1,
-                        .parent_from_joint = {Eigen::Matrix3d::Identity(), {0.0, -0.3, 0.0}},
-                        .axes = {turns(Vector3d::UnitZ(), 3)}});
-    m.markers = {{.name = "E", .body_idx = 0, .x_in_body = {0.0, -0.3, 0.0}},
-                 {.name = "W", .body_idx = 1, .x_in_body = {0.0, -0.3, 0.0}}};
-    return m;
-  }
-
-  static IkResult solve(bool limits) {
-    const auto model = model::Model::compile(arm(limits)).value();
-    auto t = data::Trajectories::all_missing({"E", "W"}, {.rate_hz = 100.0, .frames = 60});
-    model::Workspace w(model);
-    Random random(5, 1);
-    for (std::int64_t f = 0; f < 60; ++f) {
-      const double s = 0.05 * static_cast<double>(f);
-      const Eigen::Vector4d q(0.3 * std::sin(s), 0.2 * std::cos(s), 0.1 * s, 1.0 + 0.3 * std::sin(s));
-      model::kinematics(model, w, model::state_from_coordinates(model, q));
-      for (int m = 0; m < 2; ++m) {
-        t.x(f, m) =
-            w.marker.col(m) + 0.001 * Vector3d(random.gaussian(), random.gaussian(), random.gaussian());
-        t.state[t.index(f, m)] = data::SampleState::measured;
-      }
-    }
-    return solve_ik(model, t).value();
-  }
-};
-
-TEST_F(OneMarkerAtEachJoint, AnElbowWithoutLimitsIsNotDetermined) {
-  const auto motion = solve(false).motion;
-  for (std::int64_t f = 0; f < 60; ++f) {
-    EXPECT_EQ(motion.determined[motion.index(f, 2)], 0) << "the arm turned half about itself, frame " << f;
-    EXPECT_EQ(motion.determined[motion.index(f, 3)], 0) << f;
-    EXPECT_NE(motion.determined[motion.index(f, 0)], 0) << "where the elbow is, is known";
-    EXPECT_NE(motion.determined[motion.index(f, 1)], 0);
-  }
-}
-
-TEST_F(OneMarkerAtEachJoint, ATurnedPoseFitsAsWellAndAHingeDoesNotTurn) {
-  const auto model = model::Model::compile(arm(false)).value();
-  auto t = data::Trajectories::all_missing({"E", "W"}, {.rate_hz = 100.0, .frames = 1});
-  model::Workspace w(model);
-  Eigen::VectorXd state =
-      model::state_from_coordinates(model, Eigen::Vector4d(0.3, 0.2, 0.1, std::numbers::pi / 6));
-  model::kinematics(model, w, state);
-  const Eigen::Matrix3Xd y = w.marker;
-  for (int m = 0; m < 2; ++m) {
-    t.x(0, m) = y.col(m);
-    t.state[t.index(0, m)] = data::SampleState::measured;
-  }
-  const auto problem = make_problem(model, t, {}).value();
-  TurnedPoses turned(problem);
-  ASSERT_TRUE(turned.turn({.body = 0, .along = -Vector3d::UnitY()}, y, Eigen::Vector2d::Ones(), state));
-  Eigen::VectorXd q = Eigen::Vector4d::Zero();
-  model::coordinates_from_state(model, state, q, q);
-  EXPECT_NEAR(q[3], -std::numbers::pi / 6, 1e-9) << "a twelfth of a turn, the other way";
-  model::kinematics(model, w, state);
-  EXPECT_LT((w.marker - y).norm(), 1e-6);
-  EXPECT_FALSE(turned.turn({.body = 1, .along = -Vector3d::UnitY()}, y, Eigen::Vector2d::Ones(), state));
-}
-
-TEST_F(OneMarkerAtEachJoint, ALimitOfTheElbowTellsWhichWay) {
-  const auto motion = solve(true).motion;
-  EXPECT_TRUE(std::ranges::all_of(motion.determined, [](auto d) { return d != 0; }));
-  EXPECT_LT(motion.q_sd[motion.index(20, 3)], 0.03);
 }
 
 }  // namespace

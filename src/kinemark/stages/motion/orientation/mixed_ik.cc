@@ -206,7 +206,7 @@ Status solve_pass(const Alone& alone, const TurnedBodies& turned, const MarkerVa
   out.solved = {};
   if (!walk.run(out.points, false, out.solved))
     return fail(Code::cancelled, "inverse kinematics was stopped");
-  const auto loose = internal::find_loose_frames(out.problem, out.points, 0.1, false);
+  const auto loose = internal::find_loose_frames(out.problem, out.points);
   out.rivals.clear();
   if (loose.any()) {
     std::vector<std::uint8_t> changed;
