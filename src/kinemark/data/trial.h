@@ -53,8 +53,8 @@ struct ForcePlate {
 /// unlike noise it is the same in every frame. Lengths in the axes of the fields; functions:
 /// calibration_error.h.
 struct CalibrationError {
-  static constexpr int kTerms = 20;  ///< of a polynomial of degree 3 in x, y, z
-  using Field = Eigen::Matrix<double, kTerms, 3>;
+  static constexpr int kTerms = 20;                ///< of a polynomial of degree 3 in x, y, z
+  using Field = Eigen::Matrix<double, kTerms, 3>;  ///< displacement in x, y, z by each term, m
 
   Eigen::Vector3d middle_in_world = Eigen::Vector3d::Zero();       ///< m
   Eigen::Matrix3d world_from_field = Eigen::Matrix3d::Identity();  ///< turns
