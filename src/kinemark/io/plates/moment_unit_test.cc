@@ -49,6 +49,11 @@ TEST(MomentUnit, IsNotBlamedForCornersThatLieElsewhere) {
   EXPECT_FALSE(is_a_thousandth(rolling(off, off, 1.0), rolling(off, off, 1e-3), true, kHalf));
 }
 
+TEST(MomentUnit, OfAnotherFactorIsNoUnit) {
+  // Thirty times too large: a thousandth of it would have the foot stand in the middle.
+  EXPECT_FALSE(is_a_thousandth(rolling(kHeel, kToe, 40.0), rolling(kHeel, kToe, 0.04), true, kHalf));
+}
+
 TEST(MomentUnit, OfWeightsAtTheMiddleAndOfMomentsThatWereNotRecordedStays) {
   const Vector2d middle(4e-6, -3e-6);  // m, of noise
   EXPECT_FALSE(is_a_thousandth(rolling(middle, middle, 1e3), rolling(middle, middle, 1.0), false, kHalf));

@@ -43,8 +43,10 @@ bool is_a_thousandth(std::span<const Vector6> larger, std::span<const Vector6> s
   const auto on_plate = [&](const Vector2d& point) { return is_on_plate(point, half_size); };
   if (is_smaller) {
     const double off = std::max(kMetresOff, kSidesOff * half_size.maxCoeff());
+    // Another factor, of 30 say, would become a foot that stands in the middle.
     return share_of(far, [&](const Vector2d& point) { return point.norm() > off; }) >= kShare &&
-           share_of(near, on_plate) >= kShare;
+           share_of(near, on_plate) >= kShare &&
+           share_of(near, [](const Vector2d& point) { return point.norm() > kFromTheMiddle; }) >= 0.5;
   }
   // What both have in common, of the depth of the sensors, is not of the moments.
   std::vector<Vector2d> moved(far.size());

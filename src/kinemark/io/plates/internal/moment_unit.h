@@ -17,9 +17,9 @@ constexpr double kSurelyLoaded = 100.0;  // N; noise and drift of plates stay be
 
 /// Whether moments of one plate are those of `smaller` or of `larger`, which are the same a thousand times:
 /// true where only the other of the two has the loaded frames where no foot can be. Of the smaller, these lie
-/// metres off by `larger` and on the plate by `smaller` (`is_smaller`); of the larger, they lie on the plate
-/// by `larger`, 20 mm or more from the middle of the sensors, where `smaller` has all of them. False with
-/// fewer than 5 loaded frames.
+/// metres off by `larger` and on the plate by `smaller`, half of them 20 mm or more from its middle
+/// (`is_smaller`); of the larger, they lie on the plate by `larger`, 20 mm or more from the middle of the
+/// sensors, where `smaller` has all of them. False with fewer than 5 loaded frames.
 [[nodiscard]] bool is_a_thousandth(std::span<const Vector6> larger, std::span<const Vector6> smaller,
                                    bool is_smaller, const Eigen::Vector2d& half_size);
 
