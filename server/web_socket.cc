@@ -71,7 +71,7 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
       const auto bytes = self->buffer_.cdata();
       const std::string_view heard(static_cast<const char*>(bytes.data()), bytes.size());
       if (!self->stream_.got_binary() || !self->peer_->heard(heard))
-        return self->say_goodbye({.code = websocket::close_code::policy_error, .reason = "not understood"});
+        return self->end({.code = websocket::close_code::policy_error, .reason = "not understood"});
       self->buffer_.clear();
       self->listen();
       self->speak();
@@ -82,7 +82,7 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
     if (left_ || ending_ || saying_) return;
     saying_ = peer_->next();
     if (!saying_) {
-      if (auto over = peer_->end()) say_goodbye(*over);
+      if (auto over = peer_->end()) end(*over);
       return;
     }
     stream_.async_write(asio::buffer(*saying_), [self = shared_from_this()](error_code error, std::size_t) {
@@ -94,7 +94,7 @@ class BeastSocket final : public WebSocket, public std::enable_shared_from_this<
     });
   }
 
-  void say_goodbye(const SocketEnd& over) {
+  void end(const SocketEnd& over) {
     if (left_ || ending_) return;
     ending_ = true;
     // Until the other side says goodbye too, or its time is over, what it still sends is read by this.

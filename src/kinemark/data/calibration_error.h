@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Error of positions that a calibration leaves, as fields over the room: fitted, evaluated, turned, as text.
+// Error of positions that a calibration leaves, as fields over the room: evaluated, turned, as text.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,13 +15,9 @@ namespace kinemark::data {
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Fields through displacements of points, by least squares: as few as hold all but a thousandth of their
-/// variance, 12 at most.
-/// @param points_in_world  N x 3, m
-/// @param by_draw          3 N x P, m: displacement of x, y, z of each point by each of P standard normal
-///                         numbers
-[[nodiscard]] CalibrationError fit_calibration_error(const Points& points_in_world,
-                                                     const Eigen::MatrixXd& by_draw);
+/// The polynomial's terms at N points.
+using CalibrationTerms = Eigen::Matrix<double, Eigen::Dynamic, CalibrationError::kTerms>;
+[[nodiscard]] CalibrationTerms terms_of(const CalibrationError& error, const Points& points_in_world);
 
 /// Displacement of points by each field: N x 3, m in the world.
 [[nodiscard]] std::vector<Points> displacements(const CalibrationError& error, const Points& points_in_world);

@@ -32,6 +32,7 @@ constexpr std::array<PartWords, kParts> kWords = {{
     {Part::force_plates, "force plates", "shortened"},
     {Part::groups, "other groups", "shortened"},
     {Part::filters, "filters, unfiltered samples", "shortened"},
+    {Part::calibration, "calibration's error", "shortened"},
 }};
 
 /// Samples whose state says more than whether they are there.
@@ -123,6 +124,8 @@ std::string held(const data::Trial& trial, Part part) {
       return number_of(trial.foreign.size(), "group of parameters", "groups of parameters");
     case Part::filters:
       return filters(t);
+    case Part::calibration:
+      return trial.calibration_error.known() ? "what the calibration leaves unknown of all positions" : "";
   }
   return "";
 }

@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 constexpr std::array kAllParts = {Part::provenance, Part::covariance, Part::sample_times, Part::residuals,
                                   Part::channels,   Part::analog,     Part::events,       Part::force_plates,
-                                  Part::groups,     Part::filters};
+                                  Part::groups,     Part::filters,    Part::calibration};
 
 /// Two markers, four frames, nothing but positions.
 data::Trial bare() {
@@ -81,6 +81,9 @@ data::Trial with(Part part) {
                            {.method = "gcv", .order = 3, .cutoff_hz = 9.0, .noise_sd_m = 1e-4}};
       t.markers.unfiltered_in_world = t.markers.x_in_world;
       break;
+    case Part::calibration:
+      t.calibration_error.fields = {data::CalibrationError::Field::Constant(1e-4)};
+      break;
   }
   return t;
 }
@@ -114,6 +117,9 @@ TEST(LostParts, TheSentencesCountAndName) {
   EXPECT_THAT(
       lost_in(trc, with(Part::filters)),
       ElementsAre("the filters of markers and their samples from before cannot be stored in a .trc file"));
+  EXPECT_THAT(
+      lost_in(trc, with(Part::calibration)),
+      ElementsAre("what the calibration leaves unknown of all positions cannot be stored in a .trc file"));
   data::Trial stated = with(Part::filters);
   stated.markers.unfiltered_in_world.clear();
   EXPECT_THAT(lost_in(trc, stated), ElementsAre("the filters of markers cannot be stored in a .trc file"));

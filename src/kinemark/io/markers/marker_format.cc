@@ -132,13 +132,15 @@ Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOpti
 
 using enum Kept;
 //                                         provenance covariance times  residuals channels analog events
-//                                         plates groups filters
-constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none,  whole, whole,
+//                                         plates groups filters calibration
+constexpr std::array<Kept, kParts> kOfC3d = {whole, in_part, none,  whole, whole, whole,
                                              whole, whole,   whole, whole, whole};
-constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, whole, whole,
-                                             whole, whole, whole, none,  whole};
-constexpr std::array<Kept, kParts> kOfCsv = {whole, whole, whole, none, none, none, none, none, none, whole};
-constexpr std::array<Kept, kParts> kOfBids = {none, none, none, none, whole, none, none, none, none, none};
+constexpr std::array<Kept, kParts> kOfNwb = {whole, whole, whole, whole, whole, whole,
+                                             whole, whole, none,  whole, whole};
+constexpr std::array<Kept, kParts> kOfCsv = {whole, whole, whole, none,  none, none,
+                                             none,  none,  none,  whole, whole};
+constexpr std::array<Kept, kParts> kOfBids = {none, none, none, none, whole, none,
+                                              none, none, none, none, none};
 constexpr std::array<Kept, kParts> kOfMat = kOfNwb;
 
 constexpr std::array kFormats = {

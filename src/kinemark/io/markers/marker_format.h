@@ -28,10 +28,11 @@ enum class Part : std::uint8_t {
   analog,        ///< channels
   events,
   force_plates,
-  groups,   ///< of parameters that nothing here reads
-  filters,  ///< that markers went through, and their samples from before
+  groups,       ///< of parameters that nothing here reads
+  filters,      ///< that markers went through, and their samples from before
+  calibration,  ///< what the calibration of the cameras leaves unknown of all positions
 };
-inline constexpr std::size_t kParts = 10;  ///< number of them
+inline constexpr std::size_t kParts = 11;  ///< number of them
 
 /// How much of a part a format keeps.
 enum class Kept : std::uint8_t { none, in_part, whole };

@@ -15,6 +15,7 @@
 
 #include "kinemark/core/counted.h"
 #include "kinemark/core/index.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/filtering.h"
 
 namespace kinemark::pipeline {
@@ -261,6 +262,7 @@ class Merger {
     out_.units_in_file = first.units_in_file;
     out_.software = first.software;
     out_.foreign = std::move(first.foreign);
+    add_calibration_error();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
       for (const auto& what : trials_[i].unread)
         out_.unread.push_back(fmt::format("{} of {}", what, trials_[i].source));
@@ -272,6 +274,17 @@ class Merger {
             counted(std::ssize(trials_[i].foreign), "group of parameters", "groups of parameters"),
             trials_[i].source, out_.source));
     }
+  }
+
+  /// Of one rig it is the same in all files; of several rigs nobody knows it for all markers.
+  void add_calibration_error() {
+    const auto text = data::to_text(trials_.front().calibration_error);
+    if (std::ranges::all_of(trials_,
+                            [&](const auto& t) { return data::to_text(t.calibration_error) == text; }))
+      out_.calibration_error = trials_.front().calibration_error;
+    else
+      out_.warnings.emplace_back(
+          "what calibrations leave unknown of positions is left out: the files do not hold the same");
   }
 
   std::vector<data::Trial>& trials_;

@@ -217,6 +217,20 @@ TEST(MergeTrials, FiltersAndSamplesFromBeforeComeAlong) {
   }
 }
 
+TEST(MergeTrials, TheErrorOfOneCalibrationComesAlong) {
+  auto a = part("a.c3d", 1, 10, {"A"}), b = part("b.c3d", 1, 10, {"B"});
+  a.calibration_error.fields = b.calibration_error.fields = {data::CalibrationError::Field::Constant(1e-4)};
+  const auto one = merge_trials({a, b}).value();
+  EXPECT_EQ(one.calibration_error.fields, a.calibration_error.fields);
+  EXPECT_THAT(one.warnings, Not(Contains(HasSubstr("what calibrations leave unknown"))));
+  b.calibration_error.fields.clear();
+  const auto two = merge_trials({a, b}).value();
+  EXPECT_FALSE(two.calibration_error.known());
+  EXPECT_THAT(
+      two.warnings,
+      Contains("what calibrations leave unknown of positions is left out: the files do not hold the same"));
+}
+
 TEST(MergeTrials, OneMarkerThroughTwoFiltersIsRefused) {
   const auto a = smoothed(part("a", 1, 5, {"A"}), 6.0);
   EXPECT_THAT(refusal({a, smoothed(part("b", 6, 9, {"A"}), 7.0)}),

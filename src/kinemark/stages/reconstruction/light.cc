@@ -74,17 +74,11 @@ std::vector<Frame> frames_of(const data::Counts& counts, const data::Rig& rig,
   return out;
 }
 
-double strength(const data::Camera& camera, const CountObservation& read, const Vector3d& x) {
-  return math::eliminate_scale(read.keep.cwiseProduct(read.counts - camera.detector.offset_counts),
-                               read.keep.cwiseProduct(camera::respond(camera, x).phi))
-      .scale;
-}
-
 Sight sight(const data::Camera& camera, const CountObservation& read, const Vector3d& x) {
   const Vector3d to_camera = camera.centre_in_world() - x;
   const double distance = to_camera.norm(), depth = (camera.cam_from_world * x).z();
   return {.to_camera = to_camera / distance,
-          .light = strength(camera, read, x) * distance * distance * distance /
+          .light = strength_of(camera, read, x) * distance * distance * distance /
                    (depth * camera.detector.light_counts)};
 }
 
@@ -300,13 +294,18 @@ std::optional<camera::Light> by_misfit(const data::Rig& rig, const data::Rig& li
   return camera::Light{.value = stray + said.step, .sd = said.sd};
 }
 
+/// Points where the rig, as it is lit, has them.
+void locate_again(const data::Rig& lit, std::vector<Frame>& frames) {
+  for (auto& frame : frames)
+    if (const auto found = locate(lit, frame.read, frame.x)) frame.x = found->x_in_world;
+}
+
 /// How far the light by the strengths lies off where the stray light is another by its SD.
 double error_by_share(const data::Rig& rig, double stray, double light, const std::vector<Frame>& frames) {
   const double share = camera::stray_light(rig.cameras.front().detector).share_sd;
   const auto lit = camera::with_light(rig, {.value = 1.0 + (stray - 1.0) * (1.0 + share)});
   auto moved = frames;
-  for (auto& frame : moved)
-    if (const auto found = locate(lit, frame.read, frame.x)) frame.x = found->x_in_world;
+  locate_again(lit, moved);
   const auto seen = by_strengths(lit, moved);
   return seen ? std::abs(with_prior(seen->light).value - light) : 0.0;
 }
@@ -318,8 +317,7 @@ void find_light(const data::Rig& rig, std::vector<Frame>& frames, LedLight& out)
   camera::Light light, stray;
   for (int round = 0; round < kRounds; ++round) {
     const auto lit = camera::with_light(rig, {.value = stray.value});
-    for (auto& frame : frames)
-      if (const auto found = locate(lit, frame.read, frame.x)) frame.x = found->x_in_world;
+    locate_again(lit, frames);
     const auto room = knows_room ? by_misfit(rig, lit, stray.value, frames) : std::nullopt;
     const auto seen = knows_strength ? by_strengths(lit, frames) : std::nullopt;
     if (!seen && !room) return;
@@ -360,7 +358,7 @@ std::vector<LedLight> find_lights(const data::Counts& counts, const data::Rig& r
     for (const auto& frame : frames)
       for (const auto& read : frame.read) {
         const auto& camera = lit.cameras[at(read.camera)];
-        strengths[at(read.camera)].push_back(strength(camera, read, frame.x));
+        strengths[at(read.camera)].push_back(strength_of(camera, read, frame.x));
         found.seen[at(frame.index * counts.camera_count() + read.camera)] =
             sight(camera, read, frame.x).light;
       }

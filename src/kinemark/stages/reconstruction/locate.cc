@@ -44,6 +44,13 @@ Normal linearize(const data::Rig& rig, std::span<const CountObservation> observa
 
 }  // namespace
 
+double strength_of(const data::Camera& camera, const CountObservation& read,
+                   const Eigen::Vector3d& x_in_world) {
+  return math::eliminate_scale(read.keep.cwiseProduct(read.counts - camera.detector.offset_counts),
+                               read.keep.cwiseProduct(camera::respond(camera, x_in_world).phi))
+      .scale;
+}
+
 std::optional<Located> locate(const data::Rig& rig, std::span<const CountObservation> observations,
                               const Eigen::Vector3d& start) {
   constexpr int kSteps = 30;

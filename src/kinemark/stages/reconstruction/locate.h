@@ -20,6 +20,10 @@ struct CountObservation {
   Eigen::Vector4d keep = Eigen::Vector4d::Ones();
 };
 
+/// Counts that the light of a point at `x_in_world` makes in all channels together, by those that are kept.
+[[nodiscard]] double strength_of(const data::Camera& camera, const CountObservation& read,
+                                 const Eigen::Vector3d& x_in_world);
+
 /// A point and its uncertainty.
 struct Located {
   Eigen::Vector3d x_in_world;   ///< m

@@ -18,9 +18,8 @@
 #include "kinemark/camera/response.h"
 #include "kinemark/camera/usable.h"
 #include "kinemark/core/parallel.h"
-#include "kinemark/data/calibration_error.h"
-#include "kinemark/math/scale_free.h"
 #include "kinemark/math/symmetric3.h"
+#include "kinemark/stages/reconstruction/calibration_fields.h"
 #include "kinemark/stages/reconstruction/grid_lookup.h"
 #include "kinemark/stages/reconstruction/light.h"
 #include "kinemark/stages/reconstruction/locate.h"
@@ -156,14 +155,12 @@ Eigen::Vector3d velocity_of(const data::Trajectories& points, std::int64_t f, st
 
 /// Counts as they would be if the point had stood still where it is: conversions of a frame follow each
 /// other.
-Eigen::Vector4d at_one_time(const data::Camera& camera, const Eigen::Vector4d& read,
-                            const Eigen::Vector4d& keep, const Eigen::Vector3d& x,
-                            const Eigen::Vector3d& velocity, const Eigen::Vector4d& dt) {
-  const auto response = camera::respond(camera, x);
-  const double light = math::eliminate_scale(keep.cwiseProduct(read - camera.detector.offset_counts),
-                                             keep.cwiseProduct(response.phi))
-                           .scale;
-  return read - light * dt.cwiseProduct(response.d_point * velocity);
+/// @param late_s  of each conversion, behind the time of the point
+Eigen::Vector4d at_one_time(const data::Camera& camera, const CountObservation& read,
+                            const Eigen::Vector3d& x, const Eigen::Vector3d& velocity,
+                            const Eigen::Vector4d& late_s) {
+  return read.counts -
+         strength_of(camera, read, x) * late_s.cwiseProduct(camera::respond(camera, x).d_point * velocity);
 }
 
 /// Points of all LEDs, by the rig that each shows.
@@ -185,15 +182,14 @@ void locate_all(const data::Counts& counts, const ReconstructOptions& options,
             r.points.sample_offset_s[static_cast<std::size_t>(led)] + rig.electronics.time_constant_s;
         for (std::int64_t c = 0; c < counts.camera_count(); ++c) {
           if (r.used[counts.index(f, led, c)] == 0) continue;
-          const Eigen::Vector4d read = counts.at(f, led, c),
-                                keep = camera::kept_channels(read, counts.highest_code);
-          const auto moved =
-              velocity.isZero(0.0)
-                  ? read
-                  : at_one_time(rig.cameras[static_cast<std::size_t>(c)], read, keep, before->x(f, led),
-                                velocity, (counts.offset_s(led, c).array() - middle_s).matrix());
-          observations.push_back({static_cast<int>(c), moved,
-                                  camera::conversion_variance(rig.electronics, read.mean()) + flicker, keep});
+          const Eigen::Vector4d read = counts.at(f, led, c);
+          CountObservation one{static_cast<int>(c), read,
+                               camera::conversion_variance(rig.electronics, read.mean()) + flicker,
+                               camera::kept_channels(read, counts.highest_code)};
+          if (!velocity.isZero(0.0))
+            one.counts = at_one_time(rig.cameras[static_cast<std::size_t>(c)], one, before->x(f, led),
+                                     velocity, (counts.offset_s(led, c).array() - middle_s).matrix());
+          observations.push_back(one);
         }
         auto& from = start[static_cast<std::size_t>(led)];
         auto located = locate(rig, observations, from);
@@ -288,7 +284,7 @@ data::CalibrationError calibration_error(const data::Counts& counts, const data:
     if (other != nullptr) by_draw.block<3, 1>(3 * count, root.cols()) = other->x(f, led) - points.x(f, led);
     where.row(count++) = points.x(f, led).transpose();
   }
-  return data::fit_calibration_error(where.topRows(count), by_draw.topRows(3 * count));
+  return fit_calibration_error(where.topRows(count), by_draw.topRows(3 * count));
 }
 
 Result<Reconstruction> reconstruct_classic(const data::Counts& counts, const data::Rig& rig,

@@ -214,22 +214,30 @@ SeriesMatrix smoothed(const Recording& recording, double factor) {
 }
 
 Eigen::MatrixXd noise_shape(const Recording& recording, const SeriesMatrix& smooth) {
-  // Twice the logarithm of the likelihood that unequal axes add: of white noise alike along three axes it is
-  // above this in one of 70,000 recordings (5 degrees of freedom).
+  // Twice the logarithm of the likelihood that unequal axes add: of noise alike along three axes it is above
+  // this in one of 70,000 recordings (5 degrees of freedom).
   constexpr double kUnequal = 30.0;
+  constexpr std::int64_t kLags = 50;
   const Eigen::Index axes = recording.x.cols();
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(axes, axes);
+  SeriesMatrix left = recording.x - smooth;
   double count = 0.0;
-  for (std::int64_t i = 0; i < recording.x.rows(); ++i) {
-    if (!recording.seen[at(i)]) continue;
-    const Eigen::RowVectorXd left = recording.x.row(i) - smooth.row(i);
-    squares += left.transpose() * left;
-    count += 1.0;
+  for (std::int64_t i = 0; i < left.rows(); ++i) {
+    if (!recording.seen[at(i)]) left.row(i).setZero();
+    squares += left.row(i).transpose() * left.row(i);
+    count += recording.seen[at(i)] ? 1.0 : 0.0;
   }
-  const double mean = squares.trace() / static_cast<double>(axes);
+  const double all = squares.trace(), mean = all / static_cast<double>(axes);
   if (!(mean > 0.0)) return {};
+  // As many samples as white noise would need to know its covariance as well (Bartlett 1946).
+  double alike = 1.0;
+  for (std::int64_t lag = 1; lag <= std::min<std::int64_t>(kLags, left.rows() - 1); ++lag) {
+    const double together =
+        left.topRows(left.rows() - lag).cwiseProduct(left.bottomRows(left.rows() - lag)).sum() / all;
+    alike += 2.0 * together * together;
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shape(squares / mean);
-  const double unequal = -count * shape.eigenvalues().cwiseMax(1e-12).array().log().sum();
+  const double unequal = -count / alike * shape.eigenvalues().cwiseMax(1e-12).array().log().sum();
   return unequal > kUnequal ? Eigen::MatrixXd(shape.operatorSqrt()) : Eigen::MatrixXd();
 }
 
