@@ -3,15 +3,14 @@
 #include "studies/poizner/wheel_measures.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include "kinemark/core/check.h"
 #include "kinemark/math/statistics.h"
+#include "kinemark/stages/analysis/path/shape.h"
+#include "kinemark/stages/analysis/path/turning.h"
 
 namespace kinemark::studies {
 
@@ -43,24 +42,17 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
   out.sd_m = std::sqrt(squares / static_cast<double>(n - 1));
   out.median_error_m = math::median(diameters) - true_diameter_m;
 
-  double longest = 0.0, shortest = std::numeric_limits<double>::infinity();
-  for (int degree = 0; degree < 180; ++degree) {
-    const double angle = std::numbers::pi * degree / 180.0;
-    const Eigen::RowVectorXd along = Eigen::RowVector2d(std::cos(angle), std::sin(angle)) * view.in_plane;
-    const double extent = along.maxCoeff() - along.minCoeff();
-    longest = std::max(longest, extent);
-    shortest = std::min(shortest, extent);
-  }
-  out.axes_ratio = longest / shortest;
   out.plane_sd_m = std::sqrt(view.across.squaredNorm() / static_cast<double>(n - 3));
-
-  // Circle of least squares: |p|^2 = 2 c . p + (r^2 - |c|^2).
-  Eigen::MatrixX3d a(n, 3);
-  a.leftCols<2>() = 2.0 * view.in_plane.transpose();
-  a.col(2).setOnes();
-  const Eigen::Vector3d circle =
-      a.colPivHouseholderQr().solve(view.in_plane.colwise().squaredNorm().transpose());
-  out.circle_error_m = 2.0 * std::sqrt(circle[2] + circle.head<2>().squaredNorm()) - true_diameter_m;
+  const analysis::PathMatrix x = points.transpose();
+  const analysis::PathMatrix along = analysis::along_axes(x, analysis::principal_axes(x));
+  const auto turning = analysis::turning_of(x);
+  const auto ellipse = analysis::ellipse_axes(along);
+  out.turns = turning.turns;
+  out.spread_ratio = analysis::spread_ratio(x, analysis::whole_turns_end(x, turning));
+  out.spread_of_all = analysis::spread_ratio(x, static_cast<double>(n - 1));
+  out.width_ratio = analysis::width_ratio(along);
+  out.ellipse_ratio = ellipse.major / ellipse.minor;
+  out.circle_error_m = analysis::circle_diameter(along) - true_diameter_m;
   return out;
 }
 

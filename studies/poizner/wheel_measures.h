@@ -11,9 +11,13 @@ struct WheelMeasures {
   double median_error_m = 0.0;  ///< of the diameters, against the true one
   double sd_m = 0.0;            ///< of the diameters
   double max_error_m = 0.0;     ///< largest, unsigned
-  double axes_ratio = 1.0;      ///< longest over shortest extent in the best-fit plane
+  double spread_ratio = 1.0;    ///< of the axes, by the spread about their mean over whole turns
+  double spread_of_all = 1.0;   ///< the same over all samples, whole turns or not
+  double width_ratio = 1.0;     ///< of the axes, largest over least width in the best-fit plane
+  double ellipse_ratio = 1.0;   ///< of the axes of the fitted ellipse
+  double turns = 0.0;           ///< of the wheel
   double plane_sd_m = 0.0;      ///< across that plane
-  double circle_error_m = 0.0;  ///< diameter of the circle of least squares, against the true one
+  double circle_error_m = 0.0;  ///< diameter of the circle of least squared distances, against the true one
 };
 
 /// Points of a circle in its best-fit plane: columns, m.
@@ -26,7 +30,8 @@ struct PlaneView {
 
 [[nodiscard]] PlaneView best_fit_plane(const Eigen::Matrix3Xd& points);
 
-/// Each point's diameter is its distance to the farthest other point. At least four points. O(points^2).
+/// Each point's diameter is its distance to the farthest other point. Plane, axes and circle are those that
+/// `kinemark measure` takes. At least four points. O(points^2).
 [[nodiscard]] WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter_m);
 
 }  // namespace kinemark::studies

@@ -34,11 +34,15 @@ TEST(WheelMeasures, PerfectCircleHasNoError) {
   EXPECT_NEAR(m.max_error_m, 0.0, 1e-12);
   EXPECT_NEAR(m.plane_sd_m, 0.0, 1e-12);
   EXPECT_NEAR(m.circle_error_m, 0.0, 1e-12);
-  EXPECT_NEAR(m.axes_ratio, 1.0, 2e-4);  // 220 points have corners
+  EXPECT_NEAR(m.width_ratio, 1.0, 2e-4);  // 220 points have corners
+  EXPECT_NEAR(m.ellipse_ratio, 1.0, 1e-6);
 }
 
 TEST(WheelMeasures, EllipseShowsInTheRatio) {
-  EXPECT_NEAR(measure_wheel(ellipse(0.40, 0.38, 360), 0.392).axes_ratio, 0.40 / 0.38, 1e-4);
+  const auto m = measure_wheel(ellipse(0.40, 0.38, 360), 0.392);
+  EXPECT_NEAR(m.width_ratio, 0.40 / 0.38, 1e-4);
+  EXPECT_NEAR(m.ellipse_ratio, 0.40 / 0.38, 1e-6);
+  EXPECT_NEAR(m.spread_of_all, 0.40 / 0.38, 1e-4);
 }
 
 TEST(WheelMeasures, OnePointOffTheWheelIsTheLargestError) {
@@ -48,7 +52,7 @@ TEST(WheelMeasures, OnePointOffTheWheelIsTheLargestError) {
   const auto m = measure_wheel(points, 0.392);
   EXPECT_NEAR(m.max_error_m, 0.010, 1e-4);
   EXPECT_NEAR(m.median_error_m, 0.0, 1e-4);
-  EXPECT_NEAR(m.axes_ratio, 0.402 / 0.392, 1e-3);
+  EXPECT_NEAR(m.width_ratio, 0.402 / 0.392, 1e-3);
 }
 
 TEST(WheelMeasures, ScatterAcrossThePlane) {

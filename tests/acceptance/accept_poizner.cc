@@ -60,7 +60,7 @@ std::vector<Anchor> anchors() {
   out.push_back({"wheel with glint, largest error, not filtered, mm", 9.6,
                  [](auto& s) { return 1e3 * s.wheels[2].classic_raw.max_error_m; }});
   out.push_back({"wheel with glint, ratio of axes less 1, not filtered, %", 2.7,
-                 [](auto& s) { return 100.0 * (s.wheels[2].classic_raw.axes_ratio - 1.0); }});
+                 [](auto& s) { return 100.0 * (s.wheels[2].classic_raw.width_ratio - 1.0); }});
   constexpr std::array<std::array<double, 3>, 4> kArm{
       {{1.4, 28.2, 1.88}, {1.9, 34.8, 1.84}, {3.2, 51.9, 1.85}, {4.4, 65.9, 2.05}}};
   for (std::size_t led = 0; led < 4; ++led) {

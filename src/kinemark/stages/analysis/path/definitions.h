@@ -14,16 +14,17 @@
 namespace kinemark::analysis {
 
 /// Of which movements a measure is told unless it is asked for by name.
-enum class Applies : std::uint8_t { always, periodic, closed, discrete };
+enum class Applies : std::uint8_t { always, periodic, closed, round, whole, discrete };
 
 /// How value and interval follow from refits of simulated noise (docs/theory/measures.md).
 enum class Pivot : std::uint8_t {
   plain,          ///< both from 1.5 times the cut-off of least error
   of_derivative,  ///< the value likewise, the interval from 2.5 times: third derivatives, curvature, torsion
   squared,        ///< on the squares of the values, which noise raises by a constant: thickness
-  inverse_squared,  ///< on 1 over the squares: ratios whose divisor may be nothing but noise
-  raw_squared,      ///< on the squares, from unsmoothed samples: what is in a band of frequencies
-  whole_number,     ///< counts: rounded
+  of_ratio,       ///< of the larger to the smaller, on the square of 1 - 1 / ratio^2, to which noise adds a
+                  ///< constant where both are alike and where the divisor is nothing but noise
+  raw_squared,    ///< on the squares, from unsmoothed samples: what is in a band of frequencies
+  whole_number,   ///< counts: rounded
 };
 
 /// What keeps an interval from being two-sided and sure.

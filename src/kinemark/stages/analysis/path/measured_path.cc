@@ -49,6 +49,10 @@ bool is_asked(const PathDefinition& definition, const PathMeasureOptions& option
       return frame.periodic;
     case Applies::closed:
       return frame.closed;
+    case Applies::round:
+      return frame.closed || frame.round;
+    case Applies::whole:
+      return frame.whole;
     case Applies::discrete:
       return frame.discrete;
   }

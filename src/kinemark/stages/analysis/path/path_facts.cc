@@ -15,6 +15,7 @@ namespace {
 constexpr double kAround_s = 0.05;       // kept before onset and behind the end
 constexpr double kRegularCycles = 0.25;  // largest SD of cycles over their mean
 constexpr std::int64_t kLeastCycles = 2;
+constexpr double kLeastTurns = 0.6;  // of an arc: a shorter one says little of its ellipse
 constexpr double kComesBack = 0.25;  // largest way of a cycle's trend over the extent without it
 
 // The samples from onset to end and those around them; all where there is no onset or end.
@@ -75,11 +76,16 @@ PathFrame recognise(const PathSamples& path) {
   // A sample's tolerance, so that a rest of just that length counts.
   const double hold_s = kMovingHold_s - 1.0 / path.rate_hz;
   out.discrete = window.onset_s >= hold_s && last_s - window.end_s >= hold_s;
-  if (out.discrete) return out;
-  const auto cycles = cycles_along(path.x, out.cycle_axis, path.rate_hz);
-  out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s &&
-                 likeness_after(path.v, path.rate_hz, cycles.mean_s) >= kPeriodicLikeness;
-  out.closed = out.periodic && drift_of(path, cycles.mean_s) < kComesBack;
+  if (!out.discrete) {
+    const auto cycles = cycles_along(path.x, out.cycle_axis, path.rate_hz);
+    out.periodic = cycles.count >= kLeastCycles && cycles.sd_s < kRegularCycles * cycles.mean_s &&
+                   likeness_after(path.v, path.rate_hz, cycles.mean_s) >= kPeriodicLikeness;
+    out.closed = out.periodic && drift_of(path, cycles.mean_s) < kComesBack;
+  }
+  out.turning = turning_of(path.x);
+  out.round =
+      out.turning.one_way && out.turning.turns >= kLeastTurns && (out.closed || out.turning.on_an_ellipse);
+  out.whole = out.closed || (out.round && out.turning.turns >= 1.0);
   return out;
 }
 
@@ -110,9 +116,14 @@ const Cycles& PathFacts::cycles() const {
   return once(cycles_, [this] { return cycles_along(path.x, frame.cycle_axis, path.rate_hz); });
 }
 const EllipseAxes& PathFacts::ellipse() const {
-  return once(ellipse_, [this] {
-    return frame.closed ? ellipse_axes(along()) : EllipseAxes{.major = kNaN, .minor = kNaN};
-  });
+  return once(ellipse_,
+              [this] { return frame.closed || frame.round ? ellipse_axes(along()) : EllipseAxes{}; });
+}
+double PathFacts::whole_end() const {
+  if (frame.round) return whole_turns_end(path.x, frame.turning);
+  const double last = static_cast<double>(path.count() - 1);
+  if (!frame.closed) return last;
+  return std::min(last, static_cast<double>(cycles().count) * cycles().mean_s * path.rate_hz);
 }
 const Diameters& PathFacts::distances() const {
   return once(distances_, [this] { return diameters(path.x); });

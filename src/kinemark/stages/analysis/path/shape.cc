@@ -246,6 +246,23 @@ PathMatrix along_axes(const PathMatrix& x, const PrincipalAxes& axes) {
   return (x.rowwise() - axes.mean) * axes.axes;
 }
 
+double spread_ratio(const PathMatrix& x, double end) {
+  if (!(end >= 1.0)) return kNaN;
+  const auto last = std::min(static_cast<Eigen::Index>(end), x.rows() - 2);
+  if (last < 1) return kNaN;
+  const double part = end - static_cast<double>(last);
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(last + 2);
+  weight[0] = 0.5;
+  weight[last] = 0.5 + part * (1.0 - 0.5 * part), weight[last + 1] = 0.5 * part * part;
+  weight /= weight.sum();
+  const PathMatrix part_of = x.topRows(last + 2);
+  const PathMatrix centred = part_of.rowwise() - weight.transpose() * part_of;
+  const Eigen::Matrix3d covariance = centred.transpose() * weight.asDiagonal() * centred;
+  const Eigen::Vector3d variance =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  return std::sqrt(variance[2] / std::max(0.0, variance[1]));
+}
+
 Diameters diameters(const PathMatrix& x) {
   const std::int64_t step = std::max<std::int64_t>(1, (x.rows() + kDistances - 1) / kDistances);
   const std::int64_t count = (x.rows() + step - 1) / step;
@@ -286,7 +303,7 @@ double circle_diameter(const PathMatrix& in_plane) {
 }
 
 EllipseAxes ellipse_axes(const PathMatrix& in_plane) {
-  const EllipseAxes none{.major = kNaN, .minor = kNaN};
+  const EllipseAxes none;
   const std::int64_t n = in_plane.rows();
   if (n < 6) return none;
   const PlanePoints all(in_plane);
@@ -313,7 +330,9 @@ EllipseAxes ellipse_axes(const PathMatrix& in_plane) {
     const Eigen::Array2d axes = (level / values.array());
     if (!(axes > 0.0).all()) continue;
     return {.major = 2.0 * scale * std::sqrt(axes.maxCoeff()),
-            .minor = 2.0 * scale * std::sqrt(axes.minCoeff())};
+            .minor = 2.0 * scale * std::sqrt(axes.minCoeff()),
+            .centre = in_plane.leftCols<2>().colwise().mean().transpose() + scale * centre,
+            .form = form / (level * scale * scale)};
   }
   return none;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/stages/analysis/path/path_samples.h"
 
 namespace kinemark::analysis {
@@ -47,11 +48,24 @@ struct Diameters {
 
 /// Axes of the ellipse fitted to the first two columns by direct least squares (Halir & Flusser 1998), m.
 struct EllipseAxes {
-  double major = 0.0;  ///< whole length of the longer axis
-  double minor = 0.0;  ///< of the shorter one
+  double major = kNaN;  ///< whole length of the longer axis
+  double minor = kNaN;  ///< of the shorter one
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d form = Eigen::Matrix2d::Zero();  ///< (p - centre)' form (p - centre) = 1 on the ellipse
 };
-/// NaN where no ellipse fits.
+/// Lengths of NaN where no ellipse fits.
 [[nodiscard]] EllipseAxes ellipse_axes(const PathMatrix& in_plane);
+
+/// Ratio of the axes of a path that goes around, by what is spread about its mean: root of the ratio of the
+/// two larger eigenvalues of the covariance, over the time from the first sample to `end` (trapezoids). Of a
+/// circle it is 1 over whole turns alone; over T turns it is near 1 + |sin 2 pi T| / (2 pi T).
+/// @param end  sample, between two, n - 1 at most
+[[nodiscard]] double spread_ratio(const PathMatrix& x, double end);
+
+/// Largest over least width of the first two columns, over all directions of their plane: the ratio of the
+/// axes of a path that goes around once or more. Of long paths every k-th sample, 4096 at most. NaN of less
+/// than three samples or no width.
+[[nodiscard]] double width_ratio(const PathMatrix& in_plane);
 
 /// Sides of the smallest box around all samples, descending, m.
 ///

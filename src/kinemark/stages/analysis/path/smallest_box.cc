@@ -298,6 +298,28 @@ PathMatrix outermost(const PathMatrix& points, const PathMatrix& x,
 
 }  // namespace
 
+double width_ratio(const PathMatrix& in_plane) {
+  constexpr Eigen::Index kWidths = 4096;
+  const Eigen::Index n = in_plane.rows(), step = std::max<Eigen::Index>(1, (n + kWidths - 1) / kWidths);
+  Points points;
+  for (Eigen::Index i = 0; i < n; i += step) points.emplace_back(in_plane(i, 0), in_plane(i, 1));
+  if (points.size() < 3) return kNaN;
+  const Points hull = hull_of(std::move(points));
+  if (hull.size() < 3) return kNaN;
+  // The least width lies across an edge, the largest between two corners: of each edge the corner farthest
+  // from it, which goes around as the edge does (Shamos 1978).
+  double least = INFINITY, largest = 0.0;
+  std::size_t across = 1;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const auto &from = hull[i], &to = hull[(i + 1) % hull.size()];
+    const auto next = [&hull](std::size_t k) { return (k + 1) % hull.size(); };
+    while (turn(from, to, hull[next(across)]) > turn(from, to, hull[across])) across = next(across);
+    least = std::min(least, turn(from, to, hull[across]) / (to - from).norm());
+    largest = std::max({largest, (hull[across] - from).norm(), (hull[across] - to).norm()});
+  }
+  return largest / least;
+}
+
 OuterSamples outer_samples(const PathMatrix& x) {
   OuterSamples out;
   const std::int64_t n = x.rows();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kinemark/stages/analysis/path/internal/refit_values.h"
 #include "kinemark/stages/analysis/path/pivot.h"
 #include "kinemark/stages/analysis/path/refits.h"
 
@@ -38,9 +39,13 @@ void only_at_least(data::Measure& measure, std::string_view why) {
   remark(measure, why);
 }
 
-// What a value and its ends say of 1 over it; an end at 0 leaves none.
-Pivoted of_inverse(const Pivoted& p) {
-  return {.value = 1.0 / p.value, .sd = p.sd / (p.value * p.value), .low = 1.0 / p.high, .high = 1.0 / p.low};
+// The ratio of an unlikeness and its ends; from 1 on there is none.
+Pivoted ratio_of(const Pivoted& p) {
+  const auto ratio = [](double unlike) { return unlike < 1.0 ? 1.0 / std::sqrt(1.0 - unlike) : INFINITY; };
+  return {.value = ratio(p.value),
+          .sd = 0.5 * p.sd / std::pow(1.0 - p.value, 1.5),
+          .low = ratio(p.low),
+          .high = ratio(p.high)};
 }
 
 std::string method_of(const PathDefinition& definition, const StretchSummary& stretch) {
@@ -131,8 +136,10 @@ void put_interval(data::Measure& measure, const PathDefinition& definition, cons
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
   if (square && pivoted.low <= 0.0)
     only_at_most(measure, "not distinguishable from 0");
-  else if (definition.pivot == Pivot::inverse_squared && std::isinf(pivoted.high))
+  else if (definition.pivot == Pivot::of_ratio && std::isinf(pivoted.high))
     only_at_least(measure, "what it is divided by is not distinguishable from 0");
+  else if (definition.pivot == Pivot::of_ratio && pivoted.low <= 1.0)
+    only_at_most(measure, "not distinguishable from 1");
   else if (definition.weakness == Weakness::lengthened_at_rest && frame.share_at_rest > kRestCounts)
     only_at_most(measure, fmt::format("{:.0f} % of the span are at rest, where noise can only lengthen",
                                       100.0 * frame.share_at_rest));
@@ -179,11 +186,11 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   out.method = method_of(definition, stretch);
   out.interval.level = stretch.level;
   const bool square = definition.pivot == Pivot::squared || definition.pivot == Pivot::raw_squared;
-  auto pivoted =
-      definition.pivot == Pivot::inverse_squared
-          ? of_inverse(wide_pivot_of_square(1.0 / numbers.estimate, numbers.deviations, stretch.level))
-      : square ? wide_pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
-               : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
+  auto pivoted = definition.pivot == Pivot::of_ratio
+                     ? ratio_of(wide_pivot_of_square(internal::unlikeness(numbers.estimate),
+                                                     numbers.deviations, stretch.level))
+                 : square ? wide_pivot_of_square(numbers.estimate, numbers.deviations, stretch.level)
+                          : wide_pivot(numbers.estimate, numbers.deviations, stretch.level);
   if (std::isinf(pivoted.value)) pivoted.value = numbers.estimate;
   // Thinning leaves next to no bias: what the refits find of it is as uncertain as it is large.
   if (numbers.thinned) pivoted.value = 0.5 * (pivoted.value + numbers.estimate);
@@ -195,8 +202,10 @@ data::Measure state_measure(const PathDefinition& definition, const StretchSumma
   if (!std::isfinite(numbers.estimate)) {
     remark(out, definition.applies == Applies::discrete   ? "the span does not begin and end at rest"
                 : definition.applies == Applies::periodic ? "the movement does not repeat"
-                : definition.applies == Applies::closed   ? "the movement does not come back to where it was"
-                                                          : "too little movement");
+                : definition.applies == Applies::round    ? "the movement does not go around"
+                : definition.applies == Applies::closed || definition.applies == Applies::whole
+                    ? "the movement does not come back to where it was"
+                    : "too little movement");
     return out;
   }
   out.uncorrected = numbers.estimate;

@@ -60,20 +60,38 @@ TEST_F(StatedMeasure, HasTheBiasTakenOffAndATwoSidedInterval) {
 }
 
 TEST_F(StatedMeasure, RatiosOfWhatMayBeNothingHaveNoUpperEnd) {
-  // Deviations are of 1 over the square: 0.25 for a ratio of 2.
+  // Deviations are of the square of 1 - 1 over the square of the ratio: 0.5625 for a ratio of 2.
+  const auto ratio = [](double square) { return 1.0 / std::sqrt(1.0 - std::sqrt(square)); };
   const auto known = tell("plane_axes_ratio", 2.0, 0.01, 0.05);
-  EXPECT_NEAR(known.value, 1.0 / std::sqrt(0.24), 1e-12);
+  EXPECT_NEAR(known.value, ratio(0.5525), 1e-12);
   EXPECT_EQ(known.interval.kind, data::IntervalKind::two_sided);
-  EXPECT_NEAR(known.interval.low, 1.0 / std::sqrt(0.3085), 0.005);  // the wider of both ends
-  EXPECT_NEAR(known.interval.high, 1.0 / std::sqrt(0.19), 0.02);
+  EXPECT_NEAR(known.interval.low, ratio(0.5025), 0.01);  // the wider of both ends
+  EXPECT_NEAR(known.interval.high, ratio(0.6225), 0.02);
   EXPECT_FALSE(says(known, "what it is divided by is not distinguishable from 0"));
-  for (const double bias : {0.01, 0.3}) {  // with what is left of the divisor, and with nothing
-    const auto line = tell("plane_axes_ratio", 2.0, bias, 0.3);
+  EXPECT_FALSE(says(known, "not distinguishable from 1"));
+  for (const double bias : {-0.01, -0.6}) {  // with what is left of the divisor, and with nothing
+    const auto line = tell("plane_axes_ratio", 2.0, bias, 0.5);
     EXPECT_EQ(line.interval.kind, data::IntervalKind::at_least);
     EXPECT_LT(line.interval.low, 2.0);
     EXPECT_TRUE(std::isfinite(line.value));
     EXPECT_TRUE(says(line, "what it is divided by is not distinguishable from 0"));
   }
+}
+
+TEST_F(StatedMeasure, RatiosOfWhatMayBeAlikeAreAtMost) {
+  const auto circle = tell("ellipse_ratio", 1.005, 1e-4, 2e-4);  // 1e-4 for 1.005
+  EXPECT_EQ(circle.interval.kind, data::IntervalKind::at_most);
+  EXPECT_GE(circle.value, 1.0);
+  EXPECT_LT(circle.value, 1.003);
+  EXPECT_GT(circle.interval.high, 1.005);
+  EXPECT_TRUE(says(circle, "not distinguishable from 1"));
+}
+
+TEST_F(StatedMeasure, WhatDoesNotGoAroundHasNoEllipse) {
+  EXPECT_TRUE(says(tell("ellipse_ratio", kNaN, 0.0, 0.1), "the movement does not go around"));
+  EXPECT_FALSE(says(tell("ellipse_ratio", 1.2, 0.0, 0.01), "the movement does not go around"));
+  EXPECT_TRUE(
+      says(tell("plane_axes_ratio", kNaN, 0.0, 0.1), "the movement does not come back to where it was"));
 }
 
 TEST_F(StatedMeasure, DeviationsAreNotBelowNone) {

@@ -12,11 +12,14 @@
 
 namespace kinemark::analysis::internal {
 
-/// A value on the scale on which its deviations are taken: itself, its square, or 1 over that.
+/// What is taken of a ratio of the larger to the smaller: 0 where they are alike, 1 where the smaller is
+/// nothing.
+[[nodiscard]] inline double unlikeness(double ratio) { return 1.0 - 1.0 / (ratio * ratio); }
+
+/// A value on the scale on which its deviations are taken: itself, its square, or that of the unlikeness.
 [[nodiscard]] inline double on_scale(Pivot pivot, double value) {
-  return pivot == Pivot::squared           ? value * value
-         : pivot == Pivot::inverse_squared ? 1.0 / (value * value)
-                                           : value;
+  if (pivot == Pivot::of_ratio) value = unlikeness(value);
+  return pivot == Pivot::squared || pivot == Pivot::of_ratio ? value * value : value;
 }
 
 /// One value for each definition, NaN where a measure is not taken of such a path.
