@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 
+#include "kinemark/camera/light.h"
 #include "kinemark/math/rotation_fit.h"
 #include "kinemark/stages/calibration/grid_lut.h"
 #include "kinemark/stages/calibration/still_poses.h"
@@ -69,34 +70,41 @@ Result<CalibratedRig> calibrate_rig(std::uint64_t seed, CalibratedRigOptions opt
   options.rig.seed = seed;
   auto physical = simulation::draw_rig(options.rig);
   if (!physical) return std::unexpected(physical.error());
-  const auto grid = simulation::record_grid(*physical);
+  return calibrate_rig(std::move(*physical), options);
+}
+
+Result<CalibratedRig> calibrate_rig(simulation::PhysicalRig physical, const CalibratedRigOptions& options) {
+  const auto grid = simulation::record_grid(physical, options.grid);
   if (!grid) return std::unexpected(grid.error());
   simulation::TreePosesOptions poses;
   poses.poses = options.tree_poses;
   poses.recording.intensity.assign(3, options.intensity);
-  const auto tree = simulation::record_tree_poses(*physical, poses);
+  const auto tree = simulation::record_tree_poses(physical, poses);
   if (!tree) return std::unexpected(tree.error());
 
   std::vector<calibration::GridObservations> grids;
-  for (int c = 0; c < physical->nominal.camera_count(); ++c) {
-    auto seen = calibration::grid_observations(grid->counts[static_cast<std::size_t>(c)], physical->nominal,
-                                               c, {grid->nodes, grid->spacing_m, grid->distance_m});
+  for (int c = 0; c < physical.nominal.camera_count(); ++c) {
+    auto seen = calibration::grid_observations(grid->counts[static_cast<std::size_t>(c)], physical.nominal, c,
+                                               {grid->nodes, grid->spacing_m, grid->distance_m});
     if (!seen) return std::unexpected(seen.error());
     grids.push_back(std::move(*seen));
   }
-  auto classic = calibration::calibrate_grid_lut(physical->nominal, grids);
+  auto classic = calibration::calibrate_grid_lut(physical.nominal, grids);
   if (!classic) return std::unexpected(classic.error());
   const auto sides = simulation::tree_sides_m();
   auto shape = calibration::tree_from_sides({sides.begin(), sides.end()});
   if (!shape) return std::unexpected(shape.error());
-  const auto still = calibration::still_poses(tree->counts, physical->nominal, *shape, tree->frames_per_pose);
+  const auto still = calibration::still_poses(tree->counts, physical.nominal, *shape, tree->frames_per_pose);
   if (!still) return std::unexpected(still.error());
   if (!options.grid_in_bundle) grids.clear();
   const auto begin = std::chrono::steady_clock::now();
-  auto bundle = calibration::calibrate_bundle(*classic, *still, grids, options.bundle);
+  data::Rig start = *classic;
+  camera::begin_in_the_dark(tree->counts, start);
+  auto bundle = calibration::calibrate_bundle(start, *still, grids, options.bundle);
   if (!bundle) return std::unexpected(bundle.error());
+  camera::find_dark_counts(tree->counts, bundle->rig);
   CalibratedRig out{
-      .physical = std::move(*physical),
+      .physical = std::move(physical),
       .classic = std::move(*classic),
       .bundle = std::move(*bundle),
       .bundle_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),

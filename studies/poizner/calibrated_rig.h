@@ -16,6 +16,7 @@ namespace kinemark::studies {
 /// How a rig of the study is drawn and calibrated.
 struct CalibratedRigOptions {
   simulation::RigDrawOptions rig;
+  simulation::GridOptions grid;
   int tree_poses = 300;
   double intensity = 1.0;  ///< of the tree's LEDs; the grid's are always whole
   bool grid_in_bundle = true;
@@ -35,5 +36,8 @@ struct CalibratedRig {
 
 /// Draw rig `seed`, record grid and tree, calibrate.
 [[nodiscard]] Result<CalibratedRig> calibrate_rig(std::uint64_t seed, CalibratedRigOptions options = {});
+/// The same with a rig that is there.
+[[nodiscard]] Result<CalibratedRig> calibrate_rig(simulation::PhysicalRig physical,
+                                                  const CalibratedRigOptions& options = {});
 
 }  // namespace kinemark::studies

@@ -14,6 +14,7 @@
 #include "kinemark/stages/reconstruction/reconstruct.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
+#include "studies/poizner/still_cloud.h"
 
 namespace kinemark::studies {
 namespace {
@@ -21,34 +22,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::array<std::array<int, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
-
-/// Mean and scatter of each LED's points while nothing moved.
-struct Cloud {
-  std::vector<Vector3d> mean, variance;
-
-  explicit Cloud(const data::Trajectories& points) {
-    for (std::int64_t led = 0; led < points.markers(); ++led) {
-      Vector3d m = Vector3d::Zero(), v = Vector3d::Zero();
-      double n = 0.0;
-      for (std::int64_t f = 0; f < points.frames(); ++f)
-        if (points.present(f, led)) m += points.x(f, led), n += 1.0;
-      m /= std::max(n, 1.0);
-      for (std::int64_t f = 0; f < points.frames(); ++f)
-        if (points.present(f, led)) v += (points.x(f, led) - m).cwiseAbs2();
-      mean.push_back(m);
-      variance.push_back(v / std::max(n - 1.0, 1.0));
-    }
-  }
-};
-
 Matrix3d covariance_of(const data::Trajectories& points, std::int64_t f, std::int64_t led) {
   return math::unpack_symmetric3(points.covariance.data() + 6 * points.index(f, led));
 }
 
-double distance_error(const Cloud& cloud, std::size_t side) {
-  const auto a = static_cast<std::size_t>(kSides[side][0]), b = static_cast<std::size_t>(kSides[side][1]);
-  return (cloud.mean[a] - cloud.mean[b]).norm() - simulation::tree_sides_m()[side];
+double distance_error(const StillCloud& cloud, std::size_t side) {
+  return cloud.distance(kTreeSides[side]) - simulation::tree_sides_m()[side];
 }
 
 /// Whether an LED was located in every frame, and in none flagged at the edge of a detector.
@@ -60,7 +39,7 @@ bool in_the_field(const reconstruction::Reconstruction& seen, std::int64_t led) 
 
 /// Standard deviation of a distance between mean positions: the rig's covariance propagated to both ends, and
 /// the noise of `frames` frames.
-double predict(const data::Rig& rig, const data::Counts& counts, const Cloud& cloud,
+double predict(const data::Rig& rig, const data::Counts& counts, const StillCloud& cloud,
                const std::vector<Matrix3d>& frame_noise, const std::array<int, 2>& side) {
   const auto a = static_cast<std::size_t>(side[0]), b = static_cast<std::size_t>(side[1]);
   const Vector3d along = (cloud.mean[a] - cloud.mean[b]).normalized();
@@ -120,7 +99,7 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
     const auto bare = reconstruction::reconstruct(counts, rig.bundle.rig, noise_only);
     if (!bare) return std::unexpected(bare.error());
 
-    const Cloud classic_cloud(classic->points), our_cloud(ours->points);
+    const StillCloud classic_cloud(classic->points), our_cloud(ours->points);
     double classic_scatter = 0.0, our_scatter = 0.0, bound = 0.0;
     std::vector<Matrix3d> frame_noise;
     for (std::size_t led = 0; led < 3; ++led) {
@@ -159,12 +138,12 @@ Result<StillOutcome> study_still_tree(const CalibratedRig& rig, const StillStudy
     }
     out.classic.over_cramer_rao += std::sqrt(classic_scatter / bound) / static_cast<double>(poses.size());
     out.ours.over_cramer_rao += std::sqrt(our_scatter / bound) / static_cast<double>(poses.size());
-    for (std::size_t s = 0; s < kSides.size(); ++s) {
-      if (!in_the_field(*ours, kSides[s][0]) || !in_the_field(*ours, kSides[s][1])) {
+    for (std::size_t s = 0; s < kTreeSides.size(); ++s) {
+      if (!in_the_field(*ours, kTreeSides[s][0]) || !in_the_field(*ours, kTreeSides[s][1])) {
         ++out.distances_left_out;
         continue;
       }
-      const double sd = predict(rig.bundle.rig, counts, our_cloud, frame_noise, kSides[s]);
+      const double sd = predict(rig.bundle.rig, counts, our_cloud, frame_noise, kTreeSides[s]);
       const double error = distance_error(our_cloud, s);
       out.ours.distance_error_m.push_back(error);
       out.classic.distance_error_m.push_back(distance_error(classic_cloud, s));

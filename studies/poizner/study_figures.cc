@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kinemark/core/check.h"
+#include "kinemark/math/statistics.h"
 #include "studies/common/svg_plot.h"
 #include "studies/poizner/wheel_measures.h"
 
@@ -84,9 +85,49 @@ std::string hand_curve(const char* title, const char* y_label, const Matrix3Xd& 
   return plot.svg();
 }
 
+// Largest error of a distance by how far the tree stood from the middle, over all rigs.
+std::string errors_by_distance(const std::vector<AsBuiltOutcome>& rigs) {
+  constexpr double kStep_m = 0.1;
+  SvgPlot plot("Errors of the tree's distances over the room", "tree from the middle, mm",
+               "largest of three errors, mm");
+  const auto curve = [&](AsBuiltMeasures AsBuiltOutcome::* method, double share, const char* name,
+                         const char* colour) {
+    std::vector<double> at, value;
+    for (double from = 0.0; from < 0.7; from += kStep_m) {
+      std::vector<double> errors;
+      for (const auto& rig : rigs)
+        for (std::size_t k = 0; k < rig.from_middle_m.size(); ++k)
+          if (rig.from_middle_m[k] >= from && rig.from_middle_m[k] < from + kStep_m)
+            errors.push_back(1e3 * (rig.*method).worst_distance_m[k]);
+      std::erase_if(errors, [](double e) { return std::isnan(e); });
+      if (errors.empty()) continue;
+      at.push_back(1e3 * (from + 0.5 * kStep_m)), value.push_back(math::quantile(errors, share));
+    }
+    const auto n = static_cast<Eigen::Index>(at.size());
+    plot.line(name, colour, Eigen::Map<const VectorXd>(at.data(), n),
+              Eigen::Map<const VectorXd>(value.data(), n));
+  };
+  curve(&AsBuiltOutcome::classic, 0.5, "1986, median", kClassic);
+  curve(&AsBuiltOutcome::classic, 0.9, "1986, 90 %", "#a83232");
+  curve(&AsBuiltOutcome::ours, 0.5, "ours, median", kOurs);
+  return plot.svg();
+}
+
+StudyPage as_built_page(const PoiznerStudy& study) {
+  return {
+      .title = "Study: Poizner, Wooten and Salot 1986, as built",
+      .heading = "The rig of 1986 as it may have been built",
+      .description = fmt::format("{} {} with the faults that make the method of 1986 err as was reported.",
+                                 study.as_built.size(), study.as_built.size() == 1 ? "rig" : "rigs"),
+      .classic = "1986 method",
+      .figures = {{"Errors of the tree's distances over the room", errors_by_distance(study.as_built)}},
+      .table = study.table};
+}
+
 }  // namespace
 
 StudyPage study_page(const PoiznerStudy& study) {
+  if (!study.as_built.empty()) return as_built_page(study);
   check(!study.seeds.empty(), "the page shows the first seed");
   const PoiznerSeed& seed = study.seeds.front();
   const ArmOutcome& arm = seed.arm;

@@ -8,8 +8,8 @@
 namespace kinemark::studies {
 
 /// One self-contained page: the table, and for the first seed the wheel in its best-fit plane with its box,
-/// its displacement through time, the arm's four paths, speed and acceleration of the hand. The study needs
-/// one seed or more.
+/// its displacement through time, the arm's four paths, speed and acceleration of the hand; of rigs as built,
+/// errors of distances over the room. The study needs one seed or more.
 [[nodiscard]] StudyPage study_page(const PoiznerStudy& study);
 
 }  // namespace kinemark::studies

@@ -31,6 +31,21 @@ Result<PoiznerSeed> study_seed(std::uint64_t seed) {
   return out;
 }
 
+// What `make` makes of every seed, or the first error.
+template <class Outcome, class Make>
+Result<std::vector<Outcome>> of_each_seed(const PoiznerJob& job, const Progress& progress, const Make& make) {
+  std::vector<Result<Outcome>> outcomes(job.seeds.size());
+  auto status = run_each(static_cast<std::int64_t>(job.seeds.size()), job.threads, progress,
+                         [&](std::size_t i) { outcomes[i] = make(job.seeds[i]); });
+  if (!status) return std::unexpected(status.error());
+  std::vector<Outcome> out;
+  for (auto& outcome : outcomes) {
+    if (!outcome) return std::unexpected(outcome.error());
+    out.push_back(std::move(*outcome));
+  }
+  return out;
+}
+
 }  // namespace
 
 simulation::WheelOptions study_wheel_options(int wheel) {
@@ -48,16 +63,18 @@ std::string_view wheel_name(int wheel) {
 
 Result<PoiznerStudy> study_poizner(const PoiznerJob& job, const Progress& progress) {
   if (job.seeds.empty()) return fail(Code::usage, "the study needs one seed or more");
-  const auto count = static_cast<std::int64_t>(job.seeds.size());
-  std::vector<Result<PoiznerSeed>> outcomes(job.seeds.size());
-  auto status =
-      run_each(count, job.threads, progress, [&](std::size_t i) { outcomes[i] = study_seed(job.seeds[i]); });
-  if (!status) return std::unexpected(status.error());
   PoiznerStudy out;
-  for (auto& outcome : outcomes) {
-    if (!outcome) return std::unexpected(outcome.error());
-    out.seeds.push_back(std::move(*outcome));
+  if (job.as_built) {
+    auto rigs =
+        of_each_seed<AsBuiltOutcome>(job, progress, [](std::uint64_t seed) { return study_as_built(seed); });
+    if (!rigs) return std::unexpected(rigs.error());
+    out.as_built = std::move(*rigs);
+    out.table = {job.seeds, as_built_rows(out.as_built)};
+    return out;
   }
+  auto seeds = of_each_seed<PoiznerSeed>(job, progress, study_seed);
+  if (!seeds) return std::unexpected(seeds.error());
+  out.seeds = std::move(*seeds);
   out.table = {job.seeds, study_rows(out.seeds)};
   return out;
 }

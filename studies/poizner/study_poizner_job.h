@@ -11,6 +11,7 @@
 #include "kinemark/core/result.h"
 #include "studies/common/study_table.h"
 #include "studies/poizner/arm_study.h"
+#include "studies/poizner/as_built_study.h"
 #include "studies/poizner/still_tree_study.h"
 #include "studies/poizner/wheel_study.h"
 
@@ -19,6 +20,7 @@ namespace kinemark::studies {
 /// What `kinemark study poizner` is asked to do.
 struct PoiznerJob {
   std::vector<std::uint64_t> seeds{1};  ///< one rig each
+  bool as_built = false;                ///< rigs with the faults of 1986; else such as a workshop would build
   int threads = 0;
 };
 
@@ -37,7 +39,8 @@ struct PoiznerSeed {
 };
 
 struct PoiznerStudy {
-  std::vector<PoiznerSeed> seeds;
+  std::vector<PoiznerSeed> seeds;        ///< none of rigs as built
+  std::vector<AsBuiltOutcome> as_built;  ///< rigs as built
   /// `classic` is the method of 1986: median over seeds. `ours`: worst over seeds; pooled where the quantity
   /// says so. `expected`: of the rigs whose result `ours` is.
   StudyTable table;

@@ -44,12 +44,13 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
 
   out.plane_sd_m = std::sqrt(view.across.squaredNorm() / static_cast<double>(n - 3));
   const analysis::PathMatrix x = points.transpose();
-  const analysis::PathMatrix along = analysis::along_axes(x, analysis::principal_axes(x));
+  const auto principal = analysis::principal_axes(x);
+  const analysis::PathMatrix along = analysis::along_axes(x, principal);
   const auto turning = analysis::turning_of(x);
   const auto ellipse = analysis::ellipse_axes(along);
   out.turns = turning.turns;
   out.spread_ratio = analysis::spread_ratio(x, analysis::whole_turns_end(x, turning));
-  out.spread_of_all = analysis::spread_ratio(x, static_cast<double>(n - 1));
+  out.spread_of_all = std::sqrt(principal.variance[0] / principal.variance[1]);
   out.width_ratio = analysis::width_ratio(along);
   out.ellipse_ratio = ellipse.major / ellipse.minor;
   out.circle_error_m = analysis::circle_diameter(along) - true_diameter_m;

@@ -65,6 +65,16 @@ class Poizner(CommandTest):
             self.assertNotRegex(figure["body"], r"(?:src|href)=|\bnan\b")
         self.refused(4, ["p.html", "--force"], "study", "poizner", "--figures", "p.html")
 
+    def test_rigs_as_built_err_as_the_paper_reports(self):
+        ran = self.good("study", "poizner", "--as-built", "--seeds", "1-3", "--json", "--figures", "b.html")
+        rows = {row["quantity"]: row for row in json.loads(ran.out)["rows"]}
+        worst = rows["tree, worst of ten places: largest error of a distance, median of rigs"]
+        self.assertEqual(worst["paper"], 46)
+        self.assertGreater(worst["classic"], 10)
+        best = rows["tree, best of ten places: largest error of a distance, median of rigs"]
+        self.assertLess(best["ours"], 0.3 * best["classic"])
+        self.assertIn("Errors of the tree's distances over the room", (self.folder / "b.html").read_text())
+
     def test_a_rig_that_misses_bounds_is_shown_whole_and_says_which(self):
         ran = run("study", "poizner", "--seeds", "0", "--json", cwd=self.folder)
         table = json.loads(ran.out)

@@ -91,4 +91,35 @@ void find_dark_counts(const data::Counts& counts, data::Rig& rig) {
     }
 }
 
+void begin_in_the_dark(const data::Counts& counts, data::Rig& rig) {
+  find_dark_counts(counts, rig);
+  for (auto& camera : rig.cameras)
+    if (camera.detector.knows_dark()) camera.detector.offset_counts = camera.detector.dark_counts;
+}
+
+std::vector<double> follow_dark_counts(const data::Counts& counts, data::Rig& rig) {
+  constexpr double kSure = 5.0;  // deviations
+  std::vector<double> out(rig.cameras.size(), 0.0);
+  for (std::size_t c = 0; c < rig.cameras.size() && c < counts.cameras.size(); ++c) {
+    auto& detector = rig.cameras[c].detector;
+    if (!detector.knows_dark()) continue;
+    const auto dark = dark_slot(counts, static_cast<std::int64_t>(c));
+    if (!dark) continue;
+    const Eigen::Vector4d change = dark->counts - detector.dark_counts;
+    const double largest = change.cwiseAbs().maxCoeff(),
+                 sd = std::hypot(dark->sd_counts, detector.dark_sd_counts);
+    if (largest < kDrifted_counts || largest < kSure * sd) continue;
+    detector.offset_counts += change;
+    detector.dark_counts = dark->counts;
+    detector.dark_sd_counts = dark->sd_counts;
+    if (rig.covariance.size() > 0) {
+      const int first =
+          rig.first_parameter(static_cast<int>(c)) + data::ParameterLayout(rig.cameras[c]).offset;
+      rig.covariance.diagonal().segment<4>(first).array() += sd * sd;
+    }
+    out[c] = largest;
+  }
+  return out;
+}
+
 }  // namespace kinemark::camera

@@ -54,4 +54,15 @@ struct DarkSlot {
 /// dark_slot() finds nothing for.
 void find_dark_counts(const data::Counts& counts, data::Rig& rig);
 
+/// The same, and offsets begin at the dark counts: a pedestal that nothing accounts for draws all points
+/// towards the middle, by several per cent where an LED is dim. For a rig that is not calibrated yet.
+void begin_in_the_dark(const data::Counts& counts, data::Rig& rig);
+
+/// Amplifiers drift: where the dark slots of a recording surely read other counts than the rig's dark counts,
+/// by kDrifted_counts or more in some channel, dark counts and offsets of that camera become those of the
+/// recording, and the covariance of its offsets that of both.
+/// @return  per camera, the largest change of a channel, counts; 0 where nothing was changed
+std::vector<double> follow_dark_counts(const data::Counts& counts, data::Rig& rig);
+inline constexpr double kDrifted_counts = 0.3;  ///< moves a point by some 0.03 mm in the middle of the room
+
 }  // namespace kinemark::camera

@@ -115,5 +115,44 @@ TEST(DarkSlot, GoesToTheRig) {
   EXPECT_NEAR(rig.cameras[0].detector.dark_counts[2], 18.0, 0.3);
 }
 
+TEST(DarkSlot, IsWhereOffsetsBegin) {
+  auto rig = ts::real_rig(3);
+  const auto before = rig.cameras[1].detector.offset_counts;
+  rig.cameras.resize(1);
+  begin_in_the_dark(dark_recording(400, 110.0, 16.0), rig);
+  EXPECT_EQ(rig.cameras[0].detector.offset_counts, rig.cameras[0].detector.dark_counts);
+  EXPECT_NEAR(rig.cameras[0].detector.offset_counts[2], 18.0, 0.3);
+  auto undark = ts::real_rig(3);
+  undark.cameras[1].detector.dark_counts.setConstant(std::nan(""));
+  auto none = dark_recording(400, 110.0, 16.0);
+  none.dark.clear();
+  none.dark_time_s.clear();
+  begin_in_the_dark(none, undark);
+  EXPECT_EQ(undark.cameras[1].detector.offset_counts, before);
+}
+
+TEST(DarkSlot, IsFollowedWhereItHasSurelyDrifted) {
+  auto rig = measured_rig();
+  auto& detector = rig.cameras[0].detector;
+  detector.dark_counts << 16.1, 17.0, 14.0, 19.0;  // 0.1, 0, 4 and 0 off
+  detector.dark_sd_counts = 0.05;
+  const auto before = detector.offset_counts;
+  const int n = offset_of(rig, 0);
+  const double variance = rig.covariance(n, n);
+  const auto drifted = follow_dark_counts(dark_recording(400, 110.0, 16.0), rig);
+  ASSERT_EQ(drifted.size(), rig.cameras.size());
+  EXPECT_NEAR(drifted[0], 4.0, 0.3);
+  EXPECT_NEAR(detector.offset_counts[2] - before[2], 4.0, 0.3);
+  EXPECT_NEAR(detector.dark_counts[2], 18.0, 0.3);
+  EXPECT_GT(rig.covariance(n, n), variance);
+  // What is followed is where it is: nothing changes again.
+  const auto settled = detector.offset_counts;
+  EXPECT_EQ(follow_dark_counts(dark_recording(400, 110.0, 16.0), rig)[0], 0.0);
+  EXPECT_EQ(detector.offset_counts, settled);
+  // Without a dark slot nobody knows.
+  detector.dark_counts.array() += 3.0;
+  EXPECT_EQ(follow_dark_counts(dark_recording(10, 110.0, 16.0), rig)[0], 0.0);
+}
+
 }  // namespace
 }  // namespace kinemark::camera

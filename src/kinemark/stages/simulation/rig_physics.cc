@@ -12,6 +12,7 @@
 #include "kinemark/camera/parameters.h"
 #include "kinemark/camera/response.h"
 #include "kinemark/core/random.h"
+#include "kinemark/core/units.h"
 #include "kinemark/math/euler.h"
 
 namespace kinemark::simulation {
@@ -22,8 +23,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 using std::numbers::pi;
-
-constexpr double kPedestalCounts = 16.0;
 
 Vector2d gaussians2(Random& random, double sd) {
   const double x = random.gaussian();
@@ -47,7 +46,7 @@ Vector4d gaussians4(Random& random, double sd) {
 data::Camera nominal_camera(const RigDrawOptions& options, const RigLight& light, int index) {
   data::Camera camera;
   camera.name = index == 0 ? "A" : "B";
-  const double half_angle = pi / 6.0;
+  const double half_angle = 0.5 * options.convergence_deg * kRadPerDeg;
   const double side = index == 0 ? -1.0 : 1.0;
   camera.cam_from_world = looking_at_origin(
       {side * light.distance_m * std::sin(half_angle), 0.0, light.distance_m * std::cos(half_angle)});
@@ -133,6 +132,9 @@ Status RigDrawOptions::check() const {
                   fmt::format("imperfection, misalignment and ripple are 0 or more; one is {}", v));
   if (!(crosstalk >= 0.0 && crosstalk <= 0.5))
     return fail(Code::usage, fmt::format("crosstalk is 0 to 0.5; it is {}", crosstalk));
+  if (!(convergence_deg >= 10.0 && convergence_deg <= 150.0))
+    return fail(Code::usage,
+                fmt::format("cameras whose axes are {} deg apart; need 10 to 150 deg", convergence_deg));
   if (detector == data::DetectorKind::generic)
     return fail(Code::usage,
                 "a generic detector has no physics to simulate; choose tetra-lateral, duo-lateral or "
@@ -174,7 +176,7 @@ Result<PhysicalRig> draw_rig(const RigDrawOptions& options) {
     auto& camera = out.rig.cameras[static_cast<std::size_t>(c)];
     draw_camera(options, c, camera, out.room.emplace_back());
     if (options.crosstalk > 0.0 || options.ripple > 0.0) spoil_detector(options, c, camera);
-    if (options.dark_slot) camera.detector.offset_counts.array() += kPedestalCounts;
+    if (options.dark_slot) camera.detector.offset_counts.array() += kPedestal_counts;
   }
   return out;
 }

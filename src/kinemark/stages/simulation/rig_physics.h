@@ -46,12 +46,15 @@ struct PhysicalRig {
   std::uint64_t seed = 1;       ///< of everything that was drawn
 };
 
+inline constexpr double kPedestal_counts = 16.0;  ///< that a dark slot raises all channels by
+
 /// Options of draw_rig().
 struct RigDrawOptions {
   std::uint64_t seed = 1;     ///< of everything that is drawn
   double imperfection = 1.0;  ///< >= 0, times the tolerances of lens, sheet, channels and lamps
   double misalignment = 1.0;  ///< >= 0, times the errors of poses set by hand
   data::DetectorKind detector = data::DetectorKind::tetra_lateral;  ///< not generic
+  double convergence_deg = 60.0;                                    ///< between the cameras' axes, 10 to 150
   double crosstalk = 0.0;  ///< 0 to 0.5: share of every current that strays to electrodes at random
   double ripple = 0.0;     ///< >= 0, sd of further warp terms of degree 6 to 10, half-sides
   bool dark_slot =
@@ -61,10 +64,10 @@ struct RigDrawOptions {
 };
 
 /// Two cameras, A on the left, at 3 m from the world's origin (X right, Y up, Z towards them), 60 degrees
-/// apart. Random(seed, 100 + camera) draws, in this order: lens centre 3 x 10 mm; roll 3 mrad, yaw and pitch
-/// 0.5 mrad; focal length 0.6 %; principal point 2 x 0.08 mm; k1 -0.20 +- 15 %; p1, p2 5e-4; warp of degree 2
-/// to 5, term by term x then y, 0.3 % of the half-side; gains 0.5 %; offsets 2 counts; phase of the flicker
-/// of 1 count. Random(seed, 900 + camera): crosstalk and ripple.
+/// apart by default. Random(seed, 100 + camera) draws, in this order: lens centre 3 x 10 mm; roll 3 mrad, yaw
+/// and pitch 0.5 mrad; focal length 0.6 %; principal point 2 x 0.08 mm; k1 -0.20 +- 15 %; p1, p2 5e-4; warp
+/// of degree 2 to 5, term by term x then y, 0.3 % of the half-side; gains 0.5 %; offsets 2 counts; phase of
+/// the flicker of 1 count. Random(seed, 900 + camera): crosstalk and ripple.
 [[nodiscard]] Result<PhysicalRig> draw_rig(const RigDrawOptions& options = {});
 
 /// Pose of a camera whose lens is at `centre` (m in world) and that looks at the origin, upright, then rolls,

@@ -59,11 +59,13 @@ const std::array<TreePose, 10>& tree_test_poses() {
   return poses;
 }
 
-RigScene still_tree(const TreePose& pose) {
+RigScene still_tree(const TreePose& pose, TreeLeds leds) {
   RigScene scene;
   scene.leds = {"back left", "back right", "front"};
-  scene.led = [positions = pose.leds_in_world()](int led, double) {
-    return LedState{.x_in_world = positions.col(led)};
+  const Vector3d normal =
+      leds == TreeLeds::turn_with_it ? Vector3d(pose.world_from_tree().rotation.col(2)) : Vector3d::UnitZ();
+  scene.led = [positions = pose.leds_in_world(), normal](int led, double) {
+    return LedState{.x_in_world = positions.col(led), .normal = normal};
   };
   return scene;
 }

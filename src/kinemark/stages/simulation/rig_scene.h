@@ -57,8 +57,13 @@ struct TreePose {
 /// Ten poses of the tree that both cameras see, spread through the volume.
 [[nodiscard]] const std::array<TreePose, 10>& tree_test_poses();
 
-/// Still LEDs "back left", "back right", "front", shining along Z.
-[[nodiscard]] RigScene still_tree(const TreePose& pose);
+/// Where the tree's LEDs shine.
+enum class TreeLeds : std::uint8_t {
+  face_the_cameras,  ///< along the world's Z, however the tree is turned
+  turn_with_it,      ///< along Z of the tree
+};
+/// Still LEDs "back left", "back right", "front".
+[[nodiscard]] RigScene still_tree(const TreePose& pose, TreeLeds leds = TreeLeds::face_the_cameras);
 
 /// Options of the turning wheel of the 1986 study.
 struct WheelOptions {

@@ -128,13 +128,18 @@ Status adjust(std::span<const ShownCounts> shown_counts, const CalibrateOptions&
     out.alignment = std::move(*alignment);
     return {};
   }
+  const auto shows_it = [&](const ShownCounts& one) {
+    return by_scan ? std::holds_alternative<ShownScan>(one.shows)
+                   : std::holds_alternative<ShownTree>(one.shows);
+  };
+  for (const auto& one : shown_counts)
+    if (shows_it(one)) camera::begin_in_the_dark(one.counts, rig);
   auto found = calibration::calibrate_bundle(rig, *shown, evidence.grids, options.bundle, options.progress);
   if (!found) return std::unexpected(found.error());
   out.bundle = std::move(found->report);
   rig = std::move(found->rig);
   for (const auto& one : shown_counts)
-    if (by_scan ? std::holds_alternative<ShownScan>(one.shows) : std::holds_alternative<ShownTree>(one.shows))
-      camera::find_dark_counts(one.counts, rig);
+    if (shows_it(one)) camera::find_dark_counts(one.counts, rig);
   rig.method = to_string(options.method);
   auto alignment = calibration::compare_alignment(nominal, rig);
   if (!alignment) return std::unexpected(alignment.error());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "kinemark/camera/light.h"
 #include "kinemark/camera/usable.h"
@@ -59,13 +60,25 @@ std::string saturation_sentence(const data::Counts& counts, std::int64_t led) {
       printable(counts.leds[at(led)], 60), counts.frames() * counts.camera_count(), one, more);
 }
 
-Remarks remarks_on(const data::Counts& counts, const data::Rig& rig,
+/// What there is to say of a camera whose offsets are not those of its calibration; nothing of one that has
+/// them.
+std::string drift_sentence(const std::string& camera, double drifted_counts) {
+  if (drifted_counts == 0.0) return {};
+  return fmt::format(
+      "camera '{}' reads up to {:.1f} counts other in the dark than at its calibration; its offsets are "
+      "those of the "
+      "recording's dark slots",
+      printable(camera, 60), drifted_counts);
+}
+
+Remarks remarks_on(const data::Counts& counts, const data::Rig& rig, const std::vector<double>& drifted,
                    const std::vector<reconstruction::LedLight>& lights) {
   Remarks out;
   const bool dark_known = knows_dark(rig);
   const auto add = [&](std::string sentence) {
     if (!sentence.empty()) out.warnings.push_back(std::move(sentence));
   };
+  for (std::size_t c = 0; c < drifted.size(); ++c) add(drift_sentence(rig.cameras[c].name, drifted[c]));
   for (std::int64_t led = 0; led < counts.led_count(); ++led) {
     if (at(led) < lights.size()) add(light_sentence(counts.leds[at(led)], lights[at(led)], dark_known));
     add(saturation_sentence(counts, led));
@@ -73,10 +86,18 @@ Remarks remarks_on(const data::Counts& counts, const data::Rig& rig,
   return out;
 }
 
-/// The rig with dark counts of the recording's own dark slots, where its calibration had none.
-data::Rig with_dark(const data::Counts& counts, const data::Rig& rig) {
-  data::Rig out = rig;
-  if (!knows_dark(rig)) camera::find_dark_counts(counts, out);
+/// The rig with dark counts of the recording's own dark slots, where its calibration had none or they have
+/// drifted.
+struct InTheDark {
+  data::Rig rig;
+  std::vector<double> drifted_counts;  ///< per camera
+};
+InTheDark with_dark(const data::Counts& counts, const data::Rig& rig) {
+  InTheDark out{.rig = rig, .drifted_counts = {}};
+  if (knows_dark(rig))
+    out.drifted_counts = camera::follow_dark_counts(counts, out.rig);
+  else
+    camera::find_dark_counts(counts, out.rig);
   return out;
 }
 
@@ -87,7 +108,7 @@ Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& r
   auto frames = options.frames;
   frames.threads = options.threads;
   const bool classic = options.method == ReconstructMethod::classic;
-  const auto known = with_dark(counts, rig);
+  const auto [known, drifted] = with_dark(counts, rig);
   auto found = classic ? reconstruction::reconstruct_classic(counts, rig, frames)
                        : reconstruction::reconstruct(counts, known, frames);
   if (!found) return std::unexpected(found.error());
@@ -97,7 +118,7 @@ Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& r
                     .lights = {},
                     .fits = {},
                     .remarks = {}};
-  if (!classic) out.remarks = remarks_on(counts, known, found->lights);
+  if (!classic) out.remarks = remarks_on(counts, known, drifted, found->lights);
   if (options.method == ReconstructMethod::smoother) {
     auto smoother = options.smoother;
     smoother.threads = options.threads;

@@ -112,6 +112,28 @@ TEST(ReconstructLight, ADimLedIsNamedAndLiesWhereItIs) {
             0.5 * rms_error_m(biased.markers, sign.recording.truth));
 }
 
+TEST(ReconstructLight, OffsetsThatDriftedAreThoseOfTheDarkSlots) {
+  const Sign sign(1.0, true);
+  auto earlier = sign.rig;
+  for (auto& camera : earlier.cameras) {
+    camera.detector.offset_counts += Eigen::Vector4d(5.0, -5.0, 3.0, 0.0);
+    camera.detector.dark_counts += Eigen::Vector4d(5.0, -5.0, 3.0, 0.0);
+  }
+  const auto same = reconstruct(sign.recording.counts, sign.rig).value();
+  const auto found = reconstruct(sign.recording.counts, earlier).value();
+  EXPECT_NEAR(rms_error_m(found.markers, sign.recording.truth),
+              rms_error_m(same.markers, sign.recording.truth), 5e-5);
+  EXPECT_THAT(found.remarks.warnings,
+              Contains(AllOf(
+                  HasSubstr("camera 'A' reads up to 5."),
+                  HasSubstr("counts other in the dark than at its calibration; its offsets are those of the "
+                            "recording's dark slots"))));
+  EXPECT_THAT(
+      same.remarks.warnings,
+      Not(Contains(HasSubstr("counts other in the dark than at its calibration; its offsets are those of the "
+                             "recording's dark slots"))));
+}
+
 TEST(ReconstructLight, LedsOfTheCalibrationsLightAreNotNamed) {
   const Sign sign(1.0, true);
   const auto found = reconstruct(sign.recording.counts, sign.rig).value();

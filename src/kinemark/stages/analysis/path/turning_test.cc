@@ -14,7 +14,7 @@
 namespace kinemark::analysis {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kWhole = 2.0 * std::numbers::pi;
 
 /// An ellipse from some phase on, tilted; a hundred samples a turn and a bit, so that turns end between
 /// samples.
@@ -24,7 +24,7 @@ PathMatrix ellipse(double turns, double long_m, double short_m, double way = 1.0
   const auto n = static_cast<Eigen::Index>(100.3 * turns) + 1;
   PathMatrix out(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double phase = 0.4 + way * kTurn * static_cast<double>(i) / 100.3;
+    const double phase = 0.4 + way * kWhole * static_cast<double>(i) / 100.3;
     out.row(i) =
         (rotation * Eigen::Vector3d(0.5 * long_m * std::cos(phase), 0.5 * short_m * std::sin(phase), 0.1))
             .transpose();
