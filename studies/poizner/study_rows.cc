@@ -175,6 +175,9 @@ void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
     if (line.paper > 0.0) row.paper = line.paper;
     rows.push_back(std::move(row));
   }
+  constexpr double kRate_hz = 100.0;
+  const double turns = study_wheel_options(wheel).rate_hz *
+                       static_cast<double>(seeds.front().wheels[w].our_path.cols() - 1) / kRate_hz;
   // What the paper states needs no fault of the rig: it is what principal axes give of a circle that does not
   // end where it begins.
   rows.push_back(
@@ -183,7 +186,7 @@ void add_wheel(const Seeds& seeds, int wheel, std::vector<StudyRow>& rows) {
        .paper = 1.03,
        .classic = median(over(seeds, 1.0, [&](auto& s) { return s.wheels[w].classic.spread_of_all; })),
        .ours = largest(over(seeds, 1.0, [&](auto& s) { return s.wheels[w].ours.spread_of_all; })),
-       .expected = spread_ratio_of_circle(seeds.front().wheels[w].ours.turns)});
+       .expected = spread_ratio_of_circle(turns)});
   const auto position =
       worst(over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].our_errors.position; }),
             over(seeds, kMillimetres, [&](auto& s) { return s.wheels[w].predicted.position; }));

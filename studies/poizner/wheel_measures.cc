@@ -48,7 +48,6 @@ WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter
   const analysis::PathMatrix along = analysis::along_axes(x, principal);
   const auto turning = analysis::turning_of(x);
   const auto ellipse = analysis::ellipse_axes(along);
-  out.turns = turning.turns;
   out.spread_ratio = analysis::spread_ratio(x, analysis::whole_turns_end(x, turning));
   out.spread_of_all = std::sqrt(principal.variance[0] / principal.variance[1]);
   out.width_ratio = analysis::width_ratio(along);

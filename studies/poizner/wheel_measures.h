@@ -15,7 +15,6 @@ struct WheelMeasures {
   double spread_of_all = 1.0;   ///< the same over all samples, whole turns or not
   double width_ratio = 1.0;     ///< of the axes, largest over least width in the best-fit plane
   double ellipse_ratio = 1.0;   ///< of the axes of the fitted ellipse
-  double turns = 0.0;           ///< of the wheel
   double plane_sd_m = 0.0;      ///< across that plane
   double circle_error_m = 0.0;  ///< diameter of the circle of least squared distances, against the true one
 };
