@@ -66,6 +66,7 @@ constexpr std::array kNeeds = {
     Need{"calibrate", "sides frames-per-pose", "method", "bundle", "the tree of the method bundle"},
     Need{"calibrate", "warp-degree no-crosstalk no-escalate", "align", kNotGiven, "a rig that is calibrated"},
     Need{"reconstruct", "flicker order half-gain longest-gap", "method", "smoother", "the method smoother"},
+    Need{"reconstruct", "calibrated-offsets", "method", "smoother frames", "the methods smoother and frames"},
     Need{"simulate subject", "soft-tissue-common", "soft-tissue", kNotZero, "skin that moves"},
     Need{"simulate arm,simulate macaque", "interpolation", "upsample", kGiven,
          "frames that the recorder makes"},

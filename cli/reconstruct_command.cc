@@ -57,6 +57,8 @@ void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("--dim", job->options.frames.dim_share,
                    "Light below this share of the LED's median is not used")
       ->capture_default_str();
+  command->add_flag("--calibrated-offsets{false}", job->options.frames.light,
+                    "Offsets as in the rig, whatever the light of an LED and however they have drifted");
   command->callback([&common, job, &run] {
     run = [&common, job] {
       job->options.smoother.dim_share = job->options.frames.dim_share;

@@ -29,8 +29,9 @@ using testing_support::print_row;
 
 constexpr std::array<std::string_view, 3> kRatios{"plane_axes_ratio", "plane_width_ratio", "ellipse_ratio"};
 
-constexpr double kNearlyWhole = 0.95;  // turns, which may be one with what is left at the ends
-constexpr double kEnds_s = 0.17;       // at both ends together, which measures leave out
+constexpr int kFewPaths = 20, kManyPaths = 300;  // from which a share says something, and its upper bound
+constexpr double kNearlyWhole = 0.95;            // turns, which may be one with what is left at the ends
+constexpr double kEnds_s = 0.17;                 // at both ends together, which measures leave out
 
 // A point that goes around, at one pace or at one that comes and goes.
 struct Around {
@@ -159,11 +160,16 @@ int run(int argc, char** argv) {
         const double share = 100.0 * c.held / std::max(1, c.given);
         const auto name = fmt::format("{}, {} of {}", kRatios[k], what, circle ? "circles" : "ellipses");
         // What cannot be below 1 has one end alone, which holds more than the level.
-        print_row(c.given > 0 && share >= 91.0 && (circle || share <= 98.0), name + ", coverage",
-                  circle ? "at least 91 % hold 1" : "91 to 98 %",
-                  fmt::format("{:.1f} % of {}, largest error {:.2g}", share, c.given, c.largest));
-        print_row(!must_be_given || c.given >= 0.95 * c.paths, name + ", with an interval", "at least 95 %",
-                  fmt::format("{} of {}", c.given, c.paths));
+        const bool many = c.given >= kManyPaths, upper = !circle && many;
+        if (c.given >= kFewPaths)
+          print_row(share >= 91.0 && (!upper || share <= 98.0), name + ", coverage",
+                    circle  ? "at least 91 % hold 1"
+                    : upper ? "91 to 98 %"
+                            : "at least 91 %, of few",
+                    fmt::format("{:.1f} % of {}, largest error {:.2g}", share, c.given, c.largest));
+        if (c.paths >= kFewPaths)
+          print_row(!must_be_given || c.given >= 0.95 * c.paths, name + ", with an interval", "at least 95 %",
+                    fmt::format("{} of {}", c.given, c.paths));
       };
       row("turns", whole, true);
       if (kRatios[k] == "ellipse_ratio")

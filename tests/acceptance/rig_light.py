@@ -81,9 +81,9 @@ def simulate(folder, seed, lights, dark_slot, *more):
     run("simulate", "rig", "sign", "-o", folder, "--seed", seed, *(["--dark-slot"] if dark_slot else []), *words, *more, "--quiet")
 
 
-def reconstruct(recording, rig, method, out):
+def reconstruct(recording, rig, method, out, *options):
     """Points, and what is said of each LED."""
-    text = run("reconstruct", recording, "--rig", rig, "--method", method, "-o", out, "--json", "--quiet")
+    text = run("reconstruct", recording, "--rig", rig, "--method", method, "-o", out, "--json", "--quiet", *options)
     return points(out), json.loads(text)
 
 
@@ -126,11 +126,11 @@ class Case:
                 if line.startswith("offset_counts"):
                     offsets = tomllib.loads(line)["offset_counts"]
                     right = [o + self.lights[led] * (q - o) for q, o in zip(offsets, next(cameras))]
-                    line = f"offset_counts = {right}\ndark_counts = {right}"  # no stray light: nothing to find
+                    line = f"offset_counts = {right}"
                 lines.append(line)
             given = folder / f"{led}.toml"
             given.write_text("\n".join(lines) + "\n")
-            found, _ = reconstruct(recording, given, method, folder / f"{method}_{led}.csv")
+            found, _ = reconstruct(recording, given, method, folder / f"{method}_{led}.csv", "--calibrated-offsets")
             out.update({key: value for key, value in found.items() if key[1] == led})
         return out
 

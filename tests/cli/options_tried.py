@@ -76,7 +76,7 @@ TRIED = {
     "calibrate": (TREE, {"--nominal": "absent.toml", "--output": "other.toml", "--report": "page.html", "--align": None, "--method": "grid-lut",
                          "--sides": [0.1, 0.1, 0.1], "--frames-per-pose": 7, "--warp-degree": 4, "--no-crosstalk": None, "--no-escalate": None}),
     "reconstruct": (COUNTS, {"--rig": "absent.toml", "--output": "other.csv", "--report": "page.html", "--method": "frames", "--flicker": "dark-slot",
-                             "--order": 4, "--half-gain": 5, "--longest-gap": 0.001, "--dim": 0.999}),
+                             "--order": 4, "--half-gain": 5, "--longest-gap": 0.001, "--dim": 0.999, "--calibrated-offsets": None}),
     "simulate subject": (["--out", "o", "--duration", 0.2],
                          {"--out": "other", "--model": "absent.osim", "--duration": 0.1, "--rate": 50, "--noise": 3, "--soft-tissue": 1,
                           "--soft-tissue-common": 0.9, "--dropout-random": 0.2, "--dropout-sight": 0.2}),
@@ -159,6 +159,7 @@ REFUSED = [
     ("calibrate grid_A.mcap grid_B.mcap --nominal rig.toml --method grid-lut", "--align", "is for the methods bundle and scan"),
     ("calibrate scan.mcap --nominal rig.toml --method scan -o o.toml", "--frames-per-pose=5", "is for the tree"),
     ("calibrate tree_poses.mcap --nominal rig.toml --align", "--no-crosstalk", "is for a rig that is calibrated; --align is given too"),
+    ("reconstruct recording.mcap --rig rig.toml -o o.csv --method classic", "--calibrated-offsets", "is for the methods smoother and frames"),
     *((f"reconstruct recording.mcap --rig rig.toml -o o.csv --method {name}", option, "is for the method smoother")
       for name in ("frames", "classic") for option in ("--order=4", "--half-gain=5", "--longest-gap=0.1", "--flicker=ignore")),
     *((f"simulate rig {scene} -o o", option, "is for the scene") for scene in ("sign", "tree")

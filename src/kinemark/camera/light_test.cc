@@ -136,6 +136,7 @@ TEST(DarkSlot, IsFollowedWhereItHasSurelyDrifted) {
   auto& detector = rig.cameras[0].detector;
   detector.dark_counts << 16.1, 17.0, 14.0, 19.0;  // 0.1, 0, 4 and 0 off
   detector.dark_sd_counts = 0.05;
+  rig.covariance = 0.04 * Eigen::MatrixXd::Identity(rig.parameter_count(), rig.parameter_count());
   const auto before = detector.offset_counts;
   const int n = offset_of(rig, 0);
   const double variance = rig.covariance(n, n);

@@ -23,7 +23,7 @@ struct ReconstructOptions {
       40.0;            ///< misfit of two cameras (3 degrees of freedom) above which a point is rejected
   double edge = 0.96;  ///< half-sides; farther out a point is flagged: precision falls to a fifth there
   double flicker_counts = 1.0;    ///< amplitude of the room's flicker, which adds to the noise of each count
-  bool light = true;              ///< find the light of each LED, and set offsets by it
+  bool light = true;              ///< find the light of each LED, and set offsets by it; else as in the rig
   bool calibration_error = true;  ///< add what the rig's own covariance contributes
   int threads = 0;                ///< 0: all cores. Any number gives the same bits
 

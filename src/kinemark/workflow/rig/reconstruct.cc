@@ -92,8 +92,9 @@ struct InTheDark {
   data::Rig rig;
   std::vector<double> drifted_counts;  ///< per camera
 };
-InTheDark with_dark(const data::Counts& counts, const data::Rig& rig) {
+InTheDark with_dark(const data::Counts& counts, const data::Rig& rig, bool as_calibrated) {
   InTheDark out{.rig = rig, .drifted_counts = {}};
+  if (as_calibrated) return out;
   if (knows_dark(rig))
     out.drifted_counts = camera::follow_dark_counts(counts, out.rig);
   else
@@ -108,7 +109,7 @@ Result<Reconstructed> reconstruct(const data::Counts& counts, const data::Rig& r
   auto frames = options.frames;
   frames.threads = options.threads;
   const bool classic = options.method == ReconstructMethod::classic;
-  const auto [known, drifted] = with_dark(counts, rig);
+  const auto [known, drifted] = with_dark(counts, rig, !frames.light);
   auto found = classic ? reconstruction::reconstruct_classic(counts, rig, frames)
                        : reconstruction::reconstruct(counts, known, frames);
   if (!found) return std::unexpected(found.error());

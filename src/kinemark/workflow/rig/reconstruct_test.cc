@@ -132,6 +132,11 @@ TEST(ReconstructLight, OffsetsThatDriftedAreThoseOfTheDarkSlots) {
       same.remarks.warnings,
       Not(Contains(HasSubstr("counts other in the dark than at its calibration; its offsets are those of the "
                              "recording's dark slots"))));
+  auto as_calibrated = ReconstructOptions{};
+  as_calibrated.frames.light = false;
+  const auto biased = reconstruct(sign.recording.counts, earlier, as_calibrated).value();
+  EXPECT_GT(rms_error_m(biased.markers, sign.recording.truth), 1e-3);
+  EXPECT_THAT(biased.remarks.warnings, Not(Contains(HasSubstr("counts other in the dark than"))));
 }
 
 TEST(ReconstructLight, LedsOfTheCalibrationsLightAreNotNamed) {
