@@ -30,11 +30,11 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t kFrames = 50, kWheelFrames = 220;
 constexpr double kRate_hz = 100.0;
-constexpr std::size_t kPlaces = 10;
+constexpr std::size_t kPositions = 10;
 constexpr double kEdge = 0.04;        // half-sides, below the outermost, where two places reach
 constexpr double kLeastReach = 0.35;  // half-sides, of all places but the first
 constexpr std::int64_t kMostTries = 1'000'000;
-constexpr std::uint64_t kPoseStream = 700, kPlaceStream = 800, kDriftStream = 950, kTreeStream = 300,
+constexpr std::uint64_t kPoseStream = 700, kPositionStream = 800, kDriftStream = 950, kTreeStream = 300,
                         kWheelStream = 400;
 
 Vector3d gaussians3(Random& random) {
@@ -83,10 +83,10 @@ double reach_of(const data::Rig& rig, const simulation::TreePose& pose) {
 }
 
 // Over the field; the first in its middle, the fourth and the eighth at its edge.
-Result<std::vector<simulation::TreePose>> places(const simulation::PhysicalRig& rig, double outermost) {
-  Random random(rig.seed, kPlaceStream);
+Result<std::vector<simulation::TreePose>> tree_poses(const simulation::PhysicalRig& rig, double outermost) {
+  Random random(rig.seed, kPositionStream);
   std::vector<simulation::TreePose> out(1);
-  for (std::int64_t tries = 0; out.size() < kPlaces; ++tries) {
+  for (std::int64_t tries = 0; out.size() < kPositions; ++tries) {
     if (tries == kMostTries)
       return fail(Code::bad_input, "too few places of the tree are seen by both cameras");
     double u[6];
@@ -204,7 +204,7 @@ Result<AsBuiltOutcome> study_as_built(std::uint64_t seed, const AsBuiltOptions& 
   for (const bool classic : {true, false}) {
     auto physical = draw(seed, !classic, options);
     if (!physical) return std::unexpected(physical.error());
-    const auto poses = places(*physical, options.outermost);
+    const auto poses = tree_poses(*physical, options.outermost);
     if (!poses) return std::unexpected(poses.error());
     auto rig = calibrate_rig(std::move(*physical), {.grid = options.grid});
     if (!rig) return std::unexpected(rig.error());

@@ -243,7 +243,8 @@ TEST_F(StatedMeasure, WhatIsNotDeterminedSaysWhy) {
   EXPECT_EQ(tell("onset", kNaN, 0.0, 0.1).remark, "the span does not begin and end at rest");
   EXPECT_EQ(tell("cycle_time", kNaN, 0.0, 0.1).remark, "the movement does not repeat");
   EXPECT_EQ(tell("ellipse_major", kNaN, 0.0, 0.1).remark, "the movement does not go around");
-  EXPECT_EQ(tell("farthest_sample", kNaN, 0.0, 0.1).remark, "the movement does not come back to where it was");
+  EXPECT_EQ(tell("farthest_sample", kNaN, 0.0, 0.1).remark,
+            "the movement does not come back to where it was");
   EXPECT_EQ(tell("peak_speed", kNaN, 0.0, 0.1).remark, "too little movement");
   EXPECT_FALSE(says(tell("onset", 0.4, 0.0, 0.1), "the span does not begin and end at rest"));
   EXPECT_FALSE(says(tell("cycle_time", 0.4, 0.0, 0.1), "the movement does not repeat"));

@@ -83,14 +83,15 @@ TEST(SpreadRatio, OfACircleIsOneOverWholeTurnsAlone) {
     EXPECT_GT(spread_ratio(circle, static_cast<double>(circle.rows() - 1)), 1.01);
   }
   const auto three = ellipse(3.1, 0.392, 0.392);
-  EXPECT_NEAR(spread_ratio(three, static_cast<double>(three.rows() - 1)), 1.0273, 1e-4);  // 310 of 100.3 samples a turn
+  EXPECT_NEAR(spread_ratio(three, static_cast<double>(three.rows() - 1)), 1.0273,
+              1e-4);  // 310 of 100.3 samples a turn
 }
 
 TEST(WidthRatio, IsThatOfTheAxesHoweverOftenItGoesAround) {
+  const auto in_plane = [](const PathMatrix& x) { return along_axes(x, principal_axes(x)); };
   for (const double turns : {1.0, 1.4, 5.2}) {
-    EXPECT_NEAR(width_ratio(ellipse(turns, 0.4, 0.4)), 1.0, 6e-4);  // a hundred points have corners
-    const auto x = ellipse(turns, 0.4, 0.3);
-    EXPECT_NEAR(width_ratio(along_axes(x, principal_axes(x))), 4.0 / 3.0, 1e-3);
+    EXPECT_NEAR(width_ratio(in_plane(ellipse(turns, 0.4, 0.4))), 1.0, 6e-4);  // a hundred points have corners
+    EXPECT_NEAR(width_ratio(in_plane(ellipse(turns, 0.4, 0.3))), 4.0 / 3.0, 1e-3);
   }
   EXPECT_TRUE(std::isnan(width_ratio(PathMatrix::Zero(5, 3))));
 }
