@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -49,6 +50,28 @@ CalibrationError turned(const CalibrationError& error, const Eigen::Matrix3d& to
   out.middle_in_world = to_from * error.middle_in_world;
   out.world_from_field = to_from * error.world_from_field;
   return out;
+}
+
+double rms_of(const CalibrationError& error, const Trajectories& markers) {
+  constexpr std::int64_t kFrames = 200;
+  const std::int64_t step = std::max<std::int64_t>(1, markers.frames() / kFrames);
+  std::vector<Eigen::Vector3d> found;
+  for (std::int64_t f = 0; f < markers.frames(); f += step)
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      if (markers.present(f, m)) found.push_back(markers.x(f, m));
+  if (found.empty() || !error.known()) return 0.0;
+  Points points(static_cast<Eigen::Index>(found.size()), 3);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    points.row(static_cast<Eigen::Index>(i)) = found[i].transpose();
+  double squares = 0.0;
+  for (const auto& field : displacements(error, points)) squares += field.squaredNorm();
+  return std::sqrt(squares / static_cast<double>(found.size()));
+}
+
+std::string describe(const CalibrationError& error, const Trajectories& markers) {
+  if (!error.known()) return {};
+  return fmt::format("the calibration leaves unknown {:.2g} mm of positions, in common (RMS over samples)",
+                     1e3 * rms_of(error, markers));
 }
 
 std::string to_text(const CalibrationError& error) {

@@ -25,6 +25,13 @@ using CalibrationTerms = Eigen::Matrix<double, Eigen::Dynamic, CalibrationError:
 /// The same error after the world was turned: new = to_from old.
 [[nodiscard]] CalibrationError turned(const CalibrationError& error, const Eigen::Matrix3d& to_from);
 
+/// What it leaves unknown of a marker in the root mean square over samples, m; 0 of none. Of long recordings
+/// every k-th frame.
+[[nodiscard]] double rms_of(const CalibrationError& error, const Trajectories& markers);
+
+/// One sentence of it: how far all positions may be off alike; empty where nothing is known of it.
+[[nodiscard]] std::string describe(const CalibrationError& error, const Trajectories& markers);
+
 /// Numbers with blanks between them: middle, rotation row by row, scale, fields; empty without fields.
 [[nodiscard]] std::string to_text(const CalibrationError& error);
 /// The error that such a text holds; no value where it is none, or one that is not finite, not a rotation or

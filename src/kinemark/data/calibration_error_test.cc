@@ -45,6 +45,22 @@ TEST(CalibrationError, TurnsWithTheWorld) {
     EXPECT_NEAR((before[k] * turn.transpose() - after[k]).cwiseAbs().maxCoeff(), 0.0, 1e-15);
 }
 
+TEST(CalibrationError, SaysHowMuchIsNotKnown) {
+  auto markers = Trajectories::all_missing({"A"}, {.rate_hz = 100.0, .frames = 5});
+  CalibrationError error{.middle_in_world = {0.0, 0.0, 0.0}, .scale_m = 1.0, .fields = {}};
+  error.fields.resize(2, CalibrationError::Field::Zero());
+  error.fields[0](0, 0) = 3e-4, error.fields[1](0, 2) = 4e-4;  // the same everywhere
+  EXPECT_EQ(rms_of(error, markers), 0.0) << "no sample";
+  for (std::int64_t f = 0; f < 3; ++f) {
+    markers.x(f, 0) = Eigen::Vector3d(0.1, 0.2, 0.3);
+    markers.state[markers.index(f, 0)] = SampleState::measured;
+  }
+  EXPECT_NEAR(rms_of(error, markers), 5e-4, 1e-12);
+  EXPECT_EQ(describe(error, markers),
+            "the calibration leaves unknown 0.5 mm of positions, in common (RMS over samples)");
+  EXPECT_EQ(describe({}, markers), "");
+}
+
 TEST(CalibrationError, ComesBackFromItsText) {
   const Points points = scattered(40);
   const auto error =

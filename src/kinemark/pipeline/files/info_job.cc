@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/filtering.h"
 #include "kinemark/data/motion_coordinates.h"
 #include "kinemark/io/markers/orientation_file.h"
@@ -132,6 +133,7 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .labels = markers.names,
                         .channels = describe_channels(trial.channels),
                         .up = describe_up(job, trial),
+                        .calibration_error = data::describe(trial.calibration_error, markers),
                         .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);

@@ -69,8 +69,10 @@ struct MarkerFileFacts {
   std::vector<ChannelFacts> channels;            ///< points that are no markers
   std::string up;  ///< "z, by the force plates": which way is up; empty: nothing says it
   std::optional<OrientationFacts> orientations;  ///< that the file holds besides; none: it has none
-  std::string filtered;                          ///< by what markers were smoothed, and whether the samples
-                         ///< from before are there; empty: the file tells of no filter
+  std::string
+      calibration_error;  ///< what the calibration leaves unknown of positions; empty: nothing says it
+  std::string filtered;   ///< by what markers were smoothed, and whether the samples
+                          ///< from before are there; empty: the file tells of no filter
 };
 
 /// Of a table (.mot, .sto).

@@ -261,12 +261,18 @@ TEST(RunInfo, TellsThatMarkersWereSmoothedAndNothingOfOthers) {
   trial.markers.unfiltered_in_world = trial.markers.x_in_world;
   ASSERT_TRUE(io::write_markers(scratch / "kept.c3d", trial, false));
   EXPECT_FALSE(facts_of(scratch / "raw.c3d").value().contains("filtered"));
+  EXPECT_FALSE(facts_of(scratch / "raw.c3d").value().contains("calibration_error"));
   EXPECT_EQ(facts_of(scratch / "told.c3d").value()["filtered"],
             "1 marker was smoothed by kalman (order 5; -3 dB at 6.4 Hz; noise before it 0.2 mm); the samples "
             "from before are not there");
   const auto kept = facts_of(scratch / "kept.c3d").value();
   EXPECT_THAT(kept["filtered"].get<std::string>(), HasSubstr("the samples from before are kept"));
   EXPECT_EQ(kept["points"], 1) << "they are no markers";
+  trial.calibration_error.fields = {data::CalibrationError::Field::Zero()};
+  trial.calibration_error.fields[0](0, 1) = 2e-4;
+  ASSERT_TRUE(io::write_markers(scratch / "rig.c3d", trial, false));
+  EXPECT_EQ(facts_of(scratch / "rig.c3d").value()["calibration_error"],
+            "the calibration leaves unknown 0.2 mm of positions, in common (RMS over samples)");
 }
 
 }  // namespace

@@ -145,6 +145,7 @@ void add(const MarkerFileFacts& facts, Json& to) {
                               {"missing", channel.missing}});
   if (facts.orientations) add_besides(*facts.orientations, to);
   if (!facts.up.empty()) to["up"] = facts.up;
+  if (!facts.calibration_error.empty()) to["calibration_error"] = facts.calibration_error;
   if (!facts.filtered.empty()) to["filtered"] = facts.filtered;
 }
 

@@ -72,9 +72,9 @@ Result<ValidateOutcome> run_validate(const ValidateJob& job) {
       checked.warnings = std::move(facts->warnings);
       std::ranges::move(facts->contradicted, std::back_inserter(checked.warnings));
       checked.facts = std::move(facts->facts);
-      if (const auto* markers = std::get_if<MarkerFileFacts>(&*checked.facts);
-          markers != nullptr && !markers->filtered.empty())
-        checked.notes.push_back(markers->filtered);
+      if (const auto* markers = std::get_if<MarkerFileFacts>(&*checked.facts))
+        for (const auto& note : {markers->filtered, markers->calibration_error})
+          if (!note.empty()) checked.notes.push_back(note);
       if (const auto* bodies = std::get_if<ModelFacts>(&*checked.facts)) checked.notes = bodies->notes;
       std::ranges::move(find_strangers(file), std::back_inserter(checked.warnings));
       std::ranges::move(find_changed(file), std::back_inserter(checked.warnings));
