@@ -15,6 +15,7 @@
 #include "kinemark/data/motion_coordinates.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
+#include "kinemark/stages/motion/control/internal/step_error.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
 #include "kinemark/stages/motion/internal/judged_frames.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
@@ -120,9 +121,14 @@ void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& tr
     }
 }
 
+void warn_of_step(const model::Model& model, const Plan& plan, TrackResult& result) {
+  auto warning = internal::warn_of_step(model, result.motion, plan.step_s, std::sqrt(plan.kp));
+  if (!warning.empty()) result.fit.warnings.push_back(std::move(warning));
+}
+
 /// Samples as they are followed.
 struct Followed {
-  const data::Trajectories& kept;  ///< of what the deviations are
+  const data::Trajectories& kept;   ///< of what the deviations are
   const data::Trajectories& goals;  ///< the same, and in place of what was left out where the body has it
 };
 
@@ -157,9 +163,10 @@ Status follow(const data::Trajectories& markers, const Followed& followed, const
 
 /// Follow all samples as they are, and judge them by the body that did. False: not all are explained, and the
 /// run does not count.
-Result<bool> follow_all(const data::Trajectories& markers, const GoalFilter& filter, const TrackOptions& options,
-                        const Progress& progress, FollowedRun& run) {
-  if (auto status = follow(markers, {.kept = markers, .goals = markers}, filter, options, progress, run); !status)
+Result<bool> follow_all(const data::Trajectories& markers, const GoalFilter& filter,
+                        const TrackOptions& options, const Progress& progress, FollowedRun& run) {
+  if (auto status = follow(markers, {.kept = markers, .goals = markers}, filter, options, progress, run);
+      !status)
     return std::unexpected(status.error());
   if (!options.judge_samples) return true;
   const auto found = internal::judge_followed(run.plan.problem, run.plan.start_options, markers,
@@ -217,6 +224,7 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
     const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
     forget_rejected(run.plan, kept, run.track);
     internal::add_error_bars(run.plan, kept, run.track, filter, options, result);
+    if (options.feed_forward) warn_of_step(model, run.plan, result);
   }
   internal::add_marker_errors(result.motion, result.fit);
   if (result.flagged_frames > 0)

@@ -46,8 +46,8 @@ struct TrackResult {
   /// Poses that a solver of inverse kinematics was asked for after the first one: to settle, to set the body
   /// anew, to judge samples of frames in which markers come, go or stand out.
   std::int64_t solves = 0;
-  double step_s = 0.0;                                    ///< as used
-  std::int64_t steps = 0;                                 ///< of the controller
+  double step_s = 0.0;         ///< as used
+  std::int64_t steps = 0;      ///< of the controller
   double solve_seconds = 0.0;  ///< wall time of the steps alone, without start and error bars
 };
 

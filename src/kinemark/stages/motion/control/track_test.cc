@@ -237,10 +237,80 @@ TEST(Track, FramesAreSettledOnTheBestFitOfTheirGoals) {
             most, std::abs(track.motion.q[track.motion.index(f, c)] - ik.motion.q[ik.motion.index(f, c)]));
     return most;
   };
-  EXPECT_LT(distance({.judge_samples = false}), 1e-5);
-  EXPECT_LT(distance({.omega_rad_s = 40.0, .step_s = 0.01, .judge_samples = false}), 1e-5)
+  EXPECT_LT(distance({.settle = true, .judge_samples = false}), 1e-5);
+  EXPECT_LT(distance({.omega_rad_s = 40.0, .step_s = 0.01, .settle = true, .judge_samples = false}), 1e-5)
       << "one step per frame";
   EXPECT_GT(distance({.settle = false, .judge_samples = false}), 1e-3) << "the law alone lags";
+}
+
+TEST(Track, NoSolverOfInverseKinematicsIsCalledAfterTheFirstFrameUnlessAsked) {
+  const auto model = body();
+  const auto markers = record(model, 150, 1e-3, 5);
+  const auto by_control = track_markers(model, markers).value();
+  EXPECT_EQ(by_control.solves, 0);
+  const auto coarse = track_markers(model, markers, {.omega_rad_s = 40.0, .step_s = 0.01}).value();
+  EXPECT_EQ(coarse.solves, 0);
+  EXPECT_NE(coarse.motion.q, by_control.motion.q) << "steps differ, so do the angles";
+  EXPECT_GE(track_markers(model, markers, {.settle = true})->solves, 149) << "each frame";
+  auto bad = markers;
+  bad.x(60, 6) += Eigen::Vector3d(0.2, -0.1, 0.1);
+  EXPECT_GE(track_markers(model, bad)->solves, 150)
+      << "samples that stand out are judged by fits of all frames";
+  EXPECT_EQ(track_markers(model, bad, {.judge_samples = false})->solves, 0);
+}
+
+TEST(Track, StepsLeaveHardlyAnErrorOfTheirLength) {
+  const auto model = body();
+  const auto markers = record(model, 200);
+  // Exact goals: what is left is the step's.
+  const auto off = [&](double step_s, bool feed_forward) {
+    const auto track = track_markers(model, markers,
+                                     {.omega_rad_s = 50.0,
+                                      .step_s = step_s,
+                                      .feed_forward = feed_forward,
+                                      .cutoff_hz = 0.0,
+                                      .judge_samples = false,
+                                      .error_bars = false})
+                           .value();
+    return angle_rms(model, track.motion, 100);
+  };
+  const double coarse = off(0.01, true);
+  EXPECT_LT(off(0.005, true), 0.35 * coarse) << "it falls with the square of the step";
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_GT(off(0.01, false), 10.0 * coarse) << "without feed-forward it lags";
+}
+
+TEST(Track, TheAccelerationOfAFrameIsThatOfItsInstant) {
+  const auto model = body();
+  const auto markers = record(model, 200);
+  const auto of = [&](double step_s, double omega) {
+    return track_markers(
+               model, markers,
+               {.omega_rad_s = omega, .step_s = step_s, .judge_samples = false, .error_bars = false})
+        .value()
+        .motion;
+  };
+  const auto coarse = of(0.01, 50.0), fine = of(5e-4, 100.0);
+  double off = 0.0, later = 0.0;
+  for (std::int64_t f = 50; f < 150; ++f)
+    for (std::int64_t c = 6; c < fine.size(); ++c) {
+      const auto qdd = [&](const data::JointMotion& m, std::int64_t g) { return m.qdd[m.index(g, c)]; };
+      off += std::pow(qdd(coarse, f) - qdd(fine, f), 2);
+      later += std::pow(0.4 * (qdd(fine, f + 1) - qdd(fine, f)), 2);
+    }
+  EXPECT_LT(off, 0.1 * later) << "not that of the middle of the step";
+}
+
+TEST(Track, StepsThatCostMoreThanNoiseAreWarnedOf) {
+  const auto model = body();
+  const auto markers = record(model, 200, 2e-5, 4);
+  const auto warned = [&](const TrackOptions& options) {
+    const auto warnings = track_markers(model, markers, options)->fit.warnings;
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const auto& w) { return w.find("may cost") != std::string::npos; });
+  };
+  EXPECT_TRUE(warned({.omega_rad_s = 10.0, .step_s = 0.01}));
+  EXPECT_FALSE(warned({}));
 }
 
 TEST(Track, EquationFifteenIsTheDistanceToTheGoalsOfALaggingBody) {

@@ -40,7 +40,7 @@ struct JudgedFrames {
 /// What poses that followed all samples say of these.
 struct FollowedSamples {
   bool all_explained = false;  ///< nothing to undo, to leave out or to doubt
-  std::int64_t solves = 0;     ///< poses that were solved for: of frames in which markers come, go or stand out
+  std::int64_t solves = 0;  ///< poses that were solved for: of frames in which markers come, go or stand out
 };
 
 /// Judge samples by poses that followed all of them (one column per frame), without solving all frames.

@@ -32,7 +32,8 @@ Controller::Controller(const Plan& plan)
   const auto K = 3 * static_cast<Eigen::Index>(model_.point_constraints().size());
   x_ = model_.default_state();
   kept_x_ = x_;
-  for (auto* v : {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_}) v->setZero(n);
+  for (auto* v : {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_})
+    v->setZero(n);
   bias_.setZero(3 * M);
   for (auto* m : {&command_, &marker_begun_, &marker_ended_}) m->setZero(3, M);
   for (auto* m : {&M_, &H_}) m->setZero(n, n);
@@ -86,9 +87,9 @@ void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double 
   forget_step();
 }
 
-// Over a step the acceleration is constant, that of the goals is not. With a jerk j the speed ends h (h/2 - c) j
-// off, and the position h^2 (h/6 - c/2) j; the law keeps what is left of both at rest where their sum, with kd
-// and kp, vanishes.
+// Over a step the acceleration is constant, that of the goals is not. With a jerk j the speed ends h (h/2 -
+// c) j off, and the position h^2 (h/6 - c/2) j; the law keeps what is left of both at rest where their sum,
+// with kd and kp, vanishes.
 double Controller::later_s(double h) const {
   if (!plan_.feed_forward) return 0.0;
   return std::max(0.0, h * (0.5 - plan_.kp * h / (3.0 * plan_.kd)));
@@ -104,8 +105,8 @@ void Controller::find_marker_accelerations(const Eigen::VectorXd& a, Eigen::Matr
     out.col(m) += model::point_bias_acceleration(w_, model_.markers()[at(m)].body, w_.marker.col(m));
 }
 
-void Controller::find_commands(const GoalValues& goal, double time_s, const Eigen::Matrix3Xd& goal_acceleration,
-                               double later_s) {
+void Controller::find_commands(const GoalValues& goal, double time_s,
+                               const Eigen::Matrix3Xd& goal_acceleration, double later_s) {
   model::marker_bias_acceleration(model_, w_, bias_);
   // J'q' and J q'' go on changing as they did over the step before.
   const double on = step_s_ > 0.0 ? later_s / step_s_ : 0.0;

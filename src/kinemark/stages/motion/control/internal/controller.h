@@ -31,8 +31,8 @@ class Controller {
   /// The same with the acceleration that the goals have at this instant.
   bool evaluate(const GoalValues& goal, double time_s) { return evaluate(goal, time_s, goal.a, 0.0); }
 
-  /// How much later than the beginning of a step of length h its acceleration is the goals', so that speed and
-  /// position follow goals of constant jerk without an error; 0 without feed-forward.
+  /// How much later than the beginning of a step of length h its acceleration is the goals', so that speed
+  /// and position follow goals of constant jerk without an error; 0 without feed-forward.
   [[nodiscard]] double later_s(double h) const;
 
   /// Put the body into pose x; its speeds stay. To be followed by evaluate().
@@ -52,7 +52,8 @@ class Controller {
 
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
   [[nodiscard]] const Eigen::VectorXd& v() const { return v_; }
-  /// Acceleration at the instant last evaluated: between those of the step that ended and the one that begins.
+  /// Acceleration at the instant last evaluated: between those of the step that ended and the one that
+  /// begins.
   [[nodiscard]] const Eigen::VectorXd& a() const { return now_a_; }
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] double smallest_singular() const { return smallest_; }

@@ -98,8 +98,7 @@ void GoalCell::acceleration_at(double u, Eigen::Matrix3Xd& out) const {
   const auto& p = power_;
   const double inside = std::min(u, 1.0);
   out = ((p[5] * (20.0 * inside) + 12.0 * p[4]) * inside + 6.0 * p[3]) * inside + 2.0 * p[2];
-  if (u > inside)
-    out += (u - inside) * ((p[5] * (60.0 * inside) + 24.0 * p[4]) * inside + 6.0 * p[3]);
+  if (u > inside) out += (u - inside) * ((p[5] * (60.0 * inside) + 24.0 * p[4]) * inside + 6.0 * p[3]);
   out *= rate_hz_ * rate_hz_;
 }
 
