@@ -47,8 +47,8 @@ double find_jerk(const model::Model& model, const data::JointMotion& motion) {
   });
 }
 
-// What a step leaves whose acceleration is that of its beginning, times what is left of it when it aims at the
-// middle: 0.25 was measured at omega h = 0.25 and 0.59 at 0.5.
+// What a step leaves whose acceleration is that of its beginning, times what is left of it when it aims at
+// the middle: 0.25 was measured at omega h = 0.25 and 0.59 at 0.5.
 double error_of(double jerk, double step_s, double omega) {
   return kLeft * omega * step_s * step_s * jerk / (2.0 * omega * omega) * (1.0 - omega * step_s / 3.0);
 }
