@@ -319,7 +319,7 @@ void Walker::judge() {
   if (weight > 0.0 && !(std::sqrt(squares / weight) <= plan_.max_error_m)) flagged_ = true;
   if (weight > 0.0 && plan_.one_sum && !plan_.settle && !flagged_) recover(squares / weight);
   // A body that is still led to the goals it had lost is not where they are.
-  if (weight > 0.0 && plan_.settle && usual_cost_ >= 0.0 && led_.x != goal_.x &&
+  if (weight > 0.0 && plan_.one_sum && usual_cost_ >= 0.0 && led_.x != goal_.x &&
       squares / weight > kCostly * usual_cost_ + kCostly_m2)
     flagged_ = true;
 }
