@@ -137,13 +137,15 @@ void compare(const model::Model& model, int subjects, std::uint64_t seed, bool s
   for (const auto& step : steps) {
     solves += step.solves;
     const bool whole_frames = step.step_s > 0.01;
+    // 28 of 30; where steps cost more, the program has said so.
+    const int enough = whole_frames ? 28 * step.subjects / 30 : step.subjects;
     print_row(
-        (whole_frames ? step.silent == 0 : step.kept == step.subjects && step.warned == 0) &&
-            step.flagged == 0,
+        step.kept >= enough && (whole_frames ? step.silent : step.warned) == 0 && step.flagged == 0,
         fmt::format("direct control, steps of {}, beside least squares, {}", step.name, whom),
         fmt::format("angles <= {} times as far from the truth{}; none flagged",
                     skin ? step.most_skin : step.most,
-                    whole_frames ? ", or a smaller step is asked for" : ", and no smaller step asked for"),
+                    whole_frames ? " in 28 of 30, or else a smaller step asked for"
+                                 : ", and no smaller step asked for"),
         fmt::format("{} of {}, smaller steps asked for in {}; worst {:.4f} times ({}); {:.3f} deg in all, "
                     "least squares {:.3f}; "
                     "{} flagged; {:.0f} us a frame",
