@@ -20,6 +20,7 @@ namespace {
 
 using namespace kinemark;
 using namespace kinemark::track_subject;
+using testing_support::print_note;
 using testing_support::print_row;
 using Clock = std::chrono::steady_clock;
 
@@ -144,7 +145,7 @@ void compare(const model::Model& model, int subjects, std::uint64_t seed, bool s
         fmt::format("direct control, steps of {}, beside least squares, {}", step.name, whom),
         fmt::format("angles <= {} times as far from the truth{}; none flagged",
                     skin ? step.most_skin : step.most,
-                    whole_frames ? " in 28 of 30, or else a smaller step asked for"
+                    whole_frames ? " in 28 of 30, a smaller step asked for in the others"
                                  : ", and no smaller step asked for"),
         fmt::format("{} of {}, smaller steps asked for in {}; worst {:.4f} times ({}); {:.3f} deg in all, "
                     "least squares {:.3f}; "
@@ -156,8 +157,8 @@ void compare(const model::Model& model, int subjects, std::uint64_t seed, bool s
             fmt::format("{} in {} frames of {} runs", solves, sums.frames, 3 * subjects));
   print_row(sums.nearest >= 1e-4, fmt::format("angles at 1 ms beside those at 1/60 s, {}", whom),
             "they differ, by 1e-4 deg or more", fmt::format("{:.4f} deg at least", sums.nearest));
-  print_row(
-      true, fmt::format("time of a frame and the error that it buys, {}", whom), "told",
+  print_note(
+      fmt::format("time of a frame and the error that it buys, {}", whom),
       fmt::format("control {:.0f} us and {:.3f} deg; settled {:.0f} us and {:.3f} deg; inverse kinematics "
                   "{:.0f} us and {:.3f} deg",
                   per_frame(steps[1].seconds, sums.frames), rms(steps[1].squares),
