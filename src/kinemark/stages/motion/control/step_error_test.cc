@@ -66,10 +66,10 @@ TEST(StepError, TheStepThatDoesCostsNoMore) {
 
 TEST(StepError, IsWarnedOfBesideWhatAnglesAreKnownTo) {
   const auto model = subject();
-  EXPECT_NE(warn_of_step(model, swinging(model, 1e-3), 0.01, 30.0), "");
+  EXPECT_NE(warn_of_step(model, swinging(model, 5e-4), 0.01, 30.0), "");
   EXPECT_EQ(warn_of_step(model, swinging(model, 1e-2), 0.01, 30.0), "") << "noise is more";
   EXPECT_EQ(warn_of_step(model, swinging(model, 1e-6), 1e-3, 100.0), "") << "nobody needs less than 0.01 deg";
-  auto unknown = swinging(model, 1e-3);
+  auto unknown = swinging(model, 5e-4);
   unknown.q_sd.clear();
   EXPECT_EQ(warn_of_step(model, unknown, 0.01, 30.0), "");
 }

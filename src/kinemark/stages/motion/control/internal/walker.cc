@@ -289,7 +289,8 @@ void Walker::restart() {
 // Goals that are still eased in come from where the body was and fit no pose.
 void Walker::recover(double cost) {
   if (led_.x != goal_.x) return;
-  if (usual_cost_ >= 0.0 && cost > kCostly * usual_cost_ + kCostly_m2) {
+  const double most = kCostly * usual_cost_ + kCostly_m2;
+  if (usual_cost_ >= 0.0 && cost > most) {
     settled_ = controller_.x();
     auto best = settler_.solve(goal_.x, goal_.weight, 0, settled_);
     other_ = settled_;
@@ -305,7 +306,7 @@ void Walker::recover(double cost) {
       return;
     }
   }
-  usual_cost_ = usual_cost_ < 0.0 ? cost : kMemory * usual_cost_ + (1.0 - kMemory) * cost;
+  usual_cost_ = usual_cost_ < 0.0 ? cost : kMemory * usual_cost_ + (1.0 - kMemory) * std::min(cost, most);
 }
 
 void Walker::judge() {
