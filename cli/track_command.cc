@@ -162,6 +162,11 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
       ->capture_default_str()
       ->group("Control");
+  command
+      ->add_flag(
+          "--settle", options.settle,
+          "Bring the pose of every frame to the best fit of its goals by inverse kinematics; one level only")
+      ->group("Control");
   command->add_flag("--no-feed-forward", a.no_feed_forward, "Use positions only, not their rates")
       ->group("Control");
   command->callback(

@@ -7,13 +7,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
+#include <expected>
+#include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/data/motion_coordinates.h"
 #include "kinemark/stages/motion/control/internal/first_pose.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
+#include "kinemark/stages/motion/control/internal/step_error.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
 #include "kinemark/stages/motion/internal/judged_frames.h"
 #include "kinemark/stages/motion/internal/marker_account.h"
@@ -105,13 +107,7 @@ Status check_derivatives(const data::Trajectories& markers, const TrackOptions& 
   return {};
 }
 
-/// All samples judged as inverse kinematics judges them, by the poses that fit each frame best. No value when
-/// the caller stopped it.
-std::optional<internal::JudgedFrames> judge(const Plan& plan, const data::Trajectories& markers,
-                                            const TrackOptions& options, const Progress& progress) {
-  if (!options.judge_samples) return internal::JudgedFrames{};
-  return internal::solve_and_judge(plan.problem, plan.start_options, markers, progress);
-}
+std::unexpected<Error> stopped() { return fail(Code::cancelled, "direct marker control was stopped"); }
 
 /// Deviations and bounds are those of the samples that remain.
 void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& track) {
@@ -125,6 +121,76 @@ void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& tr
     }
 }
 
+void warn_of_step(const model::Model& model, const Plan& plan, TrackResult& result) {
+  auto warning = internal::warn_of_step(model, result.motion, plan.step_s, std::sqrt(plan.kp));
+  if (!warning.empty()) result.fit.warnings.push_back(std::move(warning));
+}
+
+/// Samples as they are followed.
+struct Followed {
+  const data::Trajectories& kept;   ///< of what the deviations are
+  const data::Trajectories& goals;  ///< the same, and in place of what was left out where the body has it
+};
+
+/// A body that has followed a recording.
+struct FollowedRun {
+  Plan plan;
+  Track track;
+  TrackResult result;
+};
+
+Status follow(const data::Trajectories& markers, const Followed& followed, const GoalFilter& filter,
+              const TrackOptions& options, const Progress& progress, FollowedRun& run) {
+  auto& plan = run.plan;
+  {
+    internal::SampleWindow samples(plan.problem.model.marker_count(), plan.problem.frames);
+    fill_window(plan, followed.goals, samples);
+    fill_goals(plan, followed.goals, filter, samples, options.derivatives, run.track);
+    if (auto status = check_seen(plan, samples, run.track, markers.time); !status) return status;
+  }
+  const Eigen::VectorXd start = internal::find_first_pose(plan, run.track.goals, options.lock);
+  if (auto status = internal::check_mass(plan, start); !status) return status;
+  describe(plan, markers, run.result);
+  Walker walker(plan, filter, plan.problem.frames, run.result.motion.time.t0_s);
+  if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
+  fill_window(plan, followed.goals, walker.samples());
+  internal::Recorder recorder(plan, followed.kept, walker, run.track, run.result);
+  const auto begin = std::chrono::steady_clock::now();
+  if (!recorder.run(start, progress)) return stopped();
+  run.result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return {};
+}
+
+/// Follow all samples as they are, and judge them by the body that did. False: not all are explained, and the
+/// run does not count.
+Result<bool> follow_all(const data::Trajectories& markers, const GoalFilter& filter,
+                        const TrackOptions& options, const Progress& progress, FollowedRun& run) {
+  if (auto status = follow(markers, {.kept = markers, .goals = markers}, filter, options, progress, run);
+      !status)
+    return std::unexpected(status.error());
+  if (!options.judge_samples) return true;
+  const auto found = internal::judge_followed(run.plan.problem, run.plan.start_options, markers,
+                                              run.track.states, run.result.motion.status);
+  run.result.solves += found.solves;
+  return found.all_explained;
+}
+
+/// Follow what is left of the samples when each was judged by the poses that fit its frame best.
+Status follow_judged(const data::Trajectories& markers, const GoalFilter& filter, const TrackOptions& options,
+                     const Progress& progress, FollowedRun& run, internal::JudgedFrames& judged) {
+  auto found = internal::solve_and_judge(run.plan.problem, run.plan.start_options, markers, progress);
+  if (!found) return stopped();
+  judged = std::move(*found);
+  const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
+  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals
+  // jump.
+  const data::Trajectories& goals = judged.filled && options.derivatives == nullptr ? *judged.filled : kept;
+  if (auto status = follow(markers, {.kept = kept, .goals = goals}, filter, options, progress, run); !status)
+    return status;
+  run.result.solves += run.plan.problem.frames;
+  return {};
+}
+
 }  // namespace
 
 Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
@@ -135,41 +201,30 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
   if (plan->problem.frames < 2)
     return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
 
-  const auto judged = judge(*plan, markers, options, progress);
-  if (!judged) return fail(Code::cancelled, "direct marker control was stopped");
-  const data::Trajectories& kept = judged->kept ? *judged->kept : markers;
-  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals
-  // jump.
-  const data::Trajectories& followed =
-      judged->filled && options.derivatives == nullptr ? *judged->filled : kept;
-
   const GoalFilter filter = internal::make_filter(plan->rate_hz, options);
-  Track track;
-  {
-    internal::SampleWindow samples(plan->problem.model.marker_count(), plan->problem.frames);
-    fill_window(*plan, followed, samples);
-    fill_goals(*plan, followed, filter, samples, options.derivatives, track);
-    if (auto status = check_seen(*plan, samples, track, markers.time); !status)
+  const bool judges_first = options.judge_samples && plan->settle;
+  FollowedRun run{.plan = *plan, .track = {}, .result = {}};
+  internal::JudgedFrames judged;
+  bool done = false;
+  if (!judges_first) {
+    const auto explained = follow_all(markers, filter, options, progress, run);
+    if (!explained) return std::unexpected(explained.error());
+    done = *explained;
+  }
+  if (!done) {
+    run = {.plan = *plan, .track = {}, .result = {}};
+    if (auto status = follow_judged(markers, filter, options, progress, run, judged); !status)
       return std::unexpected(status.error());
   }
-  const Eigen::VectorXd start = internal::find_first_pose(*plan, track.goals, options.lock);
-  if (auto status = internal::check_mass(*plan, start); !status) return std::unexpected(status.error());
 
-  TrackResult result;
-  describe(*plan, markers, result);
-  Walker walker(*plan, filter, plan->problem.frames, result.motion.time.t0_s);
-  if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
-  fill_window(*plan, followed, walker.samples());
-  internal::Recorder recorder(*plan, kept, walker, track, result);
-  const auto begin = std::chrono::steady_clock::now();
-  if (!recorder.run(start, progress)) return fail(Code::cancelled, "direct marker control was stopped");
-  result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-
+  auto& result = run.result;
   if (options.judge_samples)
-    internal::add_sample_findings(plan->problem, *judged, markers, result.motion, result.fit);
+    internal::add_sample_findings(run.plan.problem, judged, markers, result.motion, result.fit);
   if (options.error_bars) {
-    forget_rejected(*plan, kept, track);
-    internal::add_error_bars(*plan, kept, track, filter, options, result);
+    const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
+    forget_rejected(run.plan, kept, run.track);
+    internal::add_error_bars(run.plan, kept, run.track, filter, options, result);
+    if (options.feed_forward) warn_of_step(model, run.plan, result);
   }
   internal::add_marker_errors(result.motion, result.fit);
   if (result.flagged_frames > 0)
@@ -179,7 +234,7 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
          .detail =
              fmt::format("the goals were out of reach, or the body ran away and was started anew ({} times)",
                          result.restarts)});
-  return result;
+  return std::move(result);
 }
 
 Result<data::Trajectories> control_goals(const data::Trajectories& markers, const TrackOptions& options) {

@@ -43,8 +43,11 @@ struct TrackResult {
   double rms_goal_error_m = 0.0, max_goal_error_m = 0.0;  ///< goal (filtered) to model, gaps left out
   std::int64_t flagged_frames = 0;                        ///< frames beyond max_error_m, or not followed
   std::int64_t restarts = 0;                              ///< times that the body was set anew to its markers
-  double step_s = 0.0;                                    ///< as used
-  std::int64_t steps = 0;                                 ///< of the controller
+  /// Poses that a solver of inverse kinematics was asked for after the first one: to settle, to set the body
+  /// anew, to judge samples of frames in which markers come, go or stand out.
+  std::int64_t solves = 0;
+  double step_s = 0.0;         ///< as used
+  std::int64_t steps = 0;      ///< of the controller
   double solve_seconds = 0.0;  ///< wall time of the steps alone, without start and error bars
 };
 

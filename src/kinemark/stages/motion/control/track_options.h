@@ -36,9 +36,10 @@ struct TrackOptions {
   double kp = 0.0, kd = 0.0;   ///< 1/s^2 and 1/s; both > 0: used in place of omega
   double step_s =
       0.0;  ///< largest step; a frame is cut into equal ones. 0: the largest with omega step <= 0.5
-  bool settle = true;        ///< one level of markers: at every frame what is left of the gradient of the
-                             ///< marker errors is removed, so that the frame's pose is the best fit
-  double damping = 0.1;      ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
+  bool settle = false;   ///< one level of markers: at every frame a solver of inverse kinematics removes
+                         ///< what is left of the gradient of the marker errors, so that the frame's pose is
+                         ///< the best fit, also where markers contradict one another
+  double damping = 0.1;  ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
   double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
   bool feed_forward = true;  ///< velocity and acceleration of the goals are used
   double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples; or >= 0.12

@@ -268,6 +268,7 @@ FrameSolver::Outcome FrameSolver::solve(const Eigen::Matrix3Xd& y, const Eigen::
   if (stale) visit(y, weight, frame, x);
   outcome.cost = total_weight_ > 0.0 ? cost_ / total_weight_ : 0.0;
   iterations_ += outcome.iterations;
+  ++solves_;
   return outcome;
 }
 

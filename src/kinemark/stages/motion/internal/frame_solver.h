@@ -38,6 +38,8 @@ class FrameSolver {
   /// Largest point-constraint gap of the last pose visited, m.
   [[nodiscard]] double loop_gap() const { return gap_.size() == 0 ? 0.0 : gap_.cwiseAbs().maxCoeff(); }
   [[nodiscard]] std::int64_t iterations() const { return iterations_; }
+  /// Calls of solve().
+  [[nodiscard]] std::int64_t solves() const { return solves_; }
 
  private:
   /// Kinematics, residuals, loss weights and merit at x.
@@ -64,7 +66,7 @@ class FrameSolver {
   std::vector<std::uint8_t> held_;
   Eigen::VectorXd x_try_;
   double total_weight_ = 0.0, cost_ = 0.0, loop_penalty_ = 0.0;
-  std::int64_t iterations_ = 0;
+  std::int64_t iterations_ = 0, solves_ = 0;
   bool tasks_on_free_joints_ = false;
 };
 

@@ -37,7 +37,7 @@ FrameWalk::FrameWalk(const Problem& problem, const IkOptions& options, const Pro
   move_.setZero(problem.model.speed_count());
 }
 
-bool FrameWalk::run(const data::Trajectories& markers, bool keep_positions, SolvedFrames& solved) {
+void FrameWalk::make_room(bool keep_positions, SolvedFrames& solved) const {
   const std::size_t numbers = at(3 * problem_.frames) * at(problem_.model.marker_count());
   solved.states.resize(problem_.model.state_count(), problem_.frames);
   solved.marker_error.assign(numbers, kNaN);
@@ -45,6 +45,17 @@ bool FrameWalk::run(const data::Trajectories& markers, bool keep_positions, Solv
   solved.cost.assign(at(problem_.frames), 0.0);
   solved.loop_gap_m.assign(at(problem_.frames), 0.0);
   if (keep_positions) solved.positions.assign(numbers, std::numeric_limits<float>::quiet_NaN());
+}
+
+void FrameWalk::take(const data::Trajectories& markers, const Eigen::MatrixXd& states,
+                     const Array<data::FrameStatus>& status, SolvedFrames& solved) {
+  make_room(true, solved);
+  solved.status = status;
+  for (std::int64_t f = 0; f < problem_.frames; ++f) put(markers, f, states.col(f), solved);
+}
+
+bool FrameWalk::run(const data::Trajectories& markers, bool keep_positions, SolvedFrames& solved) {
+  make_room(keep_positions, solved);
   solved.first = find_first(markers);
   problem_.observe(markers, solved.first, y_, weight_);
   // The recording may begin anywhere relative to the default pose: several starts, the cheapest wins.

@@ -53,6 +53,10 @@ class FrameWalk {
   void solve_filled(const data::Trajectories& kept, const data::Trajectories& filled,
                     const std::vector<std::uint8_t>& concerned, SolvedFrames& solved);
 
+  /// Take poses of all frames (one column each) as they are, and where they put the markers.
+  void take(const data::Trajectories& markers, const Eigen::MatrixXd& states,
+            const Array<data::FrameStatus>& status, SolvedFrames& solved);
+
   /// Take a pose for a frame, as it is.
   void put(const data::Trajectories& markers, std::int64_t f, const Eigen::VectorXd& state,
            SolvedFrames& solved);
@@ -61,6 +65,7 @@ class FrameWalk {
   [[nodiscard]] std::int64_t iterations() const { return solver_.iterations(); }
 
  private:
+  void make_room(bool keep_positions, SolvedFrames& solved) const;
   [[nodiscard]] std::int64_t find_first(const data::Trajectories& markers) const;
   /// A marker comes back in frame f: the pose from before it went counts as well as the one found without it.
   /// The cheaper is taken, of two that are as good the one nearer to before. What happened in the gap then

@@ -349,4 +349,19 @@ std::optional<JudgedFrames> solve_and_judge(const Problem& problem, const IkOpti
   return judged;
 }
 
+FollowedSamples judge_followed(const Problem& problem, const IkOptions& options,
+                               const data::Trajectories& markers, const Eigen::MatrixXd& states,
+                               const Array<data::FrameStatus>& status) {
+  FollowedSamples found;
+  if (!find_path_exchanges(problem, markers).empty()) return found;
+  SolvedFrames followed;
+  const Progress unseen;
+  FrameWalk(problem, options, unseen).take(markers, states, status, followed);
+  if (!find_plain_defects(problem, markers, followed).empty()) return found;
+  const auto judgement = judge_recording(problem, options, markers, followed);
+  found.solves = judgement.solves;
+  found.all_explained = judgement.bad.empty() && judgement.doubtful.empty();
+  return found;
+}
+
 }  // namespace kinemark::motion::internal

@@ -37,4 +37,16 @@ struct JudgedFrames {
                                                           const data::Trajectories& markers,
                                                           const Progress& progress);
 
+/// What poses that followed all samples say of these.
+struct FollowedSamples {
+  bool all_explained = false;  ///< nothing to undo, to leave out or to doubt
+  std::int64_t solves = 0;  ///< poses that were solved for: of frames in which markers come, go or stand out
+};
+
+/// Judge samples by poses that followed all of them (one column per frame), without solving all frames.
+/// `status` as SolvedFrames has it.
+[[nodiscard]] FollowedSamples judge_followed(const Problem& problem, const IkOptions& options,
+                                             const data::Trajectories& markers, const Eigen::MatrixXd& states,
+                                             const Array<data::FrameStatus>& status);
+
 }  // namespace kinemark::motion::internal

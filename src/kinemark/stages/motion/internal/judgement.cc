@@ -59,7 +59,8 @@ std::int64_t find_sound_frame(const Problem& problem, const data::Trajectories& 
 
 std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
                                    const data::Trajectories& markers, const SolvedFrames& solved,
-                                   StepScale& scale, std::int64_t sound, std::int64_t last) {
+                                   StepScale& scale, std::int64_t sound, std::int64_t last,
+                                   std::int64_t* solves) {
   const Eigen::Index M = problem.model.marker_count();
   FrameJudge judge(problem, options, markers.time.rate_hz, scale);
   Eigen::Matrix3Xd y(3, M);
@@ -77,6 +78,7 @@ std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& opti
   if (before >= 0 && before < problem.frames) state_before = solved.states.col(before);
   judge.begin(frame(sound), state_before.size() > 0 ? &state_before : nullptr, direction);
   for (std::int64_t f = sound; f != last;) judge.judge(frame(f += direction));
+  if (solves != nullptr) *solves += judge.solves();
   return judge.finish();
 }
 
@@ -86,7 +88,8 @@ Judgement judge_recording(const Problem& problem, const IkOptions& options, cons
   StepScale scale(problem, solved);
   const std::int64_t sound = find_sound_frame(problem, markers, solved), last = problem.frames - 1;
   for (const std::int64_t end : {last, std::int64_t{0}})
-    for (const Outlier& outlier : judge_samples(problem, options, markers, solved, scale, sound, end)) {
+    for (const Outlier& outlier :
+         judge_samples(problem, options, markers, solved, scale, sound, end, &judgement.solves)) {
       const std::int64_t frames = outlier.last_frame - outlier.first_frame + 1;
       const bool to_the_end = outlier.last_frame == last || outlier.first_frame == 0;
       // What came back is bad; what did not may have a new position now, unless the model says no.

@@ -15,6 +15,7 @@ namespace kinemark::motion::internal {
 struct Judgement {
   std::vector<Outlier> bad;       ///< to be left out
   std::vector<Outlier> doubtful;  ///< this or the other side of its beginning is wrong; kept
+  std::int64_t solves = 0;        ///< poses that were solved for on the way
 };
 
 /// A frame whose samples may be believed, and those of the two on each side: the cheapest such stretch of
@@ -28,11 +29,13 @@ struct Judgement {
 ///
 /// @param solved  the pose of each frame, all its samples believed, and the positions of its markers
 /// @param scale   its growth is learnt when it is first needed
+/// @param solves  grows by the poses that were solved for
 /// @return        in the order in which they end
 [[nodiscard]] std::vector<Outlier> judge_samples(const Problem& problem, const IkOptions& options,
                                                  const data::Trajectories& markers,
                                                  const SolvedFrames& solved, StepScale& scale,
-                                                 std::int64_t sound, std::int64_t last);
+                                                 std::int64_t sound, std::int64_t last,
+                                                 std::int64_t* solves = nullptr);
 
 /// Judge all samples that are present, by the poses and positions of `solved`.
 [[nodiscard]] Judgement judge_recording(const Problem& problem, const IkOptions& options,

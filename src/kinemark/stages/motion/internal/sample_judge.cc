@@ -81,6 +81,7 @@ class FrameJudge::Impl {
   [[nodiscard]] const std::vector<std::uint8_t>& out() const { return out_; }
   [[nodiscard]] const Eigen::Matrix3Xd& expected() const { return world_; }
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
+  [[nodiscard]] std::int64_t solves() const { return solver_ ? solver_->solves() : 0; }
 
  private:
   void look(const JudgedFrame& frame) {
@@ -479,6 +480,7 @@ std::vector<Outlier> FrameJudge::finish() { return impl_->finish(); }
 void FrameJudge::forget() { impl_->forget(); }
 const std::vector<std::uint8_t>& FrameJudge::out() const { return impl_->out(); }
 const Eigen::Matrix3Xd& FrameJudge::expected() const { return impl_->expected(); }
+std::int64_t FrameJudge::solves() const { return impl_->solves(); }
 const Eigen::VectorXd& FrameJudge::x() const { return impl_->x(); }
 
 }  // namespace kinemark::motion::internal

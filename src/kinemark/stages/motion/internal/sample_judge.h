@@ -45,6 +45,8 @@ class FrameJudge {
   [[nodiscard]] const std::vector<std::uint8_t>& out() const;
   /// 3 x M: where the markers of that frame should be, m. Valid where one is not believed.
   [[nodiscard]] const Eigen::Matrix3Xd& expected() const;
+  /// Poses that were solved for so far.
+  [[nodiscard]] std::int64_t solves() const;
   /// Pose of that frame without what is not believed.
   [[nodiscard]] const Eigen::VectorXd& x() const;
 

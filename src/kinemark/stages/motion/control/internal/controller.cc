@@ -32,9 +32,10 @@ Controller::Controller(const Plan& plan)
   const auto K = 3 * static_cast<Eigen::Index>(model_.point_constraints().size());
   x_ = model_.default_state();
   kept_x_ = x_;
-  for (auto* v : {&v_, &a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_}) v->setZero(n);
+  for (auto* v : {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_})
+    v->setZero(n);
   bias_.setZero(3 * M);
-  command_.setZero(3, M);
+  for (auto* m : {&command_, &marker_begun_, &marker_ended_}) m->setZero(3, M);
   for (auto* m : {&M_, &H_}) m->setZero(n, n);
   J_.setZero(3 * M, n);
   loop_J_.setZero(K, n);
@@ -82,10 +83,33 @@ void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double 
   if (plan_.feed_forward && llt_.info() == Eigen::Success) v_ = llt_.solve(normal_force_);
   if (!v_.allFinite()) v_.setZero();
   a_.setZero();
+  now_a_.setZero();
+  forget_step();
 }
 
-void Controller::find_commands(const GoalValues& goal, double time_s) {
+// Over a step the acceleration is constant, that of the goals is not. With a jerk j the speed ends h (h/2 -
+// c) j off, and the position h^2 (h/6 - c/2) j; the law keeps what is left of both at rest where their sum,
+// with kd and kp, vanishes.
+double Controller::later_s(double h) const {
+  if (!plan_.feed_forward) return 0.0;
+  return std::max(0.0, h * (0.5 - plan_.kp * h / (3.0 * plan_.kd)));
+}
+
+void Controller::find_marker_accelerations(const Eigen::VectorXd& a, Eigen::Matrix3Xd& out) {
+  // Rates of positions by `a` in place of the speeds are the rows J a.
+  model::velocities(model_, w_, a);
+  for (Eigen::Index m = 0; m < out.cols(); ++m)
+    out.col(m) = model::point_velocity(w_, model_.markers()[at(m)].body, w_.marker.col(m));
+  model::velocities(model_, w_, v_);
+  for (Eigen::Index m = 0; m < out.cols(); ++m)
+    out.col(m) += model::point_bias_acceleration(w_, model_.markers()[at(m)].body, w_.marker.col(m));
+}
+
+void Controller::find_commands(const GoalValues& goal, double time_s,
+                               const Eigen::Matrix3Xd& goal_acceleration, double later_s) {
   model::marker_bias_acceleration(model_, w_, bias_);
+  // J'q' and J q'' go on changing as they did over the step before.
+  const double on = step_s_ > 0.0 ? later_s / step_s_ : 0.0;
   const double feed = plan_.feed_forward ? 1.0 : 0.0;
   for (Eigen::Index m = 0; m < goal.weight.size(); ++m) {
     if (goal.weight[m] == 0.0) {
@@ -94,8 +118,9 @@ void Controller::find_commands(const GoalValues& goal, double time_s) {
     }
     const Eigen::Vector3d position = w_.marker.col(m);
     const Eigen::Vector3d velocity = model::point_velocity(w_, model_.markers()[at(m)].body, position);
-    command_.col(m) = feed * goal.a.col(m) + plan_.kd * (feed * goal.v.col(m) - velocity) +
-                      plan_.kp * (goal.x.col(m) - position) - bias_.segment<3>(3 * m);
+    command_.col(m) = feed * goal_acceleration.col(m) + plan_.kd * (feed * goal.v.col(m) - velocity) +
+                      plan_.kp * (goal.x.col(m) - position) - bias_.segment<3>(3 * m) -
+                      on * (marker_ended_.col(m) - marker_begun_.col(m));
   }
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
@@ -178,13 +203,18 @@ bool Controller::hold_at_limits() {
   return more;
 }
 
-bool Controller::evaluate(const GoalValues& goal, double time_s) {
+bool Controller::evaluate(const GoalValues& goal, double time_s, const Eigen::Matrix3Xd& goal_acceleration,
+                          double later_s) {
   ++steps_;
   if (!v_.allFinite() || !x_.allFinite() || v_.norm() > plan_.max_speed) return false;
   model::kinematics(model_, w_, x_);
-  model::velocities(model_, w_, v_);
+  const bool goes_on = step_s_ > 0.0 && plan_.feed_forward;
+  if (goes_on)
+    find_marker_accelerations(a_, marker_ended_);
+  else
+    model::velocities(model_, w_, v_);
   model::mass_matrix(model_, w_, M_);
-  find_commands(goal, time_s);
+  find_commands(goal, time_s, goes_on ? goal_acceleration : goal.a, later_s);
   model::difference(model_, x_, plan_.rest, wished_);
   wished_ *= plan_.posture_kp;
   wished_ -= plan_.posture_kd * v_;
@@ -205,6 +235,7 @@ bool Controller::evaluate(const GoalValues& goal, double time_s) {
   }
   held_ = plan_.problem.fixed_speed;
   held_a_.setZero();
+  now_a_ = a_;
   for (int round = 0; round < kMostHolds; ++round) {
     if (!solver_.begin(M_, held_, held_a_)) return false;
     solve(goal.weight);
@@ -214,6 +245,14 @@ bool Controller::evaluate(const GoalValues& goal, double time_s) {
   }
   rank_ = solver_.rank();
   smallest_ = rank_ > 0 ? solver_.smallest_pivot() : 0.0;
+  if (plan_.feed_forward) find_marker_accelerations(a_, marker_begun_);
+  // From later in the step before to later in this one.
+  const double since = step_s_ - later_s_;
+  if (goes_on)
+    now_a_ += since / (since + later_s) * (a_ - now_a_);
+  else
+    now_a_ = a_;
+  later_s_ = goes_on ? later_s : 0.0;
   return a_.allFinite();
 }
 
@@ -227,6 +266,7 @@ void Controller::go_back() {
   x_ = kept_x_;
   v_ = kept_v_;
   a_ = kept_a_;
+  forget_step();
   model::kinematics(model_, w_, x_);
   model::velocities(model_, w_, v_);
 }
@@ -236,6 +276,7 @@ void Controller::advance(double h) {
   move_ += 0.5 * h * h * a_;
   model::integrate(model_, x_, move_);
   v_ += h * a_;
+  step_s_ = h;
   // Excess by rounding, or by a limit reached at the start.
   for (const auto& c : model_.coordinates()) {
     const int k = c.speed_idx;

@@ -22,12 +22,24 @@ class Controller {
   /// Set the body to pose x with the speeds that follow the goals best.
   void start(const Eigen::VectorXd& x, const GoalValues& goal, double time_s);
 
-  /// Acceleration wanted at the present state for goals at this instant. False when the simulation has
-  /// diverged: speeds beyond the plan's limit or not finite.
-  bool evaluate(const GoalValues& goal, double time_s);
+  /// Acceleration wanted at the present state for goals at this instant, to be held over the step that
+  /// follows. False when the simulation has diverged: speeds beyond the plan's limit or not finite.
+  ///
+  /// @param goal_acceleration  3 x M, of the goals `later_s` after this instant, 0 to half a step
+  bool evaluate(const GoalValues& goal, double time_s, const Eigen::Matrix3Xd& goal_acceleration,
+                double later_s);
+  /// The same with the acceleration that the goals have at this instant.
+  bool evaluate(const GoalValues& goal, double time_s) { return evaluate(goal, time_s, goal.a, 0.0); }
+
+  /// How much later than the beginning of a step of length h its acceleration is the goals', so that speed
+  /// and position follow goals of constant jerk without an error; 0 without feed-forward.
+  [[nodiscard]] double later_s(double h) const;
 
   /// Put the body into pose x; its speeds stay. To be followed by evaluate().
-  void place(const Eigen::VectorXd& x) { x_ = x; }
+  void place(const Eigen::VectorXd& x) {
+    x_ = x;
+    forget_step();
+  }
 
   /// Keep the present state, for go_back().
   void keep();
@@ -40,7 +52,9 @@ class Controller {
 
   [[nodiscard]] const Eigen::VectorXd& x() const { return x_; }
   [[nodiscard]] const Eigen::VectorXd& v() const { return v_; }
-  [[nodiscard]] const Eigen::VectorXd& a() const { return a_; }
+  /// Acceleration at the instant last evaluated: between those of the step that ended and the one that
+  /// begins.
+  [[nodiscard]] const Eigen::VectorXd& a() const { return now_a_; }
   [[nodiscard]] int rank() const { return rank_; }
   [[nodiscard]] double smallest_singular() const { return smallest_; }
   /// kinematics() and velocities() of the state last evaluated.
@@ -49,7 +63,12 @@ class Controller {
 
  private:
   /// Right-hand sides r of J a = r from markers and tasks, and rows of the tasks.
-  void find_commands(const GoalValues& goal, double time_s);
+  void find_commands(const GoalValues& goal, double time_s, const Eigen::Matrix3Xd& goal_acceleration,
+                     double later_s);
+  /// Accelerations of the markers (3 x M) in the present state with accelerations `a` of the speeds.
+  void find_marker_accelerations(const Eigen::VectorXd& a, Eigen::Matrix3Xd& out);
+  /// Nothing is known of a step that ends here.
+  void forget_step() { step_s_ = 0.0; }
   void gather_level(const Plan::Level& level, std::size_t index, const Eigen::VectorXd& weight);
   /// The loop constraints of the model, with priority over all levels.
   void close_loops();
@@ -63,9 +82,12 @@ class Controller {
   PrioritySolver solver_;
   bool one_level_ = false;  // of markers and tasks, without loops: the fast path can be used
   bool have_jacobian_ = false;
-  Eigen::VectorXd x_, v_, a_, wished_, bias_, normal_force_, held_a_, move_;
+  Eigen::VectorXd x_, v_, a_, now_a_, wished_, bias_, normal_force_, held_a_, move_;
   Eigen::VectorXd kept_x_, kept_v_, kept_a_;
   Eigen::Matrix3Xd command_;
+  Eigen::Matrix3Xd marker_begun_, marker_ended_;  // of the step with a_: at its beginning and its end
+  double step_s_ = 0.0;                           // length of the step that ends here; 0: there is none
+  double later_s_ = 0.0;                          // what a_ is later than its evaluation
   Eigen::MatrixXd M_, H_, J_, loop_J_;
   Eigen::VectorXd loop_gap_, loop_r_;
   struct Gathered {

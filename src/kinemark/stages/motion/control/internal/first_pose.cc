@@ -44,14 +44,19 @@ Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, Loc
       find_start(p, plan.start_options, solver, y, weight, 0, plan.start_options.starts, x);
     if (lock == LockMode::automatic) {
       IdlePoses idle_poses;
-      Eigen::VectorXd pose = x;
-      const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kPosesChecked);
-      for (std::int64_t f = anchor; f < p.frames; f += stride) {
-        p.observe(goals, f, y, weight);
-        if (weight.sum() > 0.0) solver.solve(y, weight, 0, pose);
-        idle_poses.followed.push_back(pose);
-      }
       idle_poses.around = poses_around(plan, x);
+      if (plan.settle) {
+        Eigen::VectorXd pose = x;
+        const std::int64_t stride = std::max<std::int64_t>(1, p.frames / kPosesChecked);
+        for (std::int64_t f = anchor; f < p.frames; f += stride) {
+          p.observe(goals, f, y, weight);
+          if (weight.sum() > 0.0) solver.solve(y, weight, 0, pose);
+          idle_poses.followed.push_back(pose);
+        }
+      } else {
+        idle_poses.followed = idle_poses.around;
+        idle_poses.followed.push_back(x);
+      }
       idle_poses.times_s.clear();
       for (std::int64_t i = 0; i <= kInstants; ++i)
         idle_poses.times_s.push_back(goals.time.time_s(p.first_frame + i * (p.frames - 1) / kInstants));

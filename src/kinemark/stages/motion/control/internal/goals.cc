@@ -94,6 +94,14 @@ void GoalCell::at(double u, GoalValues& out) const {
                     smooth_step((until_[m] - u) / fade_frames_);
 }
 
+void GoalCell::acceleration_at(double u, Eigen::Matrix3Xd& out) const {
+  const auto& p = power_;
+  const double inside = std::min(u, 1.0);
+  out = ((p[5] * (20.0 * inside) + 12.0 * p[4]) * inside + 6.0 * p[3]) * inside + 2.0 * p[2];
+  if (u > inside) out += (u - inside) * ((p[5] * (60.0 * inside) + 24.0 * p[4]) * inside + 6.0 * p[3]);
+  out *= rate_hz_ * rate_hz_;
+}
+
 GoalFilter::GoalFilter(double rate_hz, double cutoff_hz, double lookahead_s, double fade_s)
     : rate_hz_(rate_hz), fade_frames_(std::max(1.0, fade_s * rate_hz)) {
   const double cutoff = cutoff_hz / rate_hz;

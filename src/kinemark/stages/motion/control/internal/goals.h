@@ -63,6 +63,9 @@ class GoalCell {
   explicit GoalCell(int markers);
   /// At `u` frames after the cell's first frame, in [0, 1].
   void at(double u, GoalValues& out) const;
+  /// Accelerations alone (3 x M, m/s^2), also a little beyond the cell's end: there they go on as they change
+  /// at it.
+  void acceleration_at(double u, Eigen::Matrix3Xd& out) const;
 
  private:
   friend class GoalFilter;

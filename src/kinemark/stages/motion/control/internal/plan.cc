@@ -234,7 +234,8 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   plan.ease_s = std::max(options.fade_s, 1.0 / plan.rate_hz);
   if (auto status = place_levels(*level_of, levels, plan); !status) return std::unexpected(status.error());
   // Strict levels and goals that are not points have no single sum of squares to settle.
-  plan.settle = options.settle && plan.levels.size() == 1 && plan.levels.front().tasks.empty();
+  plan.one_sum = plan.levels.size() == 1 && plan.levels.front().tasks.empty();
+  plan.settle = options.settle && plan.one_sum;
   if (auto status = set_gains(options, plan); !status) return std::unexpected(status.error());
   for (int c = 0; c < rest->size(); ++c) {
     const int speed = model.coordinates()[at(c)].speed_idx;

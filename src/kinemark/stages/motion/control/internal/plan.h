@@ -32,7 +32,8 @@ struct Plan {
   int steps_per_frame = 1;
   PriorityDamping damping;
   bool feed_forward = true;
-  bool settle = false;  ///< poses of frames are brought to the best fit
+  bool one_sum = false;  ///< one level of markers alone: its errors are one sum of squares
+  bool settle = false;   ///< poses of frames are brought to the best fit
   double posture_kp = 0.0, posture_kd = 0.0;
   double max_speed = 0.0, max_error_m = 0.0;
   double ease_s = 0.0;      ///< over which the goal of a marker that reappears is eased in

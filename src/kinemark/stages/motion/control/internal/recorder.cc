@@ -79,6 +79,7 @@ Recorder::Recorder(const Plan& plan, const data::Trajectories& markers, Walker& 
 
 bool Recorder::run(const Eigen::VectorXd& x, const Progress& progress) {
   walker_.begin(x, 0);
+  const std::int64_t solves_at_first = walker_.solves();
   store();
   for (std::int64_t f = 1; f < plan_.problem.frames; ++f) {
     if (progress && f % kProgressEvery == 0 && !progress(f, plan_.problem.frames)) return false;
@@ -87,6 +88,7 @@ bool Recorder::run(const Eigen::VectorXd& x, const Progress& progress) {
   }
   if (goals_ == 0) result_.rms_goal_error_m = kNaN;
   result_.restarts = walker_.restarts();
+  result_.solves += walker_.solves() - solves_at_first;
   result_.steps = walker_.controller().steps();
   return true;
 }

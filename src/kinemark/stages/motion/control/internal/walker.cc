@@ -20,7 +20,8 @@ constexpr double kCostly = 9.0;
 constexpr double kCostly_m2 = 1e-4;
 constexpr int kOtherStarts = 6;
 constexpr double kCheaper = 0.98;
-constexpr double kMemory = 0.95;    // of the usual cost, per frame
+constexpr double kMuchCheaper = 0.5;  // than a pose that is no best fit
+constexpr double kMemory = 0.95;      // of the usual cost, per frame
 constexpr double kLostPose = 0.3;   // rad or m: a body so far from the best fit may have come to a wrong one
 constexpr double kSameCost = 1e-6;  // of the cost
 constexpr double kAtLimit = 1e-9;   // rad or m
@@ -34,8 +35,6 @@ Problem without_tasks(Problem problem) {
 }
 
 }  // namespace
-
-namespace {}  // namespace
 
 ReturningMarkers::ReturningMarkers(int markers, double ease_s) : ease_s_(ease_s), leads_(at(markers)) {}
 
@@ -72,6 +71,16 @@ void ReturningMarkers::apply(double time_s, GoalValues& goal) {
   }
 }
 
+void ReturningMarkers::add_acceleration(double time_s, Eigen::Matrix3Xd& acceleration) const {
+  for (Eigen::Index m = 0; m < acceleration.cols(); ++m) {
+    const auto& lead = leads_[at(m)];
+    const double u = (time_s - lead.begun_s) / ease_s_;
+    if (lead.led && u < 1.0)
+      acceleration.col(m) +=
+          ((12.0 * u - 6.0) * lead.miss + (6.0 * u - 4.0) * ease_s_ * lead.rate) / (ease_s_ * ease_s_);
+  }
+}
+
 Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, double t0_s)
     : plan_(plan),
       filter_(std::move(filter)),
@@ -84,6 +93,7 @@ Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, doubl
       goal_(plan.problem.model.marker_count()),
       before_(goal_),
       led_(goal_),
+      later_a_(goal_.a),
       returning_(plan.problem.model.marker_count(), plan.ease_s),
       kept_returning_(returning_),
       last_good_(plan.rest),
@@ -167,7 +177,10 @@ bool Walker::step(int s, int steps) {
     lost_ = true;
     return controller_.evaluate(goal_, now);
   }
-  return controller_.evaluate(led_, now);
+  const double later = controller_.later_s(h);
+  cell_.acceleration_at((s + later / h) / steps, later_a_);
+  returning_.add_acceleration(now + later, later_a_);
+  return controller_.evaluate(led_, now, later_a_, later);
 }
 
 bool Walker::settle() {
@@ -255,18 +268,45 @@ void Walker::lead_new_markers(double time_s, double u) {
   }
 }
 
-void Walker::restart() {
+bool Walker::set_anew(const Eigen::VectorXd& x) {
   ++restarts_;
   returning_.start(goal_.weight);
+  controller_.start(x, goal_, time_s());
+  return controller_.evaluate(goal_, time_s());
+}
+
+void Walker::restart() {
   Eigen::VectorXd x = last_good_;
   if (any_goal()) solver_.solve(goal_.x, goal_.weight, 0, x);
   if (!x.allFinite()) x = last_good_;
-  controller_.start(x, goal_, time_s());
-  if (controller_.evaluate(goal_, time_s())) return;
+  if (set_anew(x)) return;
   // Goals that move faster than any body can: hold the pose until they are plausible again.
   GoalValues nothing(static_cast<int>(goal_.weight.size()));
   controller_.start(last_good_, nothing, time_s());
   controller_.evaluate(nothing, time_s());
+}
+
+// Goals that are still eased in come from where the body was and fit no pose.
+void Walker::recover(double cost) {
+  if (led_.x != goal_.x) return;
+  const double most = kCostly * usual_cost_ + kCostly_m2;
+  if (usual_cost_ >= 0.0 && cost > most) {
+    settled_ = controller_.x();
+    auto best = settler_.solve(goal_.x, goal_.weight, 0, settled_);
+    other_ = settled_;
+    const auto second =
+        find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
+    if (second.cost < kCheaper * best.cost) {
+      settled_ = other_;
+      best = second;
+    }
+    if (best.cost < kMuchCheaper * cost) {
+      set_anew(settled_);
+      flagged_ = true;
+      return;
+    }
+  }
+  usual_cost_ = usual_cost_ < 0.0 ? cost : kMemory * usual_cost_ + (1.0 - kMemory) * std::min(cost, most);
 }
 
 void Walker::judge() {
@@ -278,8 +318,9 @@ void Walker::judge() {
     weight += goal_.weight[m];
   }
   if (weight > 0.0 && !(std::sqrt(squares / weight) <= plan_.max_error_m)) flagged_ = true;
+  if (weight > 0.0 && plan_.one_sum && !plan_.settle && !flagged_) recover(squares / weight);
   // A body that is still led to the goals it had lost is not where they are.
-  if (weight > 0.0 && plan_.settle && usual_cost_ >= 0.0 && led_.x != goal_.x &&
+  if (weight > 0.0 && plan_.one_sum && usual_cost_ >= 0.0 && led_.x != goal_.x &&
       squares / weight > kCostly * usual_cost_ + kCostly_m2)
     flagged_ = true;
 }

@@ -33,6 +33,8 @@ class ReturningMarkers {
   void lead(int marker, double time_s, const Eigen::Vector3d& miss, const Eigen::Vector3d& miss_rate);
   /// The eased goals; discards the transitions of markers whose weight is 0.
   void apply(double time_s, GoalValues& goal);
+  /// What easing in adds to the accelerations (3 x M) of the goals at a time; changes nothing else.
+  void add_acceleration(double time_s, Eigen::Matrix3Xd& acceleration) const;
 
  private:
   struct Lead {
@@ -70,10 +72,14 @@ class Walker {
   /// Or it had lost its goals, which another pose fitted much better, and was set anew.
   [[nodiscard]] bool flagged() const { return flagged_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
+  /// Poses that a solver of inverse kinematics was asked for so far: to settle, or to set the body anew.
+  [[nodiscard]] std::int64_t solves() const { return solver_.solves() + settler_.solves(); }
 
  private:
   void build_cell(std::int64_t first);
   void restart();
+  /// Go on from pose x, with the speeds that follow the goals best. False when the simulation diverges there.
+  bool set_anew(const Eigen::VectorXd& x);
   /// On to the end of the frame in so many steps. False when the simulation diverged.
   bool cross(int steps);
   /// The same from the frame's beginning in finer steps.
@@ -83,6 +89,9 @@ class Walker {
   /// Bring the pose of a frame to the best fit of its goals. False when the body had lost them and was set
   /// anew.
   bool settle();
+  /// A body that is not settled may have lost its goals: it is set anew where another pose fits them much
+  /// better.
+  void recover(double cost);
   /// Look for a better fit than `settled_`, which costs `cost`, on the other side of limits. What the best
   /// costs.
   double try_limits(double cost);
@@ -99,13 +108,14 @@ class Walker {
   FrameSolver settler_;
   GoalCell cell_;
   GoalValues goal_, before_, led_;
+  Eigen::Matrix3Xd later_a_;  // of the goals, in the step to come
   ReturningMarkers returning_, kept_returning_;
   const data::Derivatives* derivatives_ = nullptr;
   std::int64_t markers_in_derivatives_ = 0;
   Eigen::VectorXd last_good_, settled_, other_, move_;
   std::vector<std::int64_t> at_limit_;  // per speed: frame in which it last was at a limit; -1: never
   double t0_s_ = 0.0;
-  double usual_cost_ = -1.0;  // m^2, of settled frames; below 0: none yet
+  double usual_cost_ = -1.0;  // m^2, of frames whose goals are not eased in; below 0: none yet
   std::int64_t frame_ = 0, restarts_ = 0;
   bool flagged_ = false, lost_ = false;
 };
