@@ -20,7 +20,6 @@
 #include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
-#include "kinemark/stages/analysis/forces/force_measures.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -193,8 +192,6 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
-  const auto asked = asked_measures(job);
-  if (!asked) return std::unexpected(asked.error());
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
   if (!job.participants_file.empty() && !job.participants) {
@@ -208,6 +205,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
     if (!path.empty()) targets.push_back(path);
   const auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
+  const auto asked = asked_measures(job);
+  if (!asked) return std::unexpected(asked.error());
   auto staging = Staging::create(targets, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
   if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
@@ -233,7 +232,7 @@ std::vector<data::InputFile> inputs_of(const MeasuresOutcome& outcome) {
 
 std::string commands_for(const MeasuresOutcome& outcome) {
   const bool plates = std::ranges::any_of(outcome.measures, [](const data::Measure& measure) {
-    return analysis::find_force_definition(measure.id) != nullptr;
+    return workflow::kind_of_measure(measure.id) == workflow::MeasureKind::plates;
   });
   std::vector<std::string> commands;
   if (outcome.gait || plates) commands.emplace_back("'kinemark gait' (feet and force plates)");
