@@ -79,8 +79,8 @@ std::string description_of(const std::string& id) {
   if (known == nullptr) return id;
   const auto& what = known->what;
   const auto unit = data::shown_unit(what.quantity).name;
-  return fmt::format("{}{}: {} ({})", what.title, unit.empty() ? "" : fmt::format(", {}", unit),
-                     what.formula, what.source);
+  return fmt::format("{}{}: {} ({})", what.title, unit.empty() ? "" : fmt::format(", {}", unit), what.formula,
+                     what.source);
 }
 
 std::vector<Row> rows_of(const std::vector<NamedMeasures>& recordings, bool one_each) {

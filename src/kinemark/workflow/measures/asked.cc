@@ -59,10 +59,11 @@ Status sort_measures(const MeasureOptions& options, AskedMeasures& out) {
     if (!kind) return unknown_measure(id);
     const auto shown = shown_by(*kind);
     if (!shown)
-      return fail(Code::usage,
-                  fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
-                              "a .mot or .sto with --model",
-                              id));
+      return fail(
+          Code::usage,
+          fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
+                      "a .mot or .sto with --model",
+                      id));
     if (options.of != MeasuresOf::everything && options.of != *shown)
       return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
                                            command_of(options.of), command_of(*shown)));
