@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
@@ -138,7 +138,7 @@ def main():
                      for name in seen if name.endswith(f":{marker}")]
         row(len(distances) > 1800 and max(distances) <= most_m, f"CMU 02_05: {point} near the marker {marker} in every frame",
             f"at most {most_m} m", f"{max(distances, default=math.nan):.3f} m ({len(distances)} frames)")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, run, status
+from rows import exit_status, row, run
 
 SEED = int(sys.argv[1]) if len(sys.argv) > 1 else 920001
 FRAMES, RATE = 400, 100.0
@@ -116,7 +116,7 @@ def main():
         row(len(who) == 12 and ("sub-05", "ses-2", "task-circle", "old") in who, "participant, session, trial and group of each row", "12 combinations", f"{len(who)}")
         judge_bad_file(folder, top)
         judge_groups(folder)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

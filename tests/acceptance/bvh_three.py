@@ -22,7 +22,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -177,10 +177,10 @@ def main():
         compare("joints that move and turn", path, three, folder)
         if not DATA.is_dir():
             print("SKIP | motions of models as BVH | as OpenSim has them | no recordings")
-            return status()
+            return exit_status()
         for name in MOTIONS:
             check_motion(name, three, folder)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from pathlib import Path
 import ezc3d
 import numpy as np
 
-from rows import row, status
+from rows import exit_status, row
 
 MISSING, MEASURED = 0, 1  # SampleState; what is above was made
 
@@ -141,7 +141,7 @@ def main():
         compare_values(tool, folder, "wide", 600, 20, 0)
         compare_values(tool, folder, "long", 3, 70_000, 1)
         compare_speed(tool, folder)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 NOT_CARRIED = {"EVENTS", "ROTATION", "KINEMARK"}
 WRITTEN_ANEW = {  # and what of them is read into the trial or tells how this file stores its numbers
@@ -153,7 +153,7 @@ def main():
                 continue
             row(after == before, f"{name}: groups carried", f"{len(before)} groups, {sum(len(g[3]) for g in before)} parameters",
                 f"{sum(g in after for g in before)} the same of {len(after)}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

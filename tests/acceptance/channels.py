@@ -19,7 +19,7 @@ from pathlib import Path
 import ezc3d
 import numpy as np
 
-from rows import row, status
+from rows import exit_status, row
 
 KINDS = {"ANGLES": "angle", "FORCES": "force", "MOMENTS": "moment", "POWERS": "power", "SCALARS": "scalar",
          "MODELED_MARKERS": "modeled marker"}
@@ -84,7 +84,7 @@ def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         for name, folder in files.items():
             compare(name, data / folder / f"{name}.c3d", Path(scratch))
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

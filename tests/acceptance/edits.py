@@ -23,7 +23,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 
 from support import PROGRAM, REAL_DATA, run
-from rows import row, status
+from rows import exit_status, row
 
 KILLS = 50
 COMMAND_KILLS = 50
@@ -260,7 +260,7 @@ def main():
             real(scratch)
         else:
             sys.exit(__doc__)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

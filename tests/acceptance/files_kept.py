@@ -24,7 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 from support import PROGRAM, listing, run
 from writing import Workshop, empty_folder, flips, hidden, kill_at, on_full_disks, seconds_of, visible
 
-from rows import row, status
+from rows import exit_status, row
 
 
 def tell(wrong):
@@ -153,7 +153,7 @@ def main():
         else:
             flipped(workshop, scratch, count)
         row(listing(workshop.inputs) == inputs, "inputs as they were", "all", "all" if listing(workshop.inputs) == inputs else "changed")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

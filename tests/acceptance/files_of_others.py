@@ -20,7 +20,7 @@ import numpy
 import pandas
 from mcap.writer import CompressionType, Writer
 
-from rows import row, run, status
+from rows import exit_status, row, run
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
@@ -162,7 +162,7 @@ def main():
         judge_phasespace(scratch)
         judge_vsk()
         judge_mcap(scratch)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ import tempfile
 from pathlib import Path
 
 import rows
-from rows import row, status
+from rows import exit_status, row
 
 RATE_HZ, FRAMES = 100, 500
 MARKERS = ["hand", "Subject:elbow", "rest/ing"]
@@ -241,7 +241,7 @@ def main():
             seed = int(words[0]) if words else 1
             check_clean(Path(name), seed)
             check_reconstruct(Path(name), seed)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

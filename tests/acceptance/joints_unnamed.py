@@ -18,7 +18,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from rows import row, run, status
+from rows import exit_status, row, run
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
@@ -210,7 +210,7 @@ def main():
             print(f"SKIP | joints without segments | - | no recordings in {DATA}", flush=True)
         else:
             trials()
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

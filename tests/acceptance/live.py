@@ -22,7 +22,7 @@ sys.path.insert(0, str(HERE.parent / "cli"))
 
 from live_viewer import Ended, Viewer  # noqa: E402
 from serving import Server  # noqa: E402
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 RATE = 240
 ASKED_MS = 5.0
@@ -108,7 +108,7 @@ def main(seconds, seed):
             f"{socket_ms['p99']:.2f} ms (half {socket_ms['p50']:.2f}, longest {socket_ms['longest']:.1f}); at the viewer {at_share(ages, 0.99):.2f} ms")
         minute, hours = most_held(scratch, 60), most_held(scratch, 36_000)
         row(hours < 1.1 * minute, "memory for a simulation of 10 hours beside one of a minute", "< 1.1 times", f"{hours / minute:.2f} times ({hours / 1024:.0f} MB)")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

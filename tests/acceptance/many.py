@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from rows import PROGRAM, row, run, status
+from rows import PROGRAM, exit_status, row, run
 
 COUNT = int(sys.argv[1]) if len(sys.argv) > 1 else 200
 FRAMES = 25
@@ -79,7 +79,7 @@ def main():
               "trial???.c3d")
         check("ik", ["ik", "-m", folder / "subject/model.osim", "-t", folder / "in", "-o", f"{folder}/ik/", "--jobs", 2],
               folder / "ik", "trial???.mot")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import tempfile
 import zlib
 from pathlib import Path
 
-from rows import row, run, status
+from rows import exit_status, row, run
 
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
 AROUND, ACROSS = 100, 100
@@ -140,7 +140,7 @@ def main():
         note = without["bodies"]["meshes_note"]
         row("none of the" in note and "--geometry FOLDER" in note, "without the folder, one sentence says where they were looked for", "it does", note[:60])
         judge_positions(scene, drawn)
-    return status()
+    return exit_status()
 
 
 def judge_positions(scene, drawn):

@@ -20,7 +20,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 MOST = 1e-6  # m
@@ -174,7 +174,7 @@ def main():
         Path("rajagopal.xml").write_text(setup)
         compare(opensim, "Rajagopal2016 by hand", "rajagopal.xml")
         os.chdir(ROOT)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import rows
-from rows import row, status
+from rows import exit_status, row
 
 HERE = Path(tempfile.mkdtemp(prefix="names_"))
 
@@ -326,7 +326,7 @@ def main():
     check_sets()
     check_others()
     check_pairs()
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

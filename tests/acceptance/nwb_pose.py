@@ -22,7 +22,7 @@ import pandas
 import pynwb
 from nwbinspector import inspect_nwbfile
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
@@ -120,7 +120,7 @@ def main():
         order = [names.index(name) for name in safe]
         row(numpy.array_equal(x[:, order], wanted[1], equal_nan=True), "kinemark: a pose that pynwb and ndx-pose wrote",
             f"{x.size} numbers the same, of confidence 0 missing", f"{int(numpy.isnan(x[:, order, 0]).sum())} missing of {x.size // 3}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import rows
 from orientations import DATA, SUBJECTS, Subject, read_table, write_quaternions
-from rows import row, status
+from rows import exit_status, row
 
 MOST_APART = 1e-7
 FRAMES = 200
@@ -202,7 +202,7 @@ def main():
             one, other = angles[ending], angles[f"{ending} converted"]
             off = numpy.inf if isinstance(one, str) or isinstance(other, str) else abs(one - other).max()
             row(off <= 1e-6, f"ik from .{ending} and from the .sto made of it", "the same angles to 1e-6 deg", f"{off:.1e} {one if isinstance(one, str) else ''}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
@@ -209,7 +209,7 @@ def main():
     row(60 <= shares[0] <= 75, "truth within 1 SD", "60 to 75 %", f"{shares[0]:.1f} %")
     row(90 <= shares[1] <= 98, "truth within the interval of 95 %", "90 to 98 %", f"{shares[1]:.1f} %")
     row(bool(headings) and max(headings) < 4, "headings estimated, error / SD", "none beyond 4", f"{max(headings, default=0):.1f} at most, of {len(headings)}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

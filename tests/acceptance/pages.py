@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 PROJECT = Path(__file__).resolve().parents[2]
 VIEWER = PROJECT / "viewer"
@@ -126,7 +126,7 @@ def main():
             appearance()
             live()
             speed()
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

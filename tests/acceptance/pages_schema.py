@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 PROJECT = Path(__file__).resolve().parents[2]
 VIEWER = PROJECT / "viewer"
@@ -155,7 +155,7 @@ def main():
         pages = write(folder)
         judge(pages, folder)
         spoil(folder / "IkPage_0.html", folder)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ import numpy as np
 import pynwb
 from nwbinspector import inspect_nwbfile
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 COLUMNS = ["frame", "time_s", "marker", "x_m", "y_m", "z_m", "state", "method", "sd_x_m", "sd_y_m", "sd_z_m"]
 MARKERS = ["LASI", "Subject:RASI", "wrist/out"]
@@ -147,7 +147,7 @@ def main():
         judge_nwb(nwb, wanted)
         again = subprocess.run([PROGRAM, "convert", "--quiet", str(source), str(nwb)], capture_output=True, check=False)
         row(again.returncode == 4, "an NWB file that exists", "is kept, status 4", f"status {again.returncode}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = "@mcap/core@2.2.2"
@@ -117,7 +117,7 @@ def main():
         row(1 <= len(lost) <= 2, "one bit flipped: frames lost", "1 to 2", f"{len(lost)}")
         check_messages("recovered past the damage", found, [frame for frame in everything if frame not in lost])
         check_closed("recovered past the damage", found, FRAMES - len(lost), ["kinemark.recovered"])
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import output, row, status
+from rows import exit_status, output, row
 
 # Method, filter of `clean` (none: not cleaned), format that is measured.
 CHAINS = [
@@ -121,7 +121,7 @@ def main():
     if shares:
         below = sorted(share for share in shares if share[0] < 0.91)
         row(not below, "each kind by each chain", ">= 91 %", f"{100 * min(shares)[0]:.1f} % ({min(shares)[1]}); below 91: " + ", ".join(f"{k} {100 * v:.0f}" for v, k in below))
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ import tomllib
 from pathlib import Path
 
 import rows
-from rows import output, status
+from rows import exit_status, output
 
 LEDS = ("shoulder", "elbow", "wrist", "hand")
 METHODS = ("frames", "smoother")
@@ -194,7 +194,7 @@ def main():
             held = [c.held(method) for c in cases[dark_slot]]
             share = sum(h for h, _ in held) / sum(n for _, n in held)
             row(0.9 <= share <= 0.99, f"{method}, {'dark slots' if dark_slot else 'without them'}: 95 % intervals of positions, cameras known", "90 to 99 %", f"{100 * share:.1f} %")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

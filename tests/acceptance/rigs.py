@@ -13,7 +13,7 @@ import statistics
 import subprocess
 import sys
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 POOLED = "still tree: error of distances, root mean square of all seeds"
 
@@ -57,7 +57,7 @@ def main(arguments):
         passed = times_bound(value, bound) <= 1
         if not passed or quantity == POOLED:
             row(passed, f"{quantity}{'' if quantity == POOLED else ', median of the rigs'}", f"{bound}", f"{value:.4g}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

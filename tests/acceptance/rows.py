@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scripts of this folder share: the program that is checked, and rows of the table.
 
-    from rows import row, run, status
+    from rows import exit_status, row, run
 
     row(run("info", path).returncode == 0, "a recording is read", "exit status 0", "...")
-    sys.exit(status())
+    sys.exit(exit_status())
 """
 
 import os
@@ -39,6 +39,6 @@ def row(passed, check, asked, measured):
     return bool(passed)
 
 
-def status():
+def exit_status():
     """The exit status of the script: 1 where a row failed."""
     return 1 if FAILED else 0

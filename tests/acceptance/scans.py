@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, run, status
+from rows import exit_status, row, run
 
 FRAMES_PER_POSE = 10
 
@@ -67,7 +67,7 @@ def main(arguments):
             row(used == cuts, f"recordings of a tree cut at {cuts} places: all whole poses used", f"{cuts}", f"{used}")
             reported = sum(said for _, _, said in found)
             row(reported == cuts, "the frames of a pose that was cut are told, and only then", f"{cuts}", f"{reported}")
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rows import row, status
+from rows import exit_status, row
 
 CENTRES = {"HJC": "FEP", "KJC": "FEO", "AJC": "TIO", "SJC": "CLO", "EJC": "HUO", "WJC": "RAO"}
 SEEDS = (4101, 4102, 4103)
@@ -294,7 +294,7 @@ def main():
         offsets(folder / "Sample_Static", (rom / "Sample_SM.vsk").read_text(encoding="utf-8"))
         coverage(folder, walk, still)
         coverage_of_loads(folder, walk, still)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

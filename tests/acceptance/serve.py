@@ -29,7 +29,7 @@ sys.path.insert(0, str(HERE.parent / "cli"))
 
 from live_viewer import Ended, Viewer  # noqa: E402
 from serving import Server  # noqa: E402
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 ASKED_MS = 100
 REQUESTS = 100  # of the rightful page, during each attack
@@ -385,7 +385,7 @@ def main():
     if sys.argv[1:] in (["sockets"], ["tls"]):
         with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
             (sockets if sys.argv[1] == "sockets" else tls)(Path(scratch))
-        return status()
+        return exit_status()
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         scratch = Path(scratch)
         subprocess.run([PROGRAM, "simulate", "subject", "-o", scratch / "recorded", "--duration", "10", "--quiet"], check=True)
@@ -400,7 +400,7 @@ def main():
             left = sorted(set(path.name for path in scratch.rglob("*")) - set(before))
             row(status == -signal.SIGKILL and not left, "kill -9: files left", "none", ", ".join(left) or "none")
         check_long_trial(PROGRAM, scratch)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

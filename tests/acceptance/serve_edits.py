@@ -31,7 +31,7 @@ import serving
 from serve import make_hour
 from serving import Server
 from support import PROGRAM, run
-from rows import row, status
+from rows import exit_status, row
 
 serving.SECONDS = 600  # an hour is edited on a busy machine, too
 EDITS = 100
@@ -332,7 +332,7 @@ def main():
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as folder:
         what(Path(folder))
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":

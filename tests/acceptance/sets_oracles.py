@@ -21,7 +21,7 @@ import opensim
 import pynwb
 from nwbinspector import inspect_nwbfile
 
-from rows import PROGRAM, row, status
+from rows import PROGRAM, exit_status, row
 
 FRAMES = 50
 
@@ -110,7 +110,7 @@ def main():
         cleaned = recording(folder)
         row(cleaned == set_in_text(folder / "clean.nwb") and re.fullmatch("[0-9a-f]{16}", cleaned) is not None,
             "set of clean, by h5py", "16 digits", cleaned)
-    return status()
+    return exit_status()
 
 
 if __name__ == "__main__":
