@@ -194,6 +194,8 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
+  const auto asked = asked_measures(job);
+  if (!asked) return std::unexpected(asked.error());
   if (!job.participants_file.empty() && !job.participants) {
     auto read = read_participants(job.participants_file);
     if (!read) return std::unexpected(read.error());
@@ -205,8 +207,6 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
     if (!path.empty()) targets.push_back(path);
   const auto norms = read_gait_norms(job.gait.sheet.norms);
   if (!norms) return std::unexpected(norms.error());
-  const auto asked = asked_measures(job);
-  if (!asked) return std::unexpected(asked.error());
   auto staging = Staging::create(targets, job, files_of(job));
   if (!staging) return std::unexpected(staging.error());
   if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
