@@ -30,8 +30,11 @@ if(KINEMARK_DEVELOPER)
       target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)
     endif()
   endif()
-elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # The same that is on without being asked for.
+  target_compile_options(kinemark_flags INTERFACE -Wno-deprecated-declarations)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Likewise.
   target_compile_options(kinemark_flags INTERFACE -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
   if(CMAKE_UNITY_BUILD)
     target_compile_options(kinemark_flags INTERFACE -Wno-subobject-linkage)

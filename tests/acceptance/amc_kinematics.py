@@ -16,8 +16,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import PROGRAM, exit_status, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 UNIT_M = 0.0254 / 0.45  # Carnegie Mellon's own words: inches, divided by the length in the file
 MOST_M = 1e-9
@@ -25,13 +26,6 @@ NEAR_M = {  # marker of the recording, the point nearest to it, and how far skin
     "LKNE": ("lfemur_end", 0.12), "RKNE": ("rfemur_end", 0.12), "LANK": ("ltibia_end", 0.12), "RANK": ("rtibia_end", 0.12),
     "LELB": ("lhumerus_end", 0.12), "RELB": ("rhumerus_end", 0.12), "CLAV": ("upperback_end", 0.25),
 }  # fmt: skip
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def product(a, b):
@@ -144,7 +138,7 @@ def main():
                      for name in seen if name.endswith(f":{marker}")]
         row(len(distances) > 1800 and max(distances) <= most_m, f"CMU 02_05: {point} near the marker {marker} in every frame",
             f"at most {most_m} m", f"{max(distances, default=math.nan):.3f} m ({len(distances)} frames)")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

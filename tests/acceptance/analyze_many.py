@@ -13,28 +13,16 @@ Six simulated participants in two sessions go around a circle, each in a folder 
 import csv
 import json
 import math
-import os
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
+from rows import exit_status, row, run
+
 SEED = int(sys.argv[1]) if len(sys.argv) > 1 else 920001
 FRAMES, RATE = 400, 100.0
 OPTIONS = ("--measures", "peak_speed,cycle_time,cycle_duration", "--refits", "39")
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=600, check=False)
 
 
 def said(made):
@@ -128,7 +116,7 @@ def main():
         row(len(who) == 12 and ("sub-05", "ses-2", "task-circle", "old") in who, "participant, session, trial and group of each row", "12 combinations", f"{len(who)}")
         judge_bad_file(folder, top)
         judge_groups(folder)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -20,19 +20,15 @@ import ezc3d
 import numpy
 import pandas
 
+from rows import PROGRAM, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 PACKAGE = "bids-validator@1.15.0"
 NOT_OURS = {
     82: "CUSTOM_COLUMN_WITHOUT_DESCRIPTION: it takes the first row of the table without a header for names",
 }
 RECORDINGS = 4
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
 
 
 def environment():

@@ -22,6 +22,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark")))
@@ -34,13 +36,6 @@ MOTIONS = {
 PACKAGE = "three@0.187.0"
 MOST = 1e-4  # of the size of the skeleton; three computes in single precision
 METRES = 0.01
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 class Three:
@@ -182,10 +177,10 @@ def main():
         compare("joints that move and turn", path, three, folder)
         if not DATA.is_dir():
             print("SKIP | motions of models as BVH | as OpenSim has them | no recordings")
-            return 1 if failed else 0
+            return exit_status()
         for name in MOTIONS:
             check_motion(name, three, folder)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -19,14 +19,9 @@ from pathlib import Path
 import ezc3d
 import numpy as np
 
+from rows import exit_status, row
+
 MISSING, MEASURED = 0, 1  # SampleState; what is above was made
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def read_by_ezc3d(path):
@@ -146,7 +141,7 @@ def main():
         compare_values(tool, folder, "wide", 600, 20, 0)
         compare_values(tool, folder, "long", 3, 70_000, 1)
         compare_speed(tool, folder)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

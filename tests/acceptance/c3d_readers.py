@@ -16,7 +16,6 @@ import csv
 import math
 import os
 import struct
-import subprocess
 import sys
 import tempfile
 import warnings
@@ -24,8 +23,9 @@ from pathlib import Path
 
 import numpy
 
+from rows import run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 SAME_MM = 6e-5
 REAL = """btk-others/Gait.c3d btk-others/PiG_Motion3_FF.c3d btk-others/PiG_Calibration3_FF.c3d btk-others/MyCube.c3d btk-others/FunctionalLHip.c3d
@@ -69,10 +69,6 @@ def table(path, markers, letters, frames, size_mm=1000.0, hidden=False):
         lines.append(",".join([f"{f / 100:.3f}", *cells]))
     path.write_text("\n".join(lines) + "\n")
     return path
-
-
-def run(*words):
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=600, check=False)
 
 
 def truth_of(path, scratch):

@@ -17,6 +17,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 NOT_CARRIED = {"EVENTS", "ROTATION", "KINEMARK"}
 WRITTEN_ANEW = {  # and what of them is read into the trial or tells how this file stores its numbers
     "POINT": "USED FRAMES LONG_FRAMES FRAME SCALE RATE DATA_START UNITS LABELS DESCRIPTIONS TYPE_GROUPS ANGLES FORCES MOMENTS "
@@ -29,13 +31,6 @@ WRITTEN_ANEW = {  # and what of them is read into the trial or tells how this fi
 UNITS_OF_CHANNELS = {f"{kind}_UNITS" for kind in ("ANGLE", "FORCE", "MOMENT", "POWER", "SCALAR", "MODELED_MARKER")}
 INTEL, DEC, MIPS = 84, 85, 86
 LARGEST = 32_000  # bytes of the groups that a copy carries
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def ieee(value, processor):
@@ -158,7 +153,7 @@ def main():
                 continue
             row(after == before, f"{name}: groups carried", f"{len(before)} groups, {sum(len(g[3]) for g in before)} parameters",
                 f"{sum(g in after for g in before)} the same of {len(after)}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -16,10 +16,11 @@ import math
 import os
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import rows
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
@@ -40,7 +41,7 @@ def case(asked, kind="reported"):
 
 
 def run(*words):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=HERE, capture_output=True, text=True, timeout=300, check=False)
+    return rows.run(*words, folder=HERE)
 
 
 def said(done):

@@ -19,15 +19,10 @@ from pathlib import Path
 import ezc3d
 import numpy as np
 
+from rows import exit_status, row
+
 KINDS = {"ANGLES": "angle", "FORCES": "force", "MOMENTS": "moment", "POWERS": "power", "SCALARS": "scalar",
          "MODELED_MARKERS": "modeled marker"}
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def kinemark(*arguments):
@@ -89,7 +84,7 @@ def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         for name, folder in files.items():
             compare(name, data / folder / f"{name}.c3d", Path(scratch))
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -9,18 +9,14 @@ Nothing of kinemark is used but the program."""
 import itertools
 import os
 import random
-import subprocess
 from pathlib import Path
 
-PROGRAM = os.environ["KINEMARK_PROGRAM"]
+from rows import run
+
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", ".")) / "dialects"
 SEEDS = (11, 12, 13, 14, 15)
 OF_EACH = 80
 MARKERS, FRAMES = 12, 60
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=600, check=False)
 
 
 def recording(seed):

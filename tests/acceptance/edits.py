@@ -23,17 +23,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 
 from support import PROGRAM, REAL_DATA, run
+from rows import exit_status, row
 
 KILLS = 50
 COMMAND_KILLS = 50
 EDITS = 100
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def good(*arguments, cwd):
@@ -266,7 +260,7 @@ def main():
             real(scratch)
         else:
             sys.exit(__doc__)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

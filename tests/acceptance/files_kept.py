@@ -24,13 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 from support import PROGRAM, listing, run
 from writing import Workshop, empty_folder, flips, hidden, kill_at, on_full_disks, seconds_of, visible
 
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
+from rows import exit_status, row
 
 
 def tell(wrong):
@@ -159,7 +153,7 @@ def main():
         else:
             flipped(workshop, scratch, count)
         row(listing(workshop.inputs) == inputs, "inputs as they were", "all", "all" if listing(workshop.inputs) == inputs else "changed")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ rows "PASS|FAIL|SKIP | check | asked | measured"; exit status 1 when one fails.
 
 import json
 import os
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -21,24 +20,14 @@ import numpy
 import pandas
 from mcap.writer import CompressionType, Writer
 
+from rows import exit_status, row, run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
 PHASESPACE = DATA / "c3d-org" / "sample20" / "phasespace_sample.c3d"
 WALK = DATA / "pycgm-rom" / "Sample_Static.c3d"
 SUBJECT = DATA / "pycgm-rom" / "Sample_SM.vsk"
 MARKERS = 40
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
 def read_by_us(path, scratch):
@@ -173,7 +162,7 @@ def main():
         judge_phasespace(scratch)
         judge_vsk()
         judge_mcap(scratch)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

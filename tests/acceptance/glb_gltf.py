@@ -20,6 +20,7 @@ import tempfile
 from pathlib import Path
 
 import bvh_three
+from rows import exit_status
 
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("three@0.187.0", "gltf-validator@2.0.0-dev.3.10")
@@ -118,7 +119,7 @@ def main():
             check_recording(name, judge, folder)
         for name in bvh_three.MOTIONS:
             check_motion(name, judge, folder)
-    return 1 if bvh_three.failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

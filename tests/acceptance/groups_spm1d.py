@@ -14,7 +14,6 @@ status 1 when one fails.
 """
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -23,16 +22,11 @@ from pathlib import Path
 import numpy
 import spm1d
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import PROGRAM, row
+
 ALPHA = 0.05
 DRAWS = 200_000  # where there are more arrangements than that: with 50,000 a threshold scatters by a hundredth
 FEW = 500
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
 
 
 def data_sets():

@@ -14,32 +14,23 @@ import json
 import math
 import os
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+import rows
+from rows import exit_status, row
+
 RATE_HZ, FRAMES = 100, 500
 MARKERS = ["hand", "Subject:elbow", "rest/ing"]
 RAW = ("unfiltered_x_m", "unfiltered_y_m", "unfiltered_z_m")
 FILTER = ("filter", "filter_order", "filter_cutoff_hz", "filter_noise_m")
 FORMATS = ("c3d", "csv", "nwb", "mat")
 WITHIN = 0.15  # of the raw recording's interval
-passed = True
-
-
-def row(good, what, asked, measured):
-    global passed
-    passed = passed and good
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
 
 
 def run(*words):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=900, check=False)
-    if done.returncode not in (0, 1):
-        raise SystemExit(f"kinemark {words[0]}: {done.stderr}")
+    done = rows.run(*words, good=(0, 1))
     return done.stdout + done.stderr
 
 
@@ -250,7 +241,7 @@ def main():
             seed = int(words[0]) if words else 1
             check_clean(Path(name), seed)
             check_reconstruct(Path(name), seed)
-    return 0 if passed else 1
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from rows import row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 MOST_HEADERS = 150
 MOST_LINES = 500
@@ -22,10 +24,6 @@ VERBS = {
     "clean": "clean", "joints": "joints", "scale": "scale", "ik": "ik", "track": "track", "measure": "measure", "gait": "gait",
     "segments": "segments", "dynamics": "dynamics", "emg": "emg", "calibrate": "rig", "reconstruct": "rig", "live": "live",
 }
-
-
-def row(good, check, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {check} | {asked} | {measured}")
 
 
 def sources():

@@ -10,9 +10,7 @@ status 1 when one fails.
 
 import json
 import math
-import os
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -20,24 +18,12 @@ from pathlib import Path
 import numpy
 import pandas
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import row, run
+
 ARM = ["RUPA", "RELB", "RFRM", "RWRA", "RWRB", "RFIN"]
 COCO18 = "Nose Neck RShoulder RElbow RWrist LShoulder LElbow LWrist RHip RKnee RAnkle LHip LKnee LAnkle REye LEye REar LEar".split()
 FRAMES, FOCAL = 300, 1500.0
 DARK, DOUBTED = range(100, 130), range(200, 215)  # frames of nobody, and of scores that are too low
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
-
-
-def run(*words, folder, good=True):
-    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
-    if good and done.returncode != 0:
-        sys.exit(f"kinemark {' '.join(map(str, words))}: {done.stderr}")
-    return done
 
 
 def unit(v):
@@ -48,8 +34,8 @@ class Subject:
     """A simulated subject whose right arm one camera sees: F x M x 3 values x, y, score."""
 
     def __init__(self, folder):
-        run("simulate", "subject", "-o", "made", "--duration", 3, folder=folder)
-        run("convert", "made/truth.trc", "truth.csv", folder=folder)
+        run("simulate", "subject", "-o", "made", "--duration", 3, folder=folder, good=(0,))
+        run("convert", "made/truth.trc", "truth.csv", folder=folder, good=(0,))
         table = pandas.read_csv(folder / "truth.csv")
         arm = table[table.marker.isin(ARM)].pivot(index="frame", columns="marker", values=["x_m", "y_m", "z_m"])
         points = numpy.stack([arm[axis][ARM].to_numpy() for axis in ("x_m", "y_m", "z_m")], axis=-1)
@@ -166,12 +152,12 @@ class Motions:
             text = text.replace(f'"{ours}"', f'"{theirs}"')
         (self.folder / "model.osim").write_text(text)
         words = ["-m", "model.osim", "-t", "markers.csv", "--rig", "rig.toml", "--images", f"c={points}", *more]
-        run("track", *words, "-o", "q.mot", "--force", folder=self.folder)
+        run("track", *words, "-o", "q.mot", "--force", folder=self.folder, good=(0,))
         return [line for line in (self.folder / "q.mot").read_text().splitlines() if re.match(r"\s*[0-9]", line)]
 
     def refusal(self, points, *more):
         words = ["-m", "made/model.osim", "-t", "markers.csv", "--rig", "rig.toml", "--images", f"c={points}", *more]
-        return run("track", *words, "-o", "never.mot", folder=self.folder, good=False)
+        return run("track", *words, "-o", "never.mot", folder=self.folder)
 
 
 def compare(what, motions, points, read, *more, names=None):
@@ -206,7 +192,7 @@ def main():
         good &= row(refused.returncode == 3 and "shows 2 people; choose one with --person" in said and said.count("\n") == 0,
                     "two people, none chosen", "exit 3, one sentence", f"exit {refused.returncode}: {said[-60:]}")
         for name in ("coco.json", "mmpose.json", "judge.csv"):
-            refused = run("info", name, folder=folder, good=False)
+            refused = run("info", name, folder=folder)
             good &= row(refused.returncode == 3 and "in pixels" in refused.stderr, f"info {name}", "exit 3: pixels are no markers",
                         f"exit {refused.returncode}")
     return 0 if good else 1

@@ -21,8 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
+from rows import PROGRAM, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp")) / "joints-skin"
 CHI2_3 = 7.815  # 95 % of a chi-square with three degrees of freedom
@@ -232,11 +233,6 @@ def disagreements(name, names, markers, counts, method, cuts):
                     d = a - one[side].centre
                     out.append(float(d @ np.linalg.solve(C + one[side].repeatability, d)))
     return np.array(out)
-
-
-def row(good, check, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-    return good
 
 
 def judge_pairs(what, chi2):

@@ -18,18 +18,11 @@ import sys
 import tomllib
 from pathlib import Path
 
+from rows import exit_status, row, run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp")) / "joints-unnamed"
-failed = False
-
-
-def row(passed, what, asked, measured):
-    """One line of the table."""
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
 
 
 def sides(segments, joints):
@@ -64,11 +57,6 @@ TRIALS = [("btk-others/FunctionalLHip.c3d", LAMB, ["hip_L"]), ("biobuddy/right_k
 # Plug-in Gait has one marker on a thigh: nothing may be known of the legs.
 WITHOUT_CLUSTERS = ["btk-others/PiG_Motion3_FF.c3d", "c3d-parser-clinics/MH0222_BP15.c3d", "c3d-parser-clinics/RBWH_bfnd_w1.c3d",
                     "c3d-parser-clinics/S4-AMGait03.c3d", "c3d-parser-clinics/QCMAS.dynamic.c3d", "cmu-mocap/85_02.c3d"]
-
-
-def run(*words):
-    """The program, with its output."""
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
 
 
 def write_toml(path, segments, joints):
@@ -222,7 +210,7 @@ def main():
             print(f"SKIP | joints without segments | - | no recordings in {DATA}", flush=True)
         else:
             trials()
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

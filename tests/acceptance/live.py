@@ -22,18 +22,11 @@ sys.path.insert(0, str(HERE.parent / "cli"))
 
 from live_viewer import Ended, Viewer  # noqa: E402
 from serving import Server  # noqa: E402
+from rows import PROGRAM, exit_status, row
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
 RATE = 240
 ASKED_MS = 5.0
 SLOW_PER_SECOND = 30  # messages that the slow viewer takes
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 class Watching(threading.Thread):
@@ -115,7 +108,7 @@ def main(seconds, seed):
             f"{socket_ms['p99']:.2f} ms (half {socket_ms['p50']:.2f}, longest {socket_ms['longest']:.1f}); at the viewer {at_share(ages, 0.99):.2f} ms")
         minute, hours = most_held(scratch, 60), most_held(scratch, 36_000)
         row(hours < 1.1 * minute, "memory for a simulation of 10 hours beside one of a minute", "< 1.1 times", f"{hours / minute:.2f} times ({hours / 1024:.0f} MB)")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,20 +18,10 @@ import tempfile
 import time
 from pathlib import Path
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
+from rows import PROGRAM, exit_status, row, run
+
 COUNT = int(sys.argv[1]) if len(sys.argv) > 1 else 200
 FRAMES = 25
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=3000, check=False)
 
 
 def make_recordings(folder):
@@ -89,7 +79,7 @@ def main():
               "trial???.c3d")
         check("ik", ["ik", "-m", folder / "subject/model.osim", "-t", folder / "in", "-o", f"{folder}/ik/", "--jobs", 2],
               folder / "ik", "trial???.mot")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

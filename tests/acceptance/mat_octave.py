@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import row, run
+
 OCTAVE = shutil.which("octave-cli") or shutil.which("octave")
 # Prints a name and its numbers, or texts, a line each.
 SCRIPT = """
@@ -36,17 +36,6 @@ printf('table_time'); printf(' %.17g', table.time); printf('\\n');
 printf('table'); printf(' %.17g', table.data'); printf('\\n');
 printf('degrees %d\\n', table.in_degrees);
 """
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
-
-
-def run(*words, folder):
-    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"kinemark {' '.join(map(str, words))}: {done.stderr}")
 
 
 def octave(folder):
@@ -74,11 +63,11 @@ def main():
         return 0
     with tempfile.TemporaryDirectory(prefix="kinemark-octave-") as scratch:
         folder = Path(scratch)
-        run("simulate", "subject", "-o", "made", "--duration", 2, "--dropout-random", 0.03, folder=folder)
+        run("simulate", "subject", "-o", "made", "--duration", 2, "--dropout-random", 0.03, folder=folder, good=(0,))
         markers = next((folder / "made").glob("markers.*"))
-        run("convert", markers, "trial.csv", folder=folder)
-        run("convert", markers, "trial.mat", folder=folder)
-        run("convert", "made/truth.mot", "table.mat", folder=folder)
+        run("convert", markers, "trial.csv", folder=folder, good=(0,))
+        run("convert", markers, "trial.mat", folder=folder, good=(0,))
+        run("convert", "made/truth.mot", "table.mat", folder=folder, good=(0,))
         read = octave(folder)
         with (folder / "trial.csv").open() as file:
             rows = list(csv.DictReader(file))

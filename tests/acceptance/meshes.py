@@ -13,28 +13,15 @@ import math
 import os
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 import zlib
 from pathlib import Path
 
+from rows import exit_status, row, run
+
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
 AROUND, ACROSS = 100, 100
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*arguments):
-    ran = subprocess.run([str(PROGRAM), *map(str, arguments)], capture_output=True, text=True, check=False)
-    if ran.returncode not in (0, 1):
-        sys.exit(f"{arguments[0]} ended with {ran.returncode}: {ran.stderr}")
-    return ran
 
 
 def bone(way):
@@ -133,13 +120,13 @@ def turned(q, x):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        run("simulate", "subject", "-o", folder / "in", "--duration", 20, "--rate", 100, "--quiet")
+        run("simulate", "subject", "-o", folder / "in", "--duration", 20, "--rate", 100, "--quiet", good=(0, 1))
         model = folder / "in" / "model.osim"
         bodies = with_bones(model, folder / "bones")
         plain, page = folder / "plain.html", folder / "page.html"
         solve = ("ik", "-m", model, "-t", folder / "in" / "markers.c3d", "-o", folder / "q.mot", "--force", "--quiet")
-        run(*solve, "--report", plain)
-        ran = run(*solve, "--report", page, "--geometry", folder / "bones")
+        run(*solve, "--report", plain, good=(0, 1))
+        ran = run(*solve, "--report", page, "--geometry", folder / "bones", good=(0, 1))
         row(ran.stderr.count("\n") < 20, "ik with meshes says nothing new", "no line more", "as before")
         text = page.read_text(encoding="utf-8")
         mb = len(text.encode()) / 1e6
@@ -153,7 +140,7 @@ def main():
         note = without["bodies"]["meshes_note"]
         row("none of the" in note and "--geometry FOLDER" in note, "without the folder, one sentence says where they were looked for", "it does", note[:60])
         judge_positions(scene, drawn)
-    return 1 if failed else 0
+    return exit_status()
 
 
 def judge_positions(scene, drawn):

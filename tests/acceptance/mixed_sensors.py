@@ -18,8 +18,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-import orientations
-from orientations import DATA, PROGRAM, SUBJECTS, Subject, off, read_table, row
+from orientations import DATA, SUBJECTS, Subject, off, read_table
+from rows import PROGRAM, exit_status, row
 
 NOISES = ((1.0, 1.0), (2.0, 2.0), (3.0, 3.0))  # mm, deg
 FRAMES = 400
@@ -211,7 +211,7 @@ def main():
     row(90 <= shares[1] <= 98, "truth within the interval of 95 %", "90 to 98 %", f"{shares[1]:.1f} %")
     row(bool(counts.headings) and max(counts.headings) < 4, "headings estimated, error / SD", "none beyond 4",
         f"{max(counts.headings, default=0):.1f} at most, of {len(counts.headings)}")
-    return 1 if orientations.failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -20,8 +20,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import PROGRAM, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 CASES = {
     "Rajagopal": ("bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim", "bmc-rajagopal-run/IK/results/ik_output_run.mot"),
@@ -52,11 +53,6 @@ ANALYZE = """<AnalyzeTool name="judge"><model_file>{model}</model_file><replace_
 <PointKinematics name="point"><on>true</on><start_time>0</start_time><end_time>{end}</end_time>
 <body_name>{body}</body_name><relative_to_body_name>ground</relative_to_body_name><point_name>point</point_name>
 <point>0.01 0.02 0.03</point></PointKinematics></objects></AnalysisSet></AnalyzeTool>"""
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}")
-    return good
 
 
 def read_table(path):

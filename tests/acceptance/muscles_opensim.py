@@ -20,19 +20,13 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+from rows import PROGRAM, exit_status, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 MOST = 1e-6  # m
 STEPS = 7  # poses over the range of a coordinate
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 FACTORS = {"pelvis": (1.05, 0.95, 1.1), "femur": (0.97, 1.06, 1.02), "tibia": (1.03, 1.08, 0.96), "torso": (1.1, 1.04, 1.0)}
 OTHERS = (1.02, 0.98, 1.05)
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}")
 
 
 def manual_setup(model, markers):
@@ -180,7 +174,7 @@ def main():
         Path("rajagopal.xml").write_text(setup)
         compare(opensim, "Rajagopal2016 by hand", "rajagopal.xml")
         os.chdir(ROOT)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

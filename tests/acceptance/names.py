@@ -15,30 +15,22 @@ status 1 when one fails.
 
 import csv
 import json
-import os
 import random
 import re
 import shlex
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
+import rows
+from rows import exit_status, row
+
 HERE = Path(tempfile.mkdtemp(prefix="names_"))
-FAILED = []
-
-
-def row(good, check, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-    if not good:
-        FAILED.append(check)
 
 
 def run(*words):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=HERE, capture_output=True, text=True, timeout=300, check=False)
+    return rows.run(*words, folder=HERE)
 
 
 ARMS = "FHD BHD SHO UPA ELB FRM WRA WRB FIN"
@@ -334,7 +326,7 @@ def main():
     check_sets()
     check_others()
     check_pairs()
-    return 1 if FAILED else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -19,17 +19,11 @@ from pathlib import Path
 import pynwb
 from nwbinspector import inspect_nwbfile
 
+from rows import PROGRAM, exit_status, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
 RECORDING = DATA / "kineticstoolkit" / "sample_propulsion.c3d"
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def same(text, value):
@@ -67,7 +61,7 @@ def main():
         row(not problems, "pynwb.validate", "0 problems", f"{len(problems)} {problems[:1] if problems else ''}")
         severe = [m for m in inspect_nwbfile(nwbfile_path=str(folder / "m.nwb")) if m.importance.name in ("CRITICAL", "ERROR", "PYNWB_VALIDATION")]
         row(not severe, "nwbinspector: critical findings and errors", "0", f"{len(severe)} {severe[:1] if severe else ''}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

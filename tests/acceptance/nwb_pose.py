@@ -22,18 +22,12 @@ import pandas
 import pynwb
 from nwbinspector import inspect_nwbfile
 
+from rows import PROGRAM, exit_status, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
 RECORDING = DATA / "pycgm-rom" / "Sample_Static.c3d"
 STATES = ("interpolated", "model_filled", "upsampled")
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def convert(*arguments):
@@ -126,7 +120,7 @@ def main():
         order = [names.index(name) for name in safe]
         row(numpy.array_equal(x[:, order], wanted[1], equal_nan=True), "kinemark: a pose that pynwb and ndx-pose wrote",
             f"{x.size} numbers the same, of confidence 0 missing", f"{int(numpy.isnan(x[:, order, 0]).sum())} missing of {x.size // 3}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -8,13 +8,13 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from rows import row, run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 WALK = DATA / "c3d-parser-clinics" / "MH0222_BP15.c3d"
 STEPS = DATA / "btk-others" / "PiG_Motion3_FF.c3d"
@@ -30,14 +30,6 @@ SUBJECT += ["--subject", "MarkerDiameter=14", "--subject", "InterAsisDistance=24
 LEGS = "LASI,RASI,LPSI,RPSI,LTHI,RTHI,LKNE,RKNE,LTIB,RTIB,LANK,RANK,LHEE,RHEE,LTOE,RTOE"
 
 
-def run(folder, *words):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}")
-
-
 def group_of(text):
     """{option: its words} of the group "Recording" of a command's help."""
     lines = text.split("\nRecording:\n")[1].split("\n\n")[0]
@@ -46,7 +38,7 @@ def group_of(text):
 
 
 def check_words():
-    groups = {command: group_of(run(".", command, "--help").stdout) for command in COMMANDS}
+    groups = {command: group_of(run(command, "--help").stdout) for command in COMMANDS}
     blank = [f"{c} {o}" for c in COMMANDS for o in OPTIONS if o not in groups[c]]
     other = [f"{c} {o}" for c in COMMANDS for o in groups[c] if groups[c][o] != groups["info"].get(o)]
     row(not blank, "options of a recording in 9 commands x 11", "no blank", f"{len(blank)} blank {' '.join(blank[:3])}")
@@ -75,7 +67,7 @@ def results(folder, name):
                 "LTOE=L.Toe.Tip,RTOE=R.Toe.Tip,LKNE=L.Knee.Lat,RKNE=R.Knee.Lat", "--no-error-bars", "-o", "o.mot", "--force"), "o.mot"),
     }
     for command, (words, output) in jobs.items():
-        done = run(folder, *words)
+        done = run(*words, folder=folder)
         if done.returncode not in (0, 1):
             found[command] = f"status {done.returncode}: {done.stderr.strip()[:120]}"
             continue
@@ -107,18 +99,18 @@ def largest_difference(one, other):
 
 def check_formats(folder):
     shutil.copy(WALK, folder / "walk.c3d")
-    first = json.loads(run(folder, "info", "walk.c3d", "--json").stdout)["first_frame"]
+    first = json.loads(run("info", "walk.c3d", "--json", folder=folder).stdout)["first_frame"]
     base, _ = None, None
     for ending in ("c3d", "mat", "nwb", "csv"):
         place = folder / ending
         place.mkdir()
         name = f"walk.{ending}"
-        made = run(folder, "convert", "walk.c3d", place / name, "--edits", "none")
+        made = run("convert", "walk.c3d", place / name, "--edits", "none", folder=folder)
         if made.returncode != 0:
             row(False, f"walk as .{ending}", "is written", made.stderr.strip()[:100])
             continue
-        run(place, "edit", name, "--crop", "--from", first + 20)
-        run(place, "edit", name, "--swap", "LASI", "RASI", "--from", first + 100)
+        run("edit", name, "--crop", "--from", first + 20, folder=place)
+        run("edit", name, "--swap", "LASI", "RASI", "--from", first + 100, folder=place)
         found, said = results(place, name)
         silent = [command for command, heard in said.items() if not heard]
         row(not silent, f".{ending}: edits beside it are applied and said by 7 commands", "all", f"silent: {' '.join(silent) or 'none'}")
@@ -134,7 +126,7 @@ def check_formats(folder):
 
 def steps_of(folder, *words):
     """Measures of plates and instants of their steps: [(name, number)]; a sentence where that fails."""
-    done = run(folder, "analyze", *words, "--measures", "gait,plates", "--refits", "0", "--json")
+    done = run("analyze", *words, "--measures", "gait,plates", "--refits", "0", "--json", folder=folder)
     if done.returncode not in (0, 1):
         return done.stderr.strip()[:120]
     found = json.loads(done.stdout)
@@ -155,16 +147,16 @@ def farthest(one, other, of):
 def check_forces(folder):
     """Plates of one recording as C3D, MAT, NWB, and TRC with a table of forces, a journal beside each."""
     shutil.copy(STEPS, folder / "steps.c3d")
-    first = json.loads(run(folder, "info", "steps.c3d", "--json").stdout)["first_frame"]
+    first = json.loads(run("info", "steps.c3d", "--json", folder=folder).stdout)["first_frame"]
     base = None
     for ending in ("c3d", "mat", "nwb", "trc"):
         place = folder / f"forces_{ending}"
         place.mkdir()
-        run(folder, "convert", "steps.c3d", place / f"steps.{ending}", "--edits", "none")
-        run(place, "edit", f"steps.{ending}", "--crop", "--from", first + 20 if ending != "trc" else 21)
+        run("convert", "steps.c3d", place / f"steps.{ending}", "--edits", "none", folder=folder)
+        run("edit", f"steps.{ending}", "--crop", "--from", first + 20 if ending != "trc" else 21, folder=place)
         words = [f"steps.{ending}"]
         if ending == "trc":
-            run(folder, "convert", "steps.c3d", place / "grf.mot", "--edits", "none")
+            run("convert", "steps.c3d", place / "grf.mot", "--edits", "none", folder=folder)
             words += ["--forces", "grf.mot"]
         found = steps_of(place, *words)
         if base is None:
@@ -185,9 +177,9 @@ def check_back(folder):
         place.mkdir()
         shutil.copy(source, place / "first.c3d")
         for way in ("mat", "nwb"):
-            run(place, "convert", "first.c3d", f"way.{way}")
-            run(place, "convert", f"way.{way}", f"{way}.c3d")
-        facts = [json.loads(run(place, "info", file, "--json").stdout or "{}") for file in ("first.c3d", "way.nwb", "nwb.c3d")]
+            run("convert", "first.c3d", f"way.{way}", folder=place)
+            run("convert", f"way.{way}", f"{way}.c3d", folder=place)
+        facts = [json.loads(run("info", file, "--json", folder=place).stdout or "{}") for file in ("first.c3d", "way.nwb", "nwb.c3d")]
         keys = ("points", "frames", "rate_hz", "first_frame", "missing", "labels", "channels", "analog_channels", "analog_rate_hz", "force_plates", "events")
         other = [key for key in keys for after in facts[1:] if after.get(key, "none") != facts[0].get(key)]
         row(not other, f"{name}: C3D to NWB to C3D", f"{len(keys)} facts are the same", " ".join(other) or "the same")
@@ -207,11 +199,11 @@ def silent_losses(folder, source, ending, *rate):
     """What the recording `source` has, its conversion has not, and no note names."""
     out = folder / f"{source.stem}_{source.suffix[1:]}" / f"sub-01/motion/sub-01_task-a_tracksys-{ending}_motion.{ending}"
     out.parent.mkdir(parents=True, exist_ok=True)
-    done = run(folder, "convert", source, out, *rate)
+    done = run("convert", source, out, *rate, folder=folder)
     if done.returncode not in (0, 1):
         return [done.stderr.strip()[:80]]
-    before = json.loads(run(folder, "info", source, "--json", *rate).stdout)
-    after = json.loads(run(folder, "info", out, "--json").stdout) if ending != "glb" else {key: before[key] for key in SAME}
+    before = json.loads(run("info", source, "--json", *rate, folder=folder).stdout)
+    after = json.loads(run("info", out, "--json", folder=folder).stdout) if ending != "glb" else {key: before[key] for key in SAME}
     silent = [key for key in SAME if after[key] != before[key]]
     return silent + [key for key, word in SAID.items() if before.get(key) and after.get(key) != before.get(key) and word not in done.stderr]
 
@@ -219,15 +211,15 @@ def silent_losses(folder, source, ending, *rate):
 def check_kept(folder):
     """Every format that is read, written as every other: what is not kept is said."""
     shutil.copy(STEPS, folder / "kept.c3d")
-    run(folder, "clean", "kept.c3d", "smooth.nwb", "--derivatives", "--quiet")
+    run("clean", "kept.c3d", "smooth.nwb", "--derivatives", "--quiet", folder=folder)
     sources = [(folder / "kept.c3d", ()), (folder / "smooth.nwb", ()), (TAI_CHI, ("--rate", "179")), (HAND, ())]
     for ending in ENDINGS[1:5]:
-        run(folder, "convert", "kept.c3d", f"kept.{ending}", "--quiet")
+        run("convert", "kept.c3d", f"kept.{ending}", "--quiet", folder=folder)
         sources.append((folder / f"kept.{ending}", ()))
     pairs = [(source, ending, rate) for source, rate in sources if source.is_file() for ending in ENDINGS]
     silent = [f"{source.name} to {ending}: {' '.join(lost)}" for source, ending, rate in pairs if (lost := silent_losses(folder, source, ending, *rate))]
     row(not silent, f"{len(pairs)} conversions: what the new format does not keep is said", "all", f"{len(silent)} silent {'; '.join(silent[:3])}")
-    said = run(folder, "convert", "smooth.nwb", "again.nwb").stderr
+    said = run("convert", "smooth.nwb", "again.nwb", folder=folder).stderr
     row("not carried on: derivatives of markers" in said, "derivatives that a conversion leaves behind are said", "said", said.splitlines()[0][:100] if said else "")
 
 

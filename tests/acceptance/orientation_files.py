@@ -12,13 +12,13 @@ Needs Python with ezc3d, opensim, numpy and scipy. Finds the program in KINEMARK
 """
 
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import orientations
-from orientations import DATA, PROGRAM, SUBJECTS, Subject, read_table, row, write_quaternions
+import rows
+from orientations import DATA, SUBJECTS, Subject, read_table, write_quaternions
+from rows import exit_status, row
 
 MOST_APART = 1e-7
 FRAMES = 200
@@ -27,7 +27,7 @@ QTM_COLUMNS = ("X", "Y", "Z", "Roll", "Pitch", "Yaw", "Residual", *(f"Rot[{i}]" 
 
 
 def run(folder, *words):
-    done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
+    done = rows.run(*words, folder=folder)
     return done.returncode, done.stdout, done.stderr.strip()[-300:]
 
 
@@ -202,7 +202,7 @@ def main():
             one, other = angles[ending], angles[f"{ending} converted"]
             off = numpy.inf if isinstance(one, str) or isinstance(other, str) else abs(one - other).max()
             row(off <= 1e-6, f"ik from .{ending} and from the .sto made of it", "the same angles to 1e-6 deg", f"{off:.1e} {one if isinstance(one, str) else ''}")
-    return 1 if orientations.failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

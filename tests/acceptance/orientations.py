@@ -18,8 +18,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import PROGRAM, exit_status, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared" / "data"))
 LEGS = ("pelvis", "torso", "femur_r", "femur_l", "tibia_r", "tibia_l", "calcn_r", "calcn_l")
 ARMS = ("humerus_r", "humerus_l", "radius_r", "radius_l")
@@ -34,13 +35,6 @@ FRAMES = 120
 POSE_FRAMES = 60
 MOST_RATIO = 1.1
 MOST_APART_DEG = 0.05  # OpenSim stops at an accuracy of 1e-9
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}")
 
 
 def read_table(path):
@@ -215,7 +209,7 @@ def main():
     row(60 <= shares[0] <= 75, "truth within 1 SD", "60 to 75 %", f"{shares[0]:.1f} %")
     row(90 <= shares[1] <= 98, "truth within the interval of 95 %", "90 to 98 %", f"{shares[1]:.1f} %")
     row(bool(headings) and max(headings) < 4, "headings estimated, error / SD", "none beyond 4", f"{max(headings, default=0):.1f} at most, of {len(headings)}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

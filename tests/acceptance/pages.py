@@ -16,6 +16,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 PROJECT = Path(__file__).resolve().parents[2]
 VIEWER = PROJECT / "viewer"
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
@@ -30,13 +32,6 @@ MOTIONS = (
     ("opensim-core-ik/std_subject1_abdbonepin_IK.mot", "opensim-core-ik/subject1_abdbonepin.osim"),
     ("bmc-rajagopal-run/IK/results/ik_output_run.mot", "bmc-rajagopal-run/Scale/Rajagopal2015_scaled.osim"),
 )
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def node(script, *files):
@@ -131,7 +126,7 @@ def main():
             appearance()
             live()
             speed()
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -14,6 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 PROJECT = Path(__file__).resolve().parents[2]
 VIEWER = PROJECT / "viewer"
 PROGRAM = Path(os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")).resolve()
@@ -68,13 +70,6 @@ SPOILT = (
     ("a unit that pages do not have", lambda data: data["summary"]["coordinates"][0].update(unit="rad"), "/coordinates/0/unit: must be equal to one of the allowed values"),
     ("a packing of earlier versions", lambda data: data["series"].update(rms_error_mm="AACAPw=="), "/series/rms_error_mm: must be object"),
 )
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def program(folder, *words):
@@ -160,7 +155,7 @@ def main():
         pages = write(folder)
         judge(pages, folder)
         spoil(folder / "IkPage_0.html", folder)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

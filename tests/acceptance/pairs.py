@@ -15,7 +15,6 @@ Needs Python with scipy. Finds the program in KINEMARK_PROGRAM and the recording
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -23,8 +22,9 @@ from pathlib import Path
 import numpy
 import scipy.io
 
+from rows import run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 # Of formats that are only read: folder of the corpus (else that of its ending) and how such a file begins.
@@ -41,10 +41,6 @@ LOST = re.compile(r"cannot be stored|kept as")
 def row(verdict, what, asked, measured):
     print(f"{verdict} | {what} | {asked} | {measured}", flush=True)
     return verdict != "FAIL"
-
-
-def run(*command):
-    return subprocess.run([PROGRAM, *map(str, command)], capture_output=True, text=True, check=False)
 
 
 def formats():

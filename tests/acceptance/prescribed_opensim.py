@@ -19,8 +19,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import PROGRAM, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 RATE_HZ, FRAMES, T0_S = 100.0, 61, 0.4
 MOST_DEG, OF_SD = 0.01, 0.05  # OpenSim stops where a weakly seen angle changes the cost no more
@@ -36,11 +37,6 @@ TOOL = """<?xml version="1.0" encoding="UTF-8"?>
 <IKTaskSet><objects>{tasks}</objects></IKTaskSet>
 <output_motion_file>{motion}</output_motion_file></InverseKinematicsTool></OpenSimDocument>
 """
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}")
-    return good
 
 
 def function(opensim, kind, centre, amplitude):

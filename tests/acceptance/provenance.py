@@ -21,20 +21,13 @@ import numpy as np
 import pynwb
 from nwbinspector import inspect_nwbfile
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
+from rows import PROGRAM, exit_status, row
+
 COLUMNS = ["frame", "time_s", "marker", "x_m", "y_m", "z_m", "state", "method", "sd_x_m", "sd_y_m", "sd_z_m"]
 MARKERS = ["LASI", "Subject:RASI", "wrist/out"]
 FRAMES = 400
 RATE_HZ = 200
 FILLED = {"interpolated": "cubic", "model_filled": "rigid body", "upsampled": ""}
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def states_of(marker, frame):
@@ -154,7 +147,7 @@ def main():
         judge_nwb(nwb, wanted)
         again = subprocess.run([PROGRAM, "convert", "--quiet", str(source), str(nwb)], capture_output=True, check=False)
         row(again.returncode == 4, "an NWB file that exists", "is kept, status 4", f"status {again.returncode}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -17,16 +17,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 KILLS = 100
 RECOVERED_EVERY = 10
 SYNC = ("background", "never", "always")
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def record_and_kill(tool, path, sync, lines):
@@ -86,7 +81,7 @@ def main():
     row(more_than_one == 0, "files with more than one frame beyond the acknowledged ones", "0", f"{more_than_one} of {KILLS}")
     row(set(ends) <= {"open", "cut"}, "how the files end", "open or cut", ", ".join(f"{n} {end}" for end, n in sorted(ends.items())))
     row(recovered and all(recovered), "recovered: closed, the same frames, original untouched", f"{len(recovered)}", f"{sum(recovered)}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -16,17 +16,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+from rows import exit_status, row
+
 HERE = Path(__file__).resolve().parent
 PACKAGE = "@mcap/core@2.2.2"
 FRAMES = 2000
 VALUES = 64  # counts a frame: 8 LEDs, 2 cameras, 4 electrodes
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def counts_of(frame):
@@ -122,7 +117,7 @@ def main():
         row(1 <= len(lost) <= 2, "one bit flipped: frames lost", "1 to 2", f"{len(lost)}")
         check_messages("recovered past the damage", found, [frame for frame in everything if frame not in lost])
         check_closed("recovered past the damage", found, FRAMES - len(lost), ["kinemark.recovered"])
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

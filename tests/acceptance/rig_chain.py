@@ -11,15 +11,13 @@ import collections
 import csv
 import json
 import math
-import os
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import exit_status, output, row
+
 # Method, filter of `clean` (none: not cleaned), format that is measured.
 CHAINS = [
     ("frames", "", "csv"),
@@ -32,24 +30,10 @@ CHAINS = [
 ]
 RATE_HZ = 100.0
 MANY = 60  # intervals of one kind by which a share of 91 to 98 % can be known
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*words):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=900, check=False)
-    if done.returncode not in (0, 1):
-        raise SystemExit(f"kinemark {' '.join(map(str, words))}: {done.stderr}")
-    return done.stdout
 
 
 def measured(path, *options):
-    found = json.loads(run("measure", path, "--json", "--quiet", *options))
+    found = json.loads(output("measure", path, "--json", "--quiet", *options))
     return {(m["subject"], m["measure"]): m for m in found["measures"]}
 
 
@@ -92,12 +76,12 @@ def points_of(folder, method, cleaned_by, ending):
     """The recording by one chain, each file made once."""
     first = folder / f"{method}.csv"
     if not first.exists():
-        run("reconstruct", folder / "recording.mcap", "--rig", folder / "rig.toml", "--method", method, "-o", first, "--quiet")
+        output("reconstruct", folder / "recording.mcap", "--rig", folder / "rig.toml", "--method", method, "-o", first, "--quiet")
     last = folder / f"{method}{cleaned_by}.{ending}"
     if cleaned_by:
-        run("clean", first, last, "--filter", cleaned_by, "--quiet")
+        output("clean", first, last, "--filter", cleaned_by, "--quiet")
     elif not last.exists():
-        run("convert", first, last, "--quiet")
+        output("convert", first, last, "--quiet")
     return last
 
 
@@ -110,8 +94,8 @@ def main():
             for number in range(seed, seed + count):
                 folder = Path(name) / f"{scene}{number}"
                 seconds = random.Random(number).uniform(2.0, 6.0)
-                run("simulate", "rig", scene, "-o", folder, "--tree-poses", "--grid", "--seed", number, "--duration", f"{seconds:.3f}", "--quiet")
-                run("calibrate", folder / "tree_poses.mcap", folder / "grid_A.mcap", folder / "grid_B.mcap", "--nominal", folder / "rig_nominal.toml",
+                output("simulate", "rig", scene, "-o", folder, "--tree-poses", "--grid", "--seed", number, "--duration", f"{seconds:.3f}", "--quiet")
+                output("calibrate", folder / "tree_poses.mcap", folder / "grid_A.mcap", folder / "grid_B.mcap", "--nominal", folder / "rig_nominal.toml",
                     "-o", folder / "rig.toml", "--quiet")
                 truths = {}
                 for chain in CHAINS:
@@ -137,7 +121,7 @@ def main():
     if shares:
         below = sorted(share for share in shares if share[0] < 0.91)
         row(not below, "each kind by each chain", ">= 91 %", f"{100 * min(shares)[0]:.1f} % ({min(shares)[1]}); below 91: " + ", ".join(f"{k} {100 * v:.0f}" for v, k in below))
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

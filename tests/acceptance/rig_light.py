@@ -13,37 +13,26 @@ Arguments: first seed (default 1), number of rigs (default 3). Prints rows "PASS
 import csv
 import json
 import math
-import os
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+import rows
+from rows import exit_status, output
+
 LEDS = ("shoulder", "elbow", "wrist", "hand")
 METHODS = ("frames", "smoother")
 RATE_HZ = 100.0
 MOVES_M = 0.1
 FEWEST = 100  # LEDs by which a share of 95 % can be known
 OF_STRENGTH = {True: 0.02, False: 0.06}  # an LED that moves, one at rest
-failed = False
 
 
 def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | light of LEDs, {check} | {asked} | {measured}", flush=True)
-
-
-def run(*words):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=900, check=False)
-    if done.returncode not in (0, 1):
-        raise SystemExit(f"kinemark {words[0]}: {done.stderr}")
-    return done.stdout
+    rows.row(passed, f"light of LEDs, {check}", asked, measured)
 
 
 def points(path):
@@ -78,12 +67,12 @@ def at_time(path, time_s):
 
 def simulate(folder, seed, lights, dark_slot, *more):
     words = [w for led, s in lights.items() for w in ("--intensity", f"{led}={s:.6f}")]
-    run("simulate", "rig", "sign", "-o", folder, "--seed", seed, *(["--dark-slot"] if dark_slot else []), *words, *more, "--quiet")
+    output("simulate", "rig", "sign", "-o", folder, "--seed", seed, *(["--dark-slot"] if dark_slot else []), *words, *more, "--quiet")
 
 
 def reconstruct(recording, rig, method, out, *options):
     """Points, and what is said of each LED."""
-    text = run("reconstruct", recording, "--rig", rig, "--method", method, "-o", out, "--json", "--quiet", *options)
+    text = output("reconstruct", recording, "--rig", rig, "--method", method, "-o", out, "--json", "--quiet", *options)
     return points(out), json.loads(text)
 
 
@@ -98,7 +87,7 @@ class Case:
         simulate(plain, seed, {}, dark_slot, "--tree-poses")
         simulate(lit, seed, self.lights, dark_slot)
         rig = folder / "rig.toml"
-        run("calibrate", plain / "tree_poses.mcap", "--nominal", plain / "rig_nominal.toml", "-o", rig, "--quiet")
+        output("calibrate", plain / "tree_poses.mcap", "--nominal", plain / "rig_nominal.toml", "-o", rig, "--quiet")
         self.truth = truth_of(lit / "truth.trc")
         true = folder / "rig_true.toml"  # as far as a calibration could know it
         true.write_text("".join(line for line in (lit / "rig_true.toml").read_text().splitlines(True) if dark_slot or not line.startswith("dark_")))
@@ -205,7 +194,7 @@ def main():
             held = [c.held(method) for c in cases[dark_slot]]
             share = sum(h for h, _ in held) / sum(n for _, n in held)
             row(0.9 <= share <= 0.99, f"{method}, {'dark slots' if dark_slot else 'without them'}: 95 % intervals of positions, cameras known", "90 to 99 %", f"{100 * share:.1f} %")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

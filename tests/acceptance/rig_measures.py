@@ -10,44 +10,30 @@ Arguments: first seed (default 1), number of rigs (default 3). Finds the program
 """
 
 import json
-import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import output, row
+
 WHEEL_MM = 392.0
 # As `study poizner` asks of the same wheel at 8 degrees, mm or a ratio.
 WHEEL = {"circle_diameter": 0.2, "farthest_sample": 0.30, "plane_sd": 0.35, "axes_ratio": 0.005}
 
 
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
-
-
-def run(*words):
-    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=900, check=False)
-    if done.returncode not in (0, 1):
-        raise SystemExit(f"kinemark {words[0]}: {done.stderr}")
-    return done.stdout
-
-
 def measured(file, *options):
     """Measures by marker and id."""
-    found = json.loads(run("analyze", file, "--json", "--quiet", *options))
+    found = json.loads(output("analyze", file, "--json", "--quiet", *options))
     return {(m["subject"], m["measure"]): m for m in found["measures"]}
 
 
 def record(folder, scene, seed):
     """What `analyze` says of a scene, and of its truth."""
     out = folder / f"{scene}{seed}"
-    run("simulate", "rig", scene, "-o", out, "--grid", "--tree-poses", "--seed", seed, "--quiet")
-    run("calibrate", out / "tree_poses.mcap", out / "grid_A.mcap", out / "grid_B.mcap", "--nominal", out / "rig_nominal.toml",
+    output("simulate", "rig", scene, "-o", out, "--grid", "--tree-poses", "--seed", seed, "--quiet")
+    output("calibrate", out / "tree_poses.mcap", out / "grid_A.mcap", out / "grid_B.mcap", "--nominal", out / "rig_nominal.toml",
         "-o", out / "rig.toml", "--quiet")
-    run("reconstruct", out / "recording.mcap", "--rig", out / "rig.toml", "--method", "frames", "-o", out / "frames.csv", "--quiet")
+    output("reconstruct", out / "recording.mcap", "--rig", out / "rig.toml", "--method", "frames", "-o", out / "frames.csv", "--quiet")
     return (measured(out / "frames.csv", "--figures", out / "figures"), measured(out / "truth.trc", "--refits", "0"),
             {p.name for p in (out / "figures").iterdir()})
 

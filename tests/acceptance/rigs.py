@@ -9,20 +9,13 @@ Prints rows "PASS|FAIL | check | asked | measured".
 """
 
 import json
-import os
 import statistics
 import subprocess
 import sys
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
+from rows import PROGRAM, exit_status, row
+
 POOLED = "still tree: error of distances, root mean square of all seeds"
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def times_bound(measured, bound):
@@ -64,7 +57,7 @@ def main(arguments):
         passed = times_bound(value, bound) <= 1
         if not passed or quantity == POOLED:
             row(passed, f"{quantity}{'' if quantity == POOLED else ', median of the rigs'}", f"{bound}", f"{value:.4g}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -16,7 +16,6 @@ import math
 import os
 import random
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -25,8 +24,9 @@ from xml.etree import ElementTree
 import mujoco
 import numpy
 
+from rows import output, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA", ROOT.parent / "shared/data"))
 MODELS = {
     "human": ROOT / "models/human.osim",
@@ -40,18 +40,6 @@ MOST_M, MOST_KG, MOST_RESIDUAL = 1e-6, 1e-6, 1e-12
 ROUNDED = 1.01  # of an error said with three digits
 FOLLOWS = re.compile(r"(?:joint '(?P<joint>[^']+)': its \w+ (?P<place>\d+)|coordinate '(?P<own>[^']+)') follows .* "
                      r"at most (?P<size>\S+) (?P<unit>mm|deg) off")
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"kinemark {arguments[0]}: {done.stderr.strip()}")
-    return done.stdout
 
 
 class Source:
@@ -166,7 +154,7 @@ class Judge:
 
 def check(name, ending, source, postures, centres, folder):
     path = folder / f"{name}{ending}"
-    warnings = json.loads(run("convert", MODELS[name], path, "--json"))["warnings"]
+    warnings = json.loads(output("convert", MODELS[name], path, "--json"))["warnings"]
     judge = Judge(path, warnings)
     label = f"{name}, {ending[1:]}"
     good = row(judge.leaders() == set(source.ranges), f"{label}: joints that lead are the free coordinates",
@@ -207,7 +195,7 @@ def main():
                         for _ in range(FRAMES)]
             motion, out = folder / f"{name}.mot", folder / name
             write_motion(motion, postures)
-            run("analyze", motion, "-m", path, "-o", out, "--no-error-bars")
+            output("analyze", motion, "-m", path, "-o", out, "--no-error-bars")
             centres = read_centres(out / f"{name}_BodyKinematics_pos_global.sto")
             if not row(len(centres) == FRAMES, f"{name}: postures that analyze has", FRAMES, len(centres)):
                 good = False

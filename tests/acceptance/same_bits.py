@@ -9,8 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+from rows import PROGRAM, row
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 SCRATCH = Path(os.environ.get("KINEMARK_SCRATCH", "/tmp")) / "same-bits"
 RESULTS = ("Q.mot", "Q_sd.sto", "Q_marker_errors.sto")
 
@@ -47,11 +48,6 @@ def largest_difference(one, other):
             if not math.isnan(x):
                 worst = max(worst, abs(x - y) / max(1.0, abs(x)))
     return worst
-
-
-def row(good, check, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-    return good
 
 
 def main():

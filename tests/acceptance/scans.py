@@ -12,24 +12,13 @@ import json
 import os
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
+from rows import exit_status, row, run
+
 FRAMES_PER_POSE = 10
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
-
-
-def run(*words, folder):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
 
 
 def scan(seed, folder):
@@ -78,7 +67,7 @@ def main(arguments):
             row(used == cuts, f"recordings of a tree cut at {cuts} places: all whole poses used", f"{cuts}", f"{used}")
             reported = sum(said for _, _, said in found)
             row(reported == cuts, "the frames of a pose that was cut are told, and only then", f"{cuts}", f"{reported}")
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

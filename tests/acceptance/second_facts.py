@@ -20,13 +20,13 @@ import os
 import random
 import re
 import struct
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from rows import run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 ENDINGS = {".c3d", ".trc", ".mot", ".sto", ".osim", ".csv", ".tsv"}
 PLANTED, QUICK = 60, 3
@@ -41,10 +41,6 @@ opensim-core-ik/std_subject1_abdbonepin_IK.mot""".split()
 MODELS = sorted(p.relative_to(DATA).as_posix() for p in DATA.rglob("*.osim")) if DATA.is_dir() else []
 FAULTS = []
 Fault = collections.namedtuple("Fault", "name says commands known function clean status")
-
-
-def run(*words, cwd=None):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, capture_output=True, text=True, timeout=300, check=False)
 
 
 VALIDATE = ("validate", "FILE")

@@ -18,8 +18,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-import orientations
-from orientations import DATA, PROGRAM, SUBJECTS, Subject, read_table, row, write_quaternions
+from orientations import DATA, SUBJECTS, Subject, read_table, write_quaternions
+from rows import PROGRAM, exit_status, row
 
 NOISE_DEG = (1.0, 2.0)
 FRAMES = 300
@@ -144,7 +144,7 @@ def main():
         f"{max(apart):.3f} SD at most, median of the largest {numpy.median(apart):.4f}")
     row(bool(same) and max(same) <= MOST_APART_DEG, "the same, where the heading is the same", f"at most {MOST_APART_DEG} deg apart",
         f"{max(same, default=0):.1e} deg at most, {len(same)} draws")
-    return 1 if orientations.failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -29,19 +29,12 @@ sys.path.insert(0, str(HERE.parent / "cli"))
 
 from live_viewer import Ended, Viewer  # noqa: E402
 from serving import Server  # noqa: E402
+from rows import PROGRAM, exit_status, row
 
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", "build/release/bin/kinemark")
 ASKED_MS = 100
 REQUESTS = 100  # of the rightful page, during each attack
 MOST_MEMORY_MB = 200
 MOST_DESCRIPTORS = 400
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 # What the attackers do, each for ever.
@@ -392,7 +385,7 @@ def main():
     if sys.argv[1:] in (["sockets"], ["tls"]):
         with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
             (sockets if sys.argv[1] == "sockets" else tls)(Path(scratch))
-        return 1 if failed else 0
+        return exit_status()
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         scratch = Path(scratch)
         subprocess.run([PROGRAM, "simulate", "subject", "-o", scratch / "recorded", "--duration", "10", "--quiet"], check=True)
@@ -407,7 +400,7 @@ def main():
             left = sorted(set(path.name for path in scratch.rglob("*")) - set(before))
             row(status == -signal.SIGKILL and not left, "kill -9: files left", "none", ", ".join(left) or "none")
         check_long_trial(PROGRAM, scratch)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ parameter or an attribute. Each program has to find what the file holds and noth
 "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
 
-import os
 import re
 import subprocess
 import sys
@@ -22,16 +21,9 @@ import opensim
 import pynwb
 from nwbinspector import inspect_nwbfile
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
+from rows import PROGRAM, exit_status, row
+
 FRAMES = 50
-failed = False
-
-
-def row(passed, check, asked, measured):
-    global failed
-    failed = failed or not passed
-    print(f"{'PASS' if passed else 'FAIL'} | {check} | {asked} | {measured}", flush=True)
 
 
 def run(folder, *arguments):
@@ -118,7 +110,7 @@ def main():
         cleaned = recording(folder)
         row(cleaned == set_in_text(folder / "clean.nwb") and re.fullmatch("[0-9a-f]{16}", cleaned) is not None,
             "set of clean, by h5py", "16 digits", cleaned)
-    return 1 if failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -12,13 +12,13 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from rows import row, run
+
 ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build" / "release" / "bin" / "kinemark"))
 DATA = Path(os.environ.get("KINEMARK_TEST_DATA") or ROOT.parent / "shared" / "data")
 WALK = DATA / "c3d-parser-clinics" / "MH0222_BP15.c3d"
 ARM = ROOT / "models" / "macaque_arm.osim"
@@ -26,14 +26,6 @@ LEGS = "LASI,RASI,LPSI,RPSI,LTHI,RTHI,LKNE,RKNE,LTIB,RTIB,LANK,RANK,LHEE,RHEE,LT
 FACTOR = 4
 INTERPOLATIONS = ("linear", "cubic")
 SUBJECT = [word for side in "LR" for word in ("--subject", f"{side}LegLength=880", "--subject", f"{side}KneeWidth=100", "--subject", f"{side}AnkleWidth=70")]
-
-
-def run(folder, *words):
-    return subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, check=False)
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}")
 
 
 def table(path):
@@ -72,18 +64,18 @@ def show(what, worst, count):
 
 def show_followed(folder, low, high, how):
     """What follows its goals in time meets lines between measurements, too: near to the low rate, and the way out is named."""
-    done = run(folder, "track", "-m", ARM, "-t", high / "markers.c3d", "-o", high / "followed.mot")
-    run(folder, "track", "-m", ARM, "-t", low / "markers.c3d", "-o", low / "followed.mot")
+    done = run("track", "-m", ARM, "-t", high / "markers.c3d", "-o", high / "followed.mot", folder=folder)
+    run("track", "-m", ARM, "-t", low / "markers.c3d", "-o", low / "followed.mot", folder=folder)
     worst, count = in_deviations(table(low / "followed.mot"), table(high / "followed.mot"), table(low / "followed_sd.sto"))
     row("clean --upsampled decimate" in done.stderr and count > 0, f"track, {how}", "a note names the way out", f"{worst:.2g} SD at most, {count} numbers")
 
 
 def check_arm(folder, how):
     for name, more in (("low", ()), ("high", ("--upsample", FACTOR, "--interpolation", how))):
-        run(folder, "simulate", "macaque", "-o", name, "--duration", 10, "--seed", 1, *more)
-        run(folder / name, "ik", "-m", ARM, "-t", "markers.c3d", "-o", "q.mot")
-        run(folder / name, "joints", "markers.c3d", "--segments", "segments.toml", "-o", "joints")
-        run(folder / name, "scale", "-m", ARM, "-t", "markers.c3d", "-o", "sized.osim")
+        run("simulate", "macaque", "-o", name, "--duration", 10, "--seed", 1, *more, folder=folder)
+        run("ik", "-m", ARM, "-t", "markers.c3d", "-o", "q.mot", folder=folder / name)
+        run("joints", "markers.c3d", "--segments", "segments.toml", "-o", "joints", folder=folder / name)
+        run("scale", "-m", ARM, "-t", "markers.c3d", "-o", "sized.osim", folder=folder / name)
     low, high = folder / "low", folder / "high"
     show_followed(folder, low, high, how)
     show(f"ik, {how}", *in_deviations(table(low / "q.mot"), table(high / "q.mot"), table(low / "q_sd.sto")))
@@ -103,11 +95,11 @@ def check_rates(folder, how):
     """Speeds, accelerations and torques of the motion; `real.csv` is what the way out leaves of the recording."""
     low, high = folder / "low", folder / "high"
     words = ("dynamics", "q.mot", "-m", ARM, "--torques", "-o", "rates")
-    refused = run(high, *words)
+    refused = run(*words, folder=high)
     row(refused.returncode == 3 and WAY_OUT.replace("IN OUT ", "") in refused.stderr and not (high / "rates").exists(), f"dynamics, {how}", "refused, the way out is named", refused.stderr.strip()[:60])
-    run(low, *words)
-    run(high, "ik", "-m", ARM, "-t", "real.csv", "-o", "q.mot", "--force")
-    run(high, *words)
+    run(*words, folder=low)
+    run("ik", "-m", ARM, "-t", "real.csv", "-o", "q.mot", "--force", folder=high)
+    run(*words, folder=high)
     worst, count = 0.0, 0
     for name in RATES:
         found = in_deviations(*(table(place / "rates" / f"{name}{end}.sto") for place, end in ((low, ""), (high, ""), (low, "_sd"))))
@@ -118,14 +110,14 @@ def check_rates(folder, how):
 def values(folder, recording):
     """{(measure, marker): value} of paths, or the sentence of a refusal."""
     out = folder / "paths.json"
-    done = run(folder, "analyze", recording, "--measures", "path_length,mean_speed,peak_speed", "--refits", "0", "-o", out, "--force")
+    done = run("analyze", recording, "--measures", "path_length,mean_speed,peak_speed", "--refits", "0", "-o", out, "--force", folder=folder)
     return {(m["measure"], m["subject"]): m["value"] for m in json.loads(out.read_text())["measures"]} if done.returncode in (0, 1) else done.stderr
 
 
 def check_measures(folder, how):
     refused = values(folder / "high", "markers.c3d")
     row(isinstance(refused, str) and f"'{WAY_OUT}'" in refused, f"measures of paths, {how}", "refused, the way out is named", str(refused).strip()[:60])
-    run(folder / "high", "clean", "markers.c3d", "real.csv", "--upsampled", "decimate", "--filter", "none")
+    run("clean", "markers.c3d", "real.csv", "--upsampled", "decimate", "--filter", "none", folder=folder / "high")
     one, other = values(folder / "low", "markers.c3d"), values(folder / "high", "real.csv")
     row(one == other and len(one) > 10, f"measures of paths after that way, {how}", "those of the low rate", f"{len(one)} and {len(other)} numbers")
 
@@ -147,11 +139,11 @@ def upsample(path, out):
 
 
 def check_walk(folder):
-    run(folder, "convert", WALK, "low.trc", "--select", LEGS)
+    run("convert", WALK, "low.trc", "--select", LEGS, folder=folder)
     upsample(folder / "low.trc", folder / "high.trc")
     for name in ("low", "high"):
-        run(folder, "analyze", f"{name}.trc", "--segments", "pig", *SUBJECT, "--up", "z", "-o", f"angles_{name}")
-        run(folder, "analyze", f"{name}.trc", "--measures", "gait", "--refits", "0", "--up", "z", "-o", f"{name}.json")
+        run("analyze", f"{name}.trc", "--segments", "pig", *SUBJECT, "--up", "z", "-o", f"angles_{name}", folder=folder)
+        run("analyze", f"{name}.trc", "--measures", "gait", "--refits", "0", "--up", "z", "-o", f"{name}.json", folder=folder)
     low, high = (folder / f"angles_{name}" for name in ("low", "high"))
     show("angles of segments", *in_deviations(table(low / "angles.mot"), table(high / "angles.mot"), table(low / "angles_sd.sto")))
     one, other = (json.loads((folder / f"{name}.json").read_text())["gait"]["events"] for name in ("low", "high"))

@@ -10,9 +10,7 @@ status 1 when one fails.
 
 import csv
 import json
-import os
 import struct
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -21,15 +19,10 @@ from xml.sax.saxutils import escape
 import numpy
 import pyxdf
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = os.environ.get("KINEMARK_PROGRAM", str(ROOT / "build/release/bin/kinemark"))
+from rows import row, run
+
 CODES = {"float32": "f", "double64": "d", "int16": "h", "int32": "i"}
 MARKERS = ("LASI", "RASI", "SACR")
-
-
-def row(good, what, asked, measured):
-    print(f"{'PASS' if good else 'FAIL'} | {what} | {asked} | {measured}", flush=True)
-    return good
 
 
 def sized(number):
@@ -96,10 +89,6 @@ def write(path, case, random):
     parts += [chunk(5, bytes(range(16))), chunk(6, struct.pack("<I", 7) + b"<info><sample_count>1</sample_count></info>")]
     path.write_bytes(b"".join(parts))
     return kept, numpy.asarray(values, dtype=float)
-
-
-def run(*command):
-    return subprocess.run([PROGRAM, *map(str, command)], capture_output=True, text=True, check=False)
 
 
 def ours(path, scratch):

@@ -3,8 +3,7 @@
 #include "kinemark/io/number_cell.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
+#include <cmath>
 
 #include "kinemark/core/number.h"
 
@@ -89,6 +88,51 @@ std::string with_usual_signs(std::string_view cell) {
     ++i;
   }
   return out;
+}
+
+void NumberKinds::add(const std::vector<std::pair<Number, std::string>>& row) {
+  if (columns_.size() < row.size()) columns_.resize(row.size());
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const auto& [kind, cell] = row[c];
+    ++count_[static_cast<std::size_t>(kind)];
+    std::string digits(cell);
+    std::ranges::replace(digits, ',', '.');
+    const double size = std::abs(parse_number(digits).value_or(0.0));
+    auto& column = columns_[c];
+    if (kind == Number::whole) column.whole = std::max(column.whole, size);
+    if (kind == Number::three_behind_point) column.by_point = std::max(column.by_point, size);
+    if (kind == Number::three_behind_comma) column.by_comma = std::max(column.by_comma, size);
+  }
+}
+
+// Whether some column goes on from 987 to 1234 rather than to 1.234: numbers of one column are alike.
+bool NumberKinds::are_thousands(double Column::* three) const {
+  constexpr double kLeast = 100.0, kMost = 1000.0;
+  return std::ranges::any_of(columns_, [&](const Column& column) {
+    const double part = column.*three;
+    return part > 0.0 && column.whole >= kLeast && column.whole < kMost &&
+           column.whole * column.whole > 1e3 * part * part;
+  });
+}
+
+char NumberKinds::thousands() const {
+  const auto commas = of(Number::three_behind_comma), points = of(Number::three_behind_point);
+  const bool by_commas = of(Number::groups_with_commas) > 0 ||
+                         (commas > 0 && (of(Number::with_point) > 0 || are_thousands(&Column::by_comma)));
+  const bool by_points = of(Number::groups_with_points) > 0 ||
+                         (points > 0 && (of(Number::with_comma) > 0 || are_thousands(&Column::by_point)));
+  if (by_commas && of(Number::with_comma) + of(Number::groups_with_points) == 0) return ',';
+  if (by_points && of(Number::with_point) + of(Number::groups_with_commas) == 0) return '.';
+  return 0;
+}
+
+bool NumberKinds::have_decimal_commas() const {
+  const auto commas =
+      of(Number::with_comma) + of(Number::three_behind_comma) + of(Number::groups_with_points);
+  const auto points =
+      of(Number::with_point) + of(Number::three_behind_point) + of(Number::groups_with_commas);
+  const char group = thousands();
+  return group == '.' ? commas > 0 : group == 0 && commas > 0 && points == 0;
 }
 
 }  // namespace kinemark::io

@@ -34,5 +34,35 @@ TEST(NumberCell, UsualSignsTakeThePlaceOfOthers) {
     EXPECT_EQ(with_usual_signs(cell), cell);
 }
 
+NumberKinds kinds_of(const std::vector<std::vector<std::string>>& rows) {
+  NumberKinds out;
+  for (const auto& cells : rows) {
+    std::vector<std::pair<Number, std::string>> row;
+    for (const auto& cell : cells) row.emplace_back(number_in(cell), cell);
+    out.add(row);
+  }
+  return out;
+}
+
+TEST(NumberKinds, TellThousandsFromPartsOfOne) {
+  EXPECT_EQ(kinds_of({{"1.5", "2.25"}}).thousands(), 0);
+  EXPECT_EQ(kinds_of({{"1,234.5", "2"}}).thousands(), ',');
+  EXPECT_EQ(kinds_of({{"1.234,5", "2"}}).thousands(), '.');
+  EXPECT_EQ(kinds_of({{"1,234", "0.5"}}).thousands(), ',') << "another number has a point";
+  EXPECT_EQ(kinds_of({{"1,234", "0,5"}}).thousands(), 0);
+  EXPECT_EQ(kinds_of({{"987", "1"}, {"1.012", "1"}}).thousands(), '.') << "the column goes on";
+  EXPECT_EQ(kinds_of({{"9.871", "987"}, {"1.012", "988"}}).thousands(), 0) << "another column does";
+  EXPECT_EQ(kinds_of({{"1,234.5", "1.234,5"}}).thousands(), 0) << "they contradict each other";
+}
+
+TEST(NumberKinds, HaveDecimalCommasWhereNoNumberHasAPoint) {
+  EXPECT_TRUE(kinds_of({{"1,5", "2"}}).have_decimal_commas());
+  EXPECT_TRUE(kinds_of({{"1.234,5", "2"}}).have_decimal_commas());
+  EXPECT_TRUE(kinds_of({{"1,234", "2"}}).have_decimal_commas());
+  EXPECT_FALSE(kinds_of({{"1,5", "2.5"}}).have_decimal_commas());
+  EXPECT_FALSE(kinds_of({{"1,234.5", "2"}}).have_decimal_commas());
+  EXPECT_FALSE(kinds_of({{"1.5", "2"}}).have_decimal_commas());
+}
+
 }  // namespace
 }  // namespace kinemark::io

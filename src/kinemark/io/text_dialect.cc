@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -194,55 +193,6 @@ bool has_tabs(std::string_view sample) {
   return 2 * with >= lines && with > 0;
 }
 
-/// How often each kind of number stands in a text, and in its columns numbers that may be thousands.
-struct NumberKinds {
-  std::array<std::size_t, 8> count{};
-  struct Column {
-    double whole = 0.0;                     ///< largest number without comma and point
-    double by_point = 0.0, by_comma = 0.0;  ///< largest "1.234" as 1.234, and "1,234"
-  };
-  std::vector<Column> columns;
-
-  [[nodiscard]] std::size_t of(Number kind) const { return count[static_cast<std::size_t>(kind)]; }
-  void add(const std::vector<std::pair<Number, std::string>>& row) {
-    if (columns.size() < row.size()) columns.resize(row.size());
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const auto& [kind, cell] = row[c];
-      ++count[static_cast<std::size_t>(kind)];
-      std::string digits(cell);
-      std::ranges::replace(digits, ',', '.');
-      const double size = std::abs(parse_number(digits).value_or(0.0));
-      if (kind == Number::whole) columns[c].whole = std::max(columns[c].whole, size);
-      if (kind == Number::three_behind_point) columns[c].by_point = std::max(columns[c].by_point, size);
-      if (kind == Number::three_behind_comma) columns[c].by_comma = std::max(columns[c].by_comma, size);
-    }
-  }
-  /// Whether some column goes on from 987 to 1234 rather than to 1.234: numbers of one column are alike.
-  [[nodiscard]] bool are_thousands(double Column::* three) const {
-    constexpr double kLeast = 100.0, kMost = 1000.0;
-    return std::ranges::any_of(columns, [&](const Column& column) {
-      const double part = column.*three;
-      return part > 0.0 && column.whole >= kLeast && column.whole < kMost &&
-             column.whole * column.whole > 1e3 * part * part;
-    });
-  }
-};
-
-/// Which of ',' and '.' stands between thousands; 0: none.
-char thousands_of(const NumberKinds& kinds) {
-  const auto of = [&](Number kind) { return kinds.of(kind); };
-  const auto commas = of(Number::three_behind_comma), points = of(Number::three_behind_point);
-  const bool by_commas =
-      of(Number::groups_with_commas) > 0 ||
-      (commas > 0 && (of(Number::with_point) > 0 || kinds.are_thousands(&NumberKinds::Column::by_comma)));
-  const bool by_points =
-      of(Number::groups_with_points) > 0 ||
-      (points > 0 && (of(Number::with_comma) > 0 || kinds.are_thousands(&NumberKinds::Column::by_point)));
-  if (by_commas && of(Number::with_comma) + of(Number::groups_with_points) == 0) return ',';
-  if (by_points && of(Number::with_point) + of(Number::groups_with_commas) == 0) return '.';
-  return 0;
-}
-
 /// Of rows that hold two cells or more and nothing but numbers and the time of a clock.
 void judge_rows(std::string_view sample, Dialect& dialect) {
   NumberKinds kinds;
@@ -269,13 +219,8 @@ void judge_rows(std::string_view sample, Dialect& dialect) {
     dialect.odd_signs = dialect.odd_signs || odd;
     dialect.quoted_numbers = dialect.quoted_numbers || quoted > 0;
   });
-  dialect.thousands = thousands_of(kinds);
-  const auto commas = kinds.of(Number::with_comma) + kinds.of(Number::three_behind_comma) +
-                      kinds.of(Number::groups_with_points);
-  const auto points = kinds.of(Number::with_point) + kinds.of(Number::three_behind_point) +
-                      kinds.of(Number::groups_with_commas);
-  dialect.decimal_commas =
-      dialect.thousands == '.' ? commas > 0 : dialect.thousands == 0 && commas > 0 && points == 0;
+  dialect.thousands = kinds.thousands();
+  dialect.decimal_commas = kinds.have_decimal_commas();
 }
 
 /// What stands between the cells of its format; nothing: either may.

@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "kinemark/core/index.h"
-#include "kinemark/core/random.h"
 
 namespace kinemark::math {
 namespace {
@@ -445,8 +444,7 @@ std::optional<FoundNoise> find_noise(const NoiseSpectrum& spectrum, double rate_
 }
 
 std::vector<NoiseModel> draw_noise(const FoundNoise& found, const NoiseSearch& search, std::int64_t count,
-                                   std::uint64_t seed, std::uint64_t stream) {
-  Random random(seed, stream);
+                                   Random random) {
   std::vector<NoiseModel> ordered, out;
   const auto of_next = found.next ? std::llround(kNextShare * static_cast<double>(count)) : 0;
   draw_from(found.chosen, search, count - of_next, random, ordered);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/core/random.h"
 #include "kinemark/math/multitaper.h"
 #include "kinemark/math/noise_model.h"
 
@@ -68,8 +69,8 @@ struct FoundNoise {
 /// Noise as it may be: models by their evidence, parameters by the curvature of the likelihood with 1.3 times
 /// its deviations, four of ten from the next higher frequency. The first of each is at its most probable
 /// values.
+/// @param random  the draws that decide
 [[nodiscard]] std::vector<NoiseModel> draw_noise(const FoundNoise& found, const NoiseSearch& search,
-                                                 std::int64_t count, std::uint64_t seed,
-                                                 std::uint64_t stream);
+                                                 std::int64_t count, Random random);
 
 }  // namespace kinemark::math

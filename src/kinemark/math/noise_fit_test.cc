@@ -191,7 +191,7 @@ TEST(FindNoise, OfTooFewSamplesSaysNothing) {
 
 TEST(DrawNoise, SpreadsAsFarAsTheRecordingLeavesOpen) {
   const auto spread = [](const SeriesMatrix& x) {
-    auto draws = draw_noise(found_in(x), {}, 99, 1, 2);
+    auto draws = draw_noise(found_in(x), {}, 99, Random(1, 2));
     std::vector<double> slow;
     for (const auto& draw : draws) slow.push_back(draw.power(0.01));
     std::ranges::sort(slow);
@@ -205,8 +205,8 @@ TEST(DrawNoise, SpreadsAsFarAsTheRecordingLeavesOpen) {
 
 TEST(DrawNoise, IsTheSameForASeedAndAnotherForAnother) {
   const auto found = found_in(movement(500, 4) + noise(500, 1e-3, 0.7, 4));
-  const auto a = draw_noise(found, {}, 40, 1, 2), b = draw_noise(found, {}, 40, 1, 2),
-             c = draw_noise(found, {}, 40, 2, 2);
+  const auto a = draw_noise(found, {}, 40, Random(1, 2)), b = draw_noise(found, {}, 40, Random(1, 2)),
+             c = draw_noise(found, {}, 40, Random(2, 2));
   ASSERT_EQ(a.size(), 40u);
   double same = 0.0, other = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {

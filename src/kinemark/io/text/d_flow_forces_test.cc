@@ -74,8 +74,12 @@ TEST(DFlowForces, AreOnTheBodyWithFreeMomentsWhateverTheirMomentsAreAbout) {
       EXPECT_EQ(three(table, 1, "plate 1_v"), Vector3d::Zero()) << "3.5 N: nobody";
       EXPECT_THAT(table.warnings, Contains(HasSubstr("it writes no corners")));
       const auto reversed = Contains(HasSubstr("their sign was reversed"));
-      if (sign < 0.0) EXPECT_THAT(table.warnings, reversed);
-      if (sign > 0.0) EXPECT_THAT(table.warnings, Not(reversed));
+      if (sign < 0.0) {
+        EXPECT_THAT(table.warnings, reversed);
+      }
+      if (sign > 0.0) {
+        EXPECT_THAT(table.warnings, Not(reversed));
+      }
       EXPECT_THAT(table.warnings, Not(Contains(HasSubstr("neither about the origin"))));
     }
 }

@@ -20,7 +20,6 @@
 #include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
-#include "kinemark/stages/analysis/forces/force_measures.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -193,10 +192,10 @@ Result<MeasuresOutcome> run_measures(const MeasuresJob& given) {
   MeasuresJob job = given;
   if (auto s = check_measures_output(job.output); !s) return std::unexpected(s.error());
   if (auto s = job.RecordingOptions::check(); !s) return std::unexpected(s.error());
-  const auto asked = asked_measures(job);
-  if (!asked) return std::unexpected(asked.error());
   const auto formats = parse_figure_formats(job.figure_formats);
   if (!formats) return std::unexpected(formats.error());
+  const auto asked = asked_measures(job);
+  if (!asked) return std::unexpected(asked.error());
   if (!job.participants_file.empty() && !job.participants) {
     auto read = read_participants(job.participants_file);
     if (!read) return std::unexpected(read.error());
@@ -233,7 +232,7 @@ std::vector<data::InputFile> inputs_of(const MeasuresOutcome& outcome) {
 
 std::string commands_for(const MeasuresOutcome& outcome) {
   const bool plates = std::ranges::any_of(outcome.measures, [](const data::Measure& measure) {
-    return analysis::find_force_definition(measure.id) != nullptr;
+    return workflow::kind_of_measure(measure.id) == workflow::MeasureKind::plates;
   });
   std::vector<std::string> commands;
   if (outcome.gait || plates) commands.emplace_back("'kinemark gait' (feet and force plates)");

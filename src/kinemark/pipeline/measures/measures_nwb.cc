@@ -17,6 +17,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -74,11 +75,12 @@ double cycle_of(const Measure& measure) {
 
 // Title, unit, formula and source.
 std::string description_of(const std::string& id) {
-  const auto* definition = find_measure_definition(id);
-  if (definition == nullptr) return id;
-  const auto unit = data::shown_unit(definition->quantity).name;
-  return fmt::format("{}{}: {} ({})", definition->title, unit.empty() ? "" : fmt::format(", {}", unit),
-                     definition->formula, definition->source);
+  const auto* known = workflow::find_measure(id);
+  if (known == nullptr) return id;
+  const auto& what = known->what;
+  const auto unit = data::shown_unit(what.quantity).name;
+  return fmt::format("{}{}: {} ({})", what.title, unit.empty() ? "" : fmt::format(", {}", unit), what.formula,
+                     what.source);
 }
 
 std::vector<Row> rows_of(const std::vector<NamedMeasures>& recordings, bool one_each) {
@@ -207,9 +209,8 @@ io::NwbTable definitions_table(const std::vector<std::string>& ids) {
                   column_called("unit", "of its values; empty: a number without unit"),
                   column_called("formula", "how it is computed"), column_called("source", "paper or book")}};
   for (const auto& id : ids) {
-    const auto* definition = find_measure_definition(id);
-    const data::MeasureDefinition unknown{.id = id};
-    const auto& what = definition != nullptr ? *definition : unknown;
+    const auto* known = workflow::find_measure(id);
+    const auto what = known != nullptr ? known->what : data::MeasureDefinition{.id = id};
     std::size_t k = 0;
     for (const auto text :
          {what.id, what.title, data::shown_unit(what.quantity).name, what.formula, what.source})

@@ -10,13 +10,7 @@
 #include <vector>
 
 #include "kinemark/pipeline/files/table_cell.h"
-#include "kinemark/stages/analysis/body/body_definitions.h"
-#include "kinemark/stages/analysis/emg/emg_measures.h"
-#include "kinemark/stages/analysis/forces/force_measures.h"
-#include "kinemark/stages/analysis/gait/spatiotemporal.h"
-#include "kinemark/stages/analysis/path/definitions.h"
 #include "kinemark/stages/analysis/path/noise_sentences.h"
-#include "kinemark/stages/analysis/path/path_rhythm.h"
 #include "kinemark/workflow/measures/asked.h"
 
 namespace kinemark::pipeline {
@@ -36,18 +30,6 @@ Json filter_json(const analysis::PathNoise& noise, bool agreed) {
 }
 
 using Json = nlohmann::ordered_json;
-
-// All, in the order in which they are shown.
-std::vector<data::MeasureDefinition> all_definitions() {
-  std::vector<data::MeasureDefinition> out;
-  for (const auto& definition : analysis::path_definitions()) out.push_back(definition.what);
-  for (const auto& definition : analysis::rhythm_definitions()) out.push_back(definition);
-  for (const auto& definition : analysis::gait_definitions()) out.push_back(definition.what);
-  for (const auto& definition : analysis::force_definitions()) out.push_back(definition.what);
-  for (const auto& definition : analysis::emg_definitions()) out.push_back(definition);
-  for (const auto& definition : analysis::body_definitions()) out.push_back(definition.what);
-  return out;
-}
 
 // As many digits as the interval's width supports, two of it, and four significant ones without.
 std::string rounded(double value, double width) {
@@ -93,10 +75,6 @@ std::string value_text(const data::Measure& measure) {
   return out;
 }
 
-bool is_of(const data::MeasureDefinition& what, workflow::MeasuresOf of) {
-  return of == workflow::MeasuresOf::everything || workflow::measures_of(std::string(what.id)) == of;
-}
-
 }  // namespace
 
 Json noises_json(std::span<const analysis::PathNoise> noises) {
@@ -130,17 +108,6 @@ Json noises_json(std::span<const analysis::PathNoise> noises) {
     out.push_back(std::move(one));
   }
   return out;
-}
-
-const data::MeasureDefinition* find_measure_definition(std::string_view id) {
-  for (const auto& definition : analysis::path_definitions())
-    if (definition.what.id == id) return &definition.what;
-  if (const auto* of_rhythm = analysis::find_rhythm_definition(id)) return of_rhythm;
-  if (const auto* of_body = analysis::find_body_definition(id)) return &of_body->what;
-  if (const auto* of_plates = analysis::find_force_definition(id)) return &of_plates->what;
-  if (const auto* of_emg = analysis::find_emg_definition(id)) return of_emg;
-  const auto* of_walking = analysis::find_gait_definition(id);
-  return of_walking != nullptr ? &of_walking->what : nullptr;
 }
 
 std::string measures_csv_columns(const RecordingName& recording) {
@@ -203,8 +170,8 @@ nlohmann::ordered_json measures_json(std::span<const data::Measure> measures) {
 std::string shown_value(const data::Measure& measure) { return value_text(measure); }
 
 std::string title_of_measure(const std::string& id) {
-  const auto* definition = find_measure_definition(id);
-  return definition ? std::string(definition->title) : id;
+  const auto* known = workflow::find_measure(id);
+  return known != nullptr ? std::string(known->what.title) : id;
 }
 
 std::string title_of_measure(const data::Measure& measure) {
@@ -231,8 +198,9 @@ std::string measures_text(std::span<const data::Measure> measures) {
 
 std::string measure_list(workflow::MeasuresOf of) {
   std::string out;
-  for (const auto& what : all_definitions()) {
-    if (!is_of(what, of)) continue;
+  for (const auto& known : workflow::known_measures()) {
+    if (!known.is_of(of)) continue;
+    const auto& what = known.what;
     const auto unit = data::shown_unit(what.quantity).name;
     out += fmt::format("{:<20} {}{}: {} ({})\n", what.id, what.title,
                        unit.empty() ? "" : fmt::format(", {}", unit), what.formula, what.source);
@@ -242,8 +210,9 @@ std::string measure_list(workflow::MeasuresOf of) {
 
 nlohmann::ordered_json measure_list_json(workflow::MeasuresOf of) {
   Json out = Json::array();
-  for (const auto& what : all_definitions()) {
-    if (!is_of(what, of)) continue;
+  for (const auto& known : workflow::known_measures()) {
+    if (!known.is_of(of)) continue;
+    const auto& what = known.what;
     out.push_back({{"measure", what.id},
                    {"group", what.group},
                    {"title", what.title},

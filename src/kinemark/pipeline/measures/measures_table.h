@@ -52,9 +52,6 @@ namespace kinemark::pipeline {
 /// The same with its side: "Stride time, Left".
 [[nodiscard]] std::string title_of_measure(const data::Measure& measure);
 
-/// Its definition; null where there is none of this id.
-[[nodiscard]] const data::MeasureDefinition* find_measure_definition(std::string_view id);
-
 /// What each measure is that a command is about, one line each: id, what it is, unit, formula, source.
 [[nodiscard]] std::string measure_list(workflow::MeasuresOf of = workflow::MeasuresOf::everything);
 /// The same as a list of objects.

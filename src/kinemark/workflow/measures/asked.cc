@@ -16,23 +16,37 @@
 namespace kinemark::workflow {
 namespace {
 
-bool is_path_measure(const std::string& id) {
-  return std::ranges::any_of(analysis::path_definitions(), [&](const auto& d) { return d.what.id == id; }) ||
-         analysis::find_rhythm_definition(id) != nullptr;
+/// The command that shows measures of a kind; nothing where they are of a motion.
+std::optional<MeasuresOf> shown_by(MeasureKind kind) {
+  switch (kind) {
+    case MeasureKind::path:
+      return MeasuresOf::paths;
+    case MeasureKind::gait:
+    case MeasureKind::plates:
+      return MeasuresOf::walking;
+    case MeasureKind::emg:
+      return MeasuresOf::muscles;
+    case MeasureKind::motion:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::vector<KnownMeasure> list_measures() {
+  std::vector<KnownMeasure> out;
+  for (const auto& one : analysis::path_definitions()) out.push_back({MeasureKind::path, one.what});
+  for (const auto& one : analysis::rhythm_definitions()) out.push_back({MeasureKind::path, one});
+  for (const auto& one : analysis::gait_definitions()) out.push_back({MeasureKind::gait, one.what});
+  for (const auto& one : analysis::force_definitions()) out.push_back({MeasureKind::plates, one.what});
+  for (const auto& one : analysis::emg_definitions()) out.push_back({MeasureKind::emg, one});
+  for (const auto& one : analysis::body_definitions()) out.push_back({MeasureKind::motion, one.what});
+  return out;
 }
 
 Status unknown_measure(const std::string& id) {
-  if (analysis::find_body_definition(id) != nullptr)
-    return fail(Code::usage,
-                fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
-                            "a .mot or .sto with --model",
-                            id));
   std::vector<std::string> known{"gait", "plates", "emg"};
-  for (const auto& definition : analysis::path_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::rhythm_definitions()) known.emplace_back(definition.id);
-  for (const auto& definition : analysis::gait_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::force_definitions()) known.emplace_back(definition.what.id);
-  for (const auto& definition : analysis::emg_definitions()) known.emplace_back(definition.id);
+  for (const auto& one : known_measures())
+    if (one.kind != MeasureKind::motion) known.emplace_back(one.what.id);
   const auto nearest = nearest_names(id, known);
   return fail(Code::usage, fmt::format("there is no measure '{}'{}; --list shows them all", id,
                                        nearest.empty() ? "" : fmt::format(" (nearest: {})", join(nearest))));
@@ -41,19 +55,23 @@ Status unknown_measure(const std::string& id) {
 /// Each measure goes to the stage that takes it; a word for all of a kind stands for none of its own.
 Status sort_measures(const MeasureOptions& options, AskedMeasures& out) {
   for (const auto& id : options.measures) {
-    const auto kind = measures_of(id);
+    const auto kind = kind_of_measure(id);
     if (!kind) return unknown_measure(id);
-    if (options.of != MeasuresOf::everything && options.of != *kind)
+    const auto shown = shown_by(*kind);
+    if (!shown)
+      return fail(
+          Code::usage,
+          fmt::format("{} is measured of a motion, not of markers; 'kinemark dynamics' measures it, of "
+                      "a .mot or .sto with --model",
+                      id));
+    if (options.of != MeasuresOf::everything && options.of != *shown)
       return fail(Code::usage, fmt::format("{} is no measure of 'kinemark {}'; 'kinemark {}' measures it", id,
-                                           command_of(options.of), command_of(*kind)));
-    if (*kind == MeasuresOf::paths)
-      out.path.measures.push_back(id);
-    else if (*kind == MeasuresOf::muscles)
-      out.emg.measures.push_back(id);
-    else if (id == "plates" || analysis::find_force_definition(id) != nullptr)
-      out.plates.measures.push_back(id);
-    else
-      out.gait.measures.push_back(id);
+                                           command_of(options.of), command_of(*shown)));
+    auto& stage = *kind == MeasureKind::path     ? out.path.measures
+                  : *kind == MeasureKind::plates ? out.plates.measures
+                  : *kind == MeasureKind::emg    ? out.emg.measures
+                                                 : out.gait.measures;
+    stage.push_back(id);
   }
   out.by_name = !out.gait.measures.empty();
   out.forces_by_name = !out.plates.measures.empty();
@@ -84,20 +102,32 @@ const char* command_of(MeasuresOf of) {
   return of == MeasuresOf::walking ? "gait" : of == MeasuresOf::muscles ? "emg" : "measure";
 }
 
-std::optional<MeasuresOf> measures_of(const std::string& id) {
-  if (id == "emg" || analysis::find_emg_definition(id) != nullptr) return MeasuresOf::muscles;
-  if (id == "gait" || id == "plates" || analysis::find_force_definition(id) != nullptr ||
-      analysis::find_gait_definition(id) != nullptr)
-    return MeasuresOf::walking;
-  if (is_path_measure(id)) return MeasuresOf::paths;
-  return std::nullopt;
+bool KnownMeasure::is_of(MeasuresOf of) const { return of == MeasuresOf::everything || shown_by(kind) == of; }
+
+const std::vector<KnownMeasure>& known_measures() {
+  static const auto all = list_measures();
+  return all;
+}
+
+const KnownMeasure* find_measure(std::string_view id) {
+  const auto& all = known_measures();
+  const auto found = std::ranges::find(all, id, [](const KnownMeasure& one) { return one.what.id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::optional<MeasureKind> kind_of_measure(std::string_view id) {
+  if (id == "gait") return MeasureKind::gait;
+  if (id == "plates") return MeasureKind::plates;
+  if (id == "emg") return MeasureKind::emg;
+  const auto* known = find_measure(id);
+  return known == nullptr ? std::nullopt : std::optional(known->kind);
 }
 
 Result<AskedMeasures> asked_measures(const MeasureOptions& options) {
-  if (auto s = options.emg.envelope.check(); !s) return std::unexpected(s.error());
   AskedMeasures out{.options = options,
                     .path = {.curves = options.curves, .keep_outliers = options.keep_doubtful},
                     .gait = options.gait};
+  spread_intervals(options, out);
   if (auto s = sort_measures(options, out); !s) return std::unexpected(s.error());
   const auto& needs = options.needs;
   const auto by_itself = [&options](MeasuresOf kind) {
@@ -111,7 +141,7 @@ Result<AskedMeasures> asked_measures(const MeasureOptions& options) {
   out.muscles_by_name =
       out.muscles_by_name || needs.emg || (options.of == MeasuresOf::muscles && options.measures.empty());
   out.muscles = out.muscles_by_name || by_itself(MeasuresOf::muscles);
-  spread_intervals(options, out);
+  if (auto s = options.emg.envelope.check(); !s) return std::unexpected(s.error());
   if (auto s = out.path.check(); !s) return std::unexpected(s.error());
   return out;
 }

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/measure.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
 #include "kinemark/stages/analysis/forces/force_measures.h"
 #include "kinemark/stages/analysis/gait/gait.h"
@@ -81,9 +83,32 @@ struct AskedMeasures {
   [[nodiscard]] bool uses_forces() const { return walking || forces; }
 };
 
-/// What a measure is of, by its id or the word for all of a kind ("gait", "plates", "emg"); nothing for one
-/// that is of a motion or does not exist.
-[[nodiscard]] std::optional<MeasuresOf> measures_of(const std::string& id);
+/// What measures are taken from.
+enum class MeasureKind : std::uint8_t {
+  path,    ///< of a marker
+  gait,    ///< of walking
+  plates,  ///< of force plates
+  emg,     ///< of electromyograms
+  motion,  ///< of a body model's motion: `dynamics`
+};
+
+/// A measure that there is.
+struct KnownMeasure {
+  MeasureKind kind = MeasureKind::path;  ///< what it is taken from
+  data::MeasureDefinition what;          ///< its line in `--list`
+
+  /// Whether the command for measures of this kind takes it.
+  [[nodiscard]] bool is_of(MeasuresOf of) const;
+};
+
+/// All, in the order in which they are shown.
+[[nodiscard]] const std::vector<KnownMeasure>& known_measures();
+/// One by its id, or nothing.
+[[nodiscard]] const KnownMeasure* find_measure(std::string_view id);
+
+/// What a measure is taken from, by its id or the word for all of a kind ("gait", "plates", "emg"); nothing
+/// for one that does not exist.
+[[nodiscard]] std::optional<MeasureKind> kind_of_measure(std::string_view id);
 
 /// Code::usage for a measure that does not exist or is not of `options.of`, and as
 /// analysis::PathMeasureOptions::check() and analysis::EnvelopeOptions::check().

@@ -78,5 +78,23 @@ TEST(AskedMeasures, RefuseWhatIsNoneOrOfAnotherVerb) {
   EXPECT_EQ(asked_measures(options).error().code, Code::usage);
 }
 
+TEST(KnownMeasures, AreEachTakenFromOneThing) {
+  EXPECT_EQ(kind_of_measure("path_length"), MeasureKind::path);
+  EXPECT_EQ(kind_of_measure("cycle_duration"), MeasureKind::path);
+  EXPECT_EQ(kind_of_measure("cadence"), MeasureKind::gait);
+  EXPECT_EQ(kind_of_measure("grf_peak"), MeasureKind::plates);
+  EXPECT_EQ(kind_of_measure("emg_rms"), MeasureKind::emg);
+  EXPECT_EQ(kind_of_measure("joint_range"), MeasureKind::motion);
+  EXPECT_EQ(kind_of_measure("plates"), MeasureKind::plates) << "all of them";
+  EXPECT_EQ(kind_of_measure("nothing"), std::nullopt);
+  EXPECT_EQ(find_measure("plates"), nullptr) << "the word for all is no measure";
+  for (const auto& known : known_measures()) {
+    EXPECT_EQ(find_measure(known.what.id), &known) << known.what.id << " stands once";
+    EXPECT_TRUE(known.is_of(MeasuresOf::everything));
+    EXPECT_EQ(known.is_of(MeasuresOf::walking),
+              known.kind == MeasureKind::gait || known.kind == MeasureKind::plates);
+  }
+}
+
 }  // namespace
 }  // namespace kinemark::workflow

@@ -21,9 +21,8 @@ namespace {
 using Label = CoordinateLabel;
 
 constexpr std::string_view kAxes = "xyzw";
-constexpr std::string_view kBetween = "_.:/| -";  // a name and its axis
-constexpr std::string_view kDFlow = ".Pos";       // before the axis
-constexpr int kMostTitles = 20;                   // lines before the labels
+constexpr std::string_view kDFlow = ".Pos";  // before the axis
+constexpr int kMostTitles = 20;              // lines before the labels
 constexpr std::size_t kLinesOfLabels = 3;
 
 template <std::size_t N>
@@ -31,7 +30,7 @@ bool is_one_of(const std::array<std::string_view, N>& words, std::string_view wo
   return std::ranges::find(words, word) != words.end();
 }
 
-bool is_between(char c) { return kBetween.find(c) != std::string_view::npos; }
+bool is_between(char c) { return kBetweenNameAndAxis.find(c) != std::string_view::npos; }
 
 int axis_of(char c) {
   const auto at = kAxes.find(static_cast<char>(c | 0x20));
@@ -70,7 +69,7 @@ std::string_view marker_of(std::string_view stem) {
   };
   cut();
   if (says_position(stem)) return {};
-  const auto word = stem.find_last_of(kBetween);
+  const auto word = stem.find_last_of(kBetweenNameAndAxis);
   if (word != std::string_view::npos && word > 0 && says_position(stem.substr(word + 1))) {
     stem = stem.substr(0, word);
     cut();
@@ -109,7 +108,7 @@ bool take_axis_at_end(Label& label) {
   const std::string_view text = label.name;
   if (label.axis >= 0 || text.size() <= kShortest || axis_of(text.back()) < 0) return false;
   const auto stem = text.substr(0, text.size() - 1);
-  const auto word = stem.find_last_of(kBetween);
+  const auto word = stem.find_last_of(kBetweenNameAndAxis);
   if (stem.size() - (word == std::string_view::npos ? 0 : word + 1) < kShortest) return false;
   label.axis = axis_of(text.back());
   label.name = std::string(stem);
@@ -165,8 +164,6 @@ int axis_alone(std::string_view cell) {
   return numbered && axis < Label::kW ? axis : -1;
 }
 
-bool is_clock(const Label& label) { return label.is_frame || label.units_per_second > 0.0; }
-
 /// Rows that a program has numbered stand first, under no label or one of its own.
 void take_row_numbers(std::vector<Label>& labels) {
   constexpr std::array<std::string_view, 5> kWords{"", "index", "unnamed: 0", "coords", "bodyparts"};
@@ -187,12 +184,12 @@ std::size_t group(CoordinateLabels& table) {
   auto& columns = table.columns;
   std::size_t others = 0;
   for (const auto& label : columns) {
-    others += label.axis < 0 && !is_clock(label);
+    others += label.axis < 0 && !label.is_clock();
     if (label.axis == Label::kW) turns.insert(label.name);
   }
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const Label& label = columns[c];
-    if (label.axis < 0 || label.axis >= Label::kW || is_clock(label) || names_no_position(label.name))
+    if (label.axis < 0 || label.axis >= Label::kW || label.is_clock() || names_no_position(label.name))
       continue;
     if (turns.contains(label.name)) continue;
     const auto axis = static_cast<std::size_t>(label.axis);
@@ -211,7 +208,8 @@ std::size_t group(CoordinateLabels& table) {
   for (const auto& marker : found) {
     if (!marker.has[0] || !marker.has[1] || !marker.has[2]) continue;
     // x, y and z of nothing are a position only beside a clock, where nothing else stands.
-    if (marker.name.empty() && (others > 0 || found.size() > 1 || std::ranges::none_of(columns, is_clock)))
+    if (marker.name.empty() &&
+        (others > 0 || found.size() > 1 || std::ranges::none_of(columns, &Label::is_clock)))
       continue;
     for (const std::size_t c : marker.column)
       columns[c].marker = static_cast<std::int32_t>(table.names.size());
@@ -225,68 +223,9 @@ std::size_t group(CoordinateLabels& table) {
 bool holds_markers(CoordinateLabels& table) {
   const std::size_t coordinates = group(table);
   if (coordinates == 0) return false;
-  const auto clocks = static_cast<std::size_t>(std::ranges::count_if(table.columns, is_clock));
-  const auto first = std::ranges::find_if_not(table.columns, is_clock);
+  const auto clocks = static_cast<std::size_t>(std::ranges::count_if(table.columns, &Label::is_clock));
+  const auto first = std::ranges::find_if_not(table.columns, &Label::is_clock);
   return first->marker >= 0 || 2 * coordinates >= table.columns.size() - clocks;
-}
-
-/// "LASI_1", "LASI.2", "LASI[0]": a name and a number of one digit. Words for a point of any name have
-/// numbers to tell markers apart.
-std::optional<std::pair<std::string, int>> numbered_component(const Label& label) {
-  constexpr std::array<std::string_view, 14> kAnyPoint{"marker", "markers", "point", "points", "mkr",
-                                                       "m",      "p",       "pt",    "sensor", "channel",
-                                                       "ch",     "column",  "col",   "unnamed"};
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::string_view stem = label.name;
-  char digit = 0;
-  if (label.unit.size() == 1 && is_digit(label.unit.front())) {
-    digit = label.unit.front();
-  } else if (stem.size() > 2 && is_digit(stem.back()) && is_between(stem[stem.size() - 2])) {
-    digit = stem.back();
-    stem.remove_suffix(1);
-  }
-  while (!stem.empty() && is_between(stem.back())) stem.remove_suffix(1);
-  if (digit == 0 || stem.empty() || is_one_of(kAnyPoint, lower(stem))) return std::nullopt;
-  return std::pair{std::string(stem), digit - '0'};
-}
-
-/// Every column but clocks is one of three of its name, numbered from 0 or from 1 in all of them. A fourth
-/// that is 1 in the first row is that of homogeneous coordinates, which kineticstoolkit writes.
-bool take_numbered_axes(std::vector<Label>& labels, const std::vector<std::string>& first_row) {
-  std::map<std::string, std::vector<std::size_t>> columns;  // of a name
-  int lowest = 2;
-  for (std::size_t c = 0; c < labels.size(); ++c) {
-    if (is_clock(labels[c])) continue;
-    const auto component = numbered_component(labels[c]);
-    if (!component) return false;
-    columns[component->first].push_back(c);
-    lowest = std::min(lowest, component->second);
-  }
-  const auto axis = [&](std::size_t c) { return numbered_component(labels[c])->second - lowest; };
-  const auto is_one = [&](std::size_t c) {
-    return c < first_row.size() && parse_number(first_row[c]) == 1.0;
-  };
-  const bool threes =
-      lowest < 2 && std::ranges::all_of(
-                        columns,
-                        [&](const auto& named) {
-                          std::set<int> axes;
-                          for (const std::size_t c : named.second) axes.insert(axis(c));
-                          const auto& last = named.second.back();
-                          return axes.size() == named.second.size() &&
-                                 (axes == std::set{0, 1, 2} ||
-                                  (axes == std::set{0, 1, 2, 3} && axis(last) == 3 && is_one(last)));
-                        });
-  if (columns.empty() || !threes) return false;
-  for (const auto& [name, of_name] : columns)
-    for (const std::size_t c : of_name) {
-      const int of = axis(c);
-      if (of == Label::kW) continue;
-      labels[c].axis = of;
-      if (labels[c].unit.size() == 1 && !metres_per_unit(labels[c].unit)) labels[c].unit.clear();
-      labels[c].name = name;
-    }
-  return true;
 }
 
 /// The labels of one line.
@@ -302,7 +241,7 @@ CoordinateLabels in_one_line(const std::vector<std::string>& cells,
   }
   bool changed = false;
   for (auto& label : out.columns)
-    changed = (!is_clock(label) && (take_axis_at_end(label) || take_number(label))) || changed;
+    changed = (!label.is_clock() && (take_axis_at_end(label) || take_number(label))) || changed;
   return changed && holds_markers(out) ? out : CoordinateLabels();
 }
 
@@ -316,7 +255,7 @@ CoordinateLabels below_names(const std::vector<std::string>& names, const std::v
     const auto [below, unit] = split_unit(cell);
     if (!above.empty()) name = above;
     const int axis = axis_alone(below);
-    if (axis >= 0 && !is_clock(coordinate_label(name))) {
+    if (axis >= 0 && !coordinate_label(name).is_clock()) {
       Label label;
       label.name = name;
       label.axis = axis;
@@ -449,7 +388,7 @@ CoordinateLabel coordinate_label(std::string_view cell) {
     return out;
   }
   if (take_axis(text, out)) return out;
-  const auto end = text.find_last_of(kBetween);  // "LASI_X_mm"
+  const auto end = text.find_last_of(kBetweenNameAndAxis);  // "LASI_X_mm"
   if (!unit.empty() || end == std::string_view::npos || !metres_per_unit(text.substr(end + 1))) return out;
   if (take_axis(text.substr(0, end), out)) out.unit = std::string(text.substr(end + 1));
   return out;

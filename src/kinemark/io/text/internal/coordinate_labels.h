@@ -12,6 +12,9 @@
 
 namespace kinemark::io::internal {
 
+/// What may stand between a name and its axis.
+inline constexpr std::string_view kBetweenNameAndAxis = "_.:/| -";
+
 /// A label in its parts: "LASI_X (mm)" is of marker LASI, axis 0, in mm; "Time [s]" is a time in s.
 struct CoordinateLabel {
   static constexpr int kW = 3;
@@ -24,6 +27,9 @@ struct CoordinateLabel {
   double units_per_second = 0.0;   ///< 1000 of a time in ms; 0: no time
   bool is_time_unit_open = false;  ///< a time whose unit nothing states: seconds, if they look like it
   std::int32_t marker = -1;        ///< of a coordinate: index of its marker
+
+  /// Of a time or a number of frames.
+  [[nodiscard]] bool is_clock() const { return is_frame || units_per_second > 0.0; }
 };
 
 /// The labels of a table, and where they stand.
@@ -46,6 +52,12 @@ struct CoordinateLabels {
 /// last line of labels. Nothing where no marker has all of x, y and z, or where most columns are others and
 /// the first is none of a marker.
 [[nodiscard]] CoordinateLabels read_coordinate_labels(Lines& lines);
+
+/// Gives labels that are numbered their axes. Every column but clocks is one of three of its name, numbered
+/// from 0 or from 1 in all of them; a fourth that is 1 in the first row is that of homogeneous coordinates,
+/// which kineticstoolkit writes. False: they are no such labels, and stay.
+[[nodiscard]] bool take_numbered_axes(std::vector<CoordinateLabel>& labels,
+                                      const std::vector<std::string>& first_row);
 
 /// Cells of a line between tabs, else between commas, without quotes. False: a quote is open at its end.
 [[nodiscard]] bool split_labels(std::string_view line, std::vector<std::string>& cells);

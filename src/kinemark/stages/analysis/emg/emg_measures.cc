@@ -350,7 +350,6 @@ std::vector<EmgStretch> stretches_within(const std::vector<EmgStretch>& asked, s
 
 Status check(const EmgOptions& options) {
   if (auto s = options.envelope.check(); !s) return s;
-  if (auto s = data::check_interval_refits(options.refits, options.level); !s) return s;
   if (!(options.rest_s > 0.0) || !(options.burst_s >= 0.0))
     return fail(Code::usage,
                 fmt::format("rest of {:g} s and bursts of {:g} s; need the first above 0 and the second not "
@@ -359,7 +358,7 @@ Status check(const EmgOptions& options) {
   for (const auto& id : options.measures)
     if (find_emg_definition(id) == nullptr)
       return fail(Code::usage, fmt::format("there is no measure '{}' of an EMG", id));
-  return {};
+  return data::check_interval_refits(options.refits, options.level);
 }
 
 }  // namespace
@@ -377,7 +376,7 @@ Result<EmgMeasures> measure_emg(const std::vector<EmgChannel>& channels, double 
   if (auto s = check(options); !s) return std::unexpected(s.error());
   const auto least = static_cast<Index>(std::ceil(0.5 * rate_hz));
   std::vector<EmgMeasures> parts(channels.size());
-  parallel_for(std::ssize(channels), 1, options.threads, [&](std::int64_t begin, std::int64_t end) {
+  const auto measure_some = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t c = begin; c < end; ++c) {
       const auto& channel = channels[at(c)];
       const auto samples = channel.volts.size();
@@ -390,7 +389,8 @@ Result<EmgMeasures> measure_emg(const std::vector<EmgChannel>& channels, double 
       EmgMeasurement(rate_hz, t0_s, options, stretches_within(options.stretches, samples))
           .measure(channel, static_cast<std::uint64_t>(c) + 1, parts[at(c)]);
     }
-  });
+  };
+  parallel_for(std::ssize(channels), 1, options.threads, measure_some);
   EmgMeasures out;
   for (auto& part : parts) {
     std::ranges::move(part.measures, std::back_inserter(out.measures));

@@ -151,9 +151,10 @@ Result<PathMeasures> measure_paths(const data::Trajectories& markers, const Path
     return fail(Code::bad_input, "the recording has no frame rate; measures of movement need one");
   if (auto s = check_regions(markers.time, options.regions); !s) return std::unexpected(s.error());
   std::vector<MarkerMeasures> each(at(markers.markers()));
-  parallel_for(markers.markers(), 1, options.threads, [&](std::int64_t begin, std::int64_t end) {
+  const auto measure_some = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t m = begin; m < end; ++m) each[at(m)] = measure_marker(markers, m, options);
-  });
+  };
+  parallel_for(markers.markers(), 1, options.threads, measure_some);
   PathMeasures out;
   for (auto& one : each) std::ranges::move(one.noises, std::back_inserter(out.noises));
   out.warnings = noise_sentences(out.noises);

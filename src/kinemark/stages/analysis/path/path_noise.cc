@@ -314,7 +314,7 @@ std::optional<PathNoise> find_path_noise(const SeriesMatrix& x, const std::vecto
   out.source = search.known    ? NoiseSource::filter
                : found->fits() ? NoiseSource::spectrum
                                : NoiseSource::no_model;
-  out.draws = math::draw_noise(*found, search, known.draws, known.seed, known.stream);
+  out.draws = math::draw_noise(*found, search, known.draws, Random(known.seed, known.stream));
   out.found_sd_m = out.sd_m();
   const double step = rounding_step(x, seen), of_rounding = step / std::sqrt(12.0);
   out.rounding_step_m = step;
