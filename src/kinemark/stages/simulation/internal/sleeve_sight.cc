@@ -65,7 +65,8 @@ void SleeveSight::begin_frame(const Vector3d& wrist) {
 }
 
 bool SleeveSight::sees(int led, const Vector3d& x, const Vector3d& normal) const {
-  if (hidden_[static_cast<std::size_t>(led)] != 0) return false;
+  const auto of_sleeve = static_cast<std::size_t>(led);  // the tip's is in nobody's mouth
+  if (of_sleeve < hidden_.size() && hidden_[of_sleeve] != 0) return false;
   int seen = 0;
   for (const auto& camera : kCameras_m) {
     const Vector3d to_camera = Eigen::Map<const Vector3d>(camera.data()) - x;
