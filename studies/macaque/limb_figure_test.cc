@@ -6,7 +6,7 @@
 
 #include "kinemark/stages/simulation/limb.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
-#include "kinemark/stages/skeleton/ends/ends.h"
+#include "kinemark/stages/skeleton/articulated/ends.h"
 
 namespace kinemark::studies {
 namespace {

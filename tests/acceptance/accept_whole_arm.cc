@@ -148,7 +148,7 @@ void report(int recordings, std::uint64_t seed) {
     ++ran;
     const auto& skeleton = found->skeleton;
     named += std::ranges::any_of(skeleton.warnings,
-                                [](const auto& w) { return w.contains("no two frames show all"); });
+                                 [](const auto& w) { return w.contains("no two frames show all"); });
     std::vector<double> errors;
     for (std::int64_t f = 0; f < skeleton.frames(); ++f) {
       frames += 1.0;

@@ -17,7 +17,7 @@
 #include "kinemark/data/filtering.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
-#include "kinemark/stages/skeleton/ends/ends.h"
+#include "kinemark/stages/skeleton/articulated/ends.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
 #include "kinemark/workflow/joints/internal/joints_layout.h"
 #include "kinemark/workflow/joints/internal/joints_segmentation.h"

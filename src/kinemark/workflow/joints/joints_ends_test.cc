@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/ends/ends.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -9,8 +7,9 @@
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/simulation/limb.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
+#include "kinemark/stages/skeleton/articulated/ends.h"
 
-namespace kinemark::skeleton {
+namespace kinemark::workflow {
 namespace {
 
 using ::testing::Contains;
@@ -29,10 +28,10 @@ struct Arm {
     fit();
   }
   void fit() {
-    skeleton = fit_articulated(limb.markers, limb.layout).value().skeleton;
+    skeleton = skeleton::fit_articulated(limb.markers, limb.layout).value().skeleton;
     skeleton.warnings.clear();
   }
-  void place() { place_ends(limb.markers, limb.layout.ends, skeleton); }
+  void place() { skeleton::place_ends(limb.markers, limb.layout.ends, skeleton); }
 };
 
 Eigen::Vector3d centre(const data::SkeletonEnd& end, std::int64_t f) {
@@ -108,11 +107,11 @@ TEST(PlaceEnds, AShoulderThatMovesIsSaidAndItsErrorBarWidens) {
 
 TEST(PlaceEnds, ALineHasNoPoseAndALeftOutSegmentNoEnd) {
   const auto chain = simulation::simulate_chain({.frames = 60}).value();
-  auto skeleton = fit_articulated(chain.markers, chain.layout).value().skeleton;
+  auto skeleton = skeleton::fit_articulated(chain.markers, chain.layout).value().skeleton;
   skeleton.warnings.clear();
   const std::vector<data::SegmentLayout::End> ends{{.name = "root", .segment = "s0"},
                                                    {.name = "hand", .segment = "gone", .marker = 0}};
-  place_ends(chain.markers, ends, skeleton);
+  skeleton::place_ends(chain.markers, ends, skeleton);
   EXPECT_THAT(skeleton.ends, IsEmpty());
   EXPECT_THAT(skeleton.warnings, Contains(HasSubstr("'root' was not placed: segment 's0' shows no pose")));
   EXPECT_THAT(skeleton.warnings, Contains("'hand' was not placed: segment 'gone' was left out"));
@@ -136,4 +135,4 @@ TEST(PlaceEnds, SkinWidensBothErrorBars) {
 }
 
 }  // namespace
-}  // namespace kinemark::skeleton
+}  // namespace kinemark::workflow

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/stages/skeleton/ends/ends.h"
+#include "kinemark/stages/skeleton/articulated/ends.h"
 
 #include <fmt/core.h>
 
@@ -273,10 +273,34 @@ struct TipError {
   Matrix3d on_segment = Matrix3d::Zero(), by_skin = Matrix3d::Zero();
 };
 
+/// Covariance of a point of one segment of a joint by slides of its markers over the joint's posture, m^2.
+Matrix3d slides_at(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
+                   data::JointKind kind, bool on_child, const Vector3d& x) {
+  if (parent.known_frames == 0 || child.known_frames == 0) return Matrix3d::Zero();
+  const RelativeMotion motion = measure_motion(parent, child);
+  const JointFit fit = fit_score(samples, parent, child, motion, kind);
+  if (!fit.in_parent) return Matrix3d::Zero();
+  const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit);
+  const double own = on_child ? slide.own_child_m : slide.own_parent_m,
+               softer = std::max(slide.own_child_m, slide.own_parent_m);
+  if (!slide.known || !(own > 0.0)) return Matrix3d::Zero();
+  const Eigen::Matrix3Xd& markers = (on_child ? child : parent).x_in_segment;
+  const Vector3d mean = markers.rowwise().mean();
+  const Eigen::Matrix3Xd arms = markers.colwise() - mean;
+  const Matrix3d squares = arms * arms.transpose();
+  const Matrix3d inertia = squares.trace() * Matrix3d::Identity() - squares, lever = math::skew(x - mean);
+  const auto M = static_cast<double>(arms.cols());
+  const double common = own / softer * slide.common_m, turn = own / softer * slide.turn_m;
+  const double likely = calc_skin_probability(find_skin(samples, parent, child, motion, fit));
+  return likely * motion.sd_rad.squaredNorm() *
+         ((own * own / M + common * common) * Matrix3d::Identity() +
+          lever * (own * own * inertia.inverse() + turn * turn * M / squares.trace() * Matrix3d::Identity()) *
+              lever.transpose());
+}
+
 TipError error_of(const Samples& samples, const data::Skeleton& skeleton,
                   const std::vector<SegmentPoses>& poses, const SkeletonEnd& end) {
   TipError out;
-  const auto& segment = skeleton.segments[at(end.segment)];
   const SegmentPoses& own = poses[at(end.segment)];
   double seen = 0.0;
   for (std::int64_t f = 0; f < skeleton.frames(); ++f)
@@ -286,25 +310,10 @@ TipError error_of(const Samples& samples, const data::Skeleton& skeleton,
       seen += 1.0;
     }
   if (seen > 0.0) out.on_segment /= seen * std::min(seen, static_cast<double>(kFitFrames));
-  for (const auto& joint : skeleton.joints) {
-    if (joint.parent_segment != end.segment && joint.child_segment != end.segment) continue;
-    if (joint.skin.verdict == data::SkinVerdict::none_seen || !(joint.skin.own_slide_m > 0.0)) continue;
-    const SegmentPoses &above = poses[at(joint.parent_segment)], &below = poses[at(joint.child_segment)];
-    if (above.known_frames == 0 || below.known_frames == 0) continue;
-    const Vector3d mean = segment.x_in_segment.rowwise().mean();
-    const Eigen::Matrix3Xd arms = segment.x_in_segment.colwise() - mean;
-    const Matrix3d squares = arms * arms.transpose();
-    const Matrix3d inertia = squares.trace() * Matrix3d::Identity() - squares;
-    const Matrix3d lever = math::skew(end.x_in_segment - mean);
-    const auto M = static_cast<double>(arms.cols());
-    const double common = SkinPrior{}.ball, posture = measure_motion(above, below).sd_rad.norm();
-    const double size = joint.skin.own_slide_m * posture;
-    out.by_skin +=
-        size * size *
-        ((1.0 / M + common * common) * Matrix3d::Identity() +
-         lever * (inertia.inverse() + common * common * M / squares.trace() * Matrix3d::Identity()) *
-             lever.transpose());
-  }
+  for (const auto& joint : skeleton.joints)
+    if (joint.parent_segment == end.segment || joint.child_segment == end.segment)
+      out.by_skin += slides_at(samples, poses[at(joint.parent_segment)], poses[at(joint.child_segment)],
+                               joint.kind, joint.child_segment == end.segment, end.x_in_segment);
   return out;
 }
 
