@@ -227,10 +227,10 @@ class Joints(CommandTest):
         self.assertEqual([ends["shoulder"]["kind"], ends["wrist"]["kind"]], ["fixed", "marker"])
         for name, length in (("shoulder", 0.150), ("wrist", 0.160)):
             self.assertAlmostEqual(ends[name]["length_m"], length, delta=4 * ends[name]["length_sd_m"], msg=name)
-        places = [[float(row[f"{axis}_m"]) for axis in "xyz"] for row in read_csv(self.folder / "out/centres.csv") if row["marker"] == "shoulder"]
-        self.assertEqual(len(places), 480)
-        self.assertTrue(all(place == places[0] for place in places))
-        self.assertLess(math.hypot(*places[0]), 0.003)
+        shoulder = [[float(row[f"{axis}_m"]) for axis in "xyz"] for row in read_csv(self.folder / "out/centres.csv") if row["marker"] == "shoulder"]
+        self.assertEqual(len(shoulder), 480)
+        self.assertTrue(all(place == shoulder[0] for place in shoulder))
+        self.assertLess(math.hypot(*shoulder[0]), 0.003)
         self.good("joints", "m/markers.c3d", "--segments", "out/segments.toml", "-o", "again")
         self.assertEqual((self.folder / "again/centres.csv").read_text().splitlines()[-1], (self.folder / "out/centres.csv").read_text().splitlines()[-1])
         picture = (self.folder / "arm.svg").read_text()

@@ -38,6 +38,8 @@ constexpr double kRoom_m = 0.5;  ///< of the points that stand for the room, fro
 /// A gap so many times that of noise, and no smaller, is no point that stays.
 constexpr double kMoves = 3.0, kMoves_m = 2e-3;
 constexpr double kHalfWay = 0.5;
+/// Markers' worth of numbers that a frame's pose takes: six of three each, shared with the segment beside it.
+constexpr double kPoseTakes = 1.5;
 constexpr std::int64_t kFitFrames = 1500;  ///< that place the markers on their segments
 constexpr std::int64_t kLeastFollowed = 10;
 constexpr double kWidest_m = 0.02;  ///< an end known worse (root of the trace) is not bridged
@@ -97,9 +99,8 @@ struct RoomSums {
   Matrix6 normal = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
   Matrix3d lost = Matrix3d::Zero();  ///< of the normal matrix by noise, had it been left there
-  double pose_m2 = 0.0;              ///< variance of the point that a pose places, by noise
 
-  void add(const Samples& samples, const SegmentPoses& poses, std::int64_t f, const Vector3d& about) {
+  void add(const Samples& samples, const SegmentPoses& poses, std::int64_t f) {
     const PoseNoise noise = pose_noise(samples, poses, f);
     const Matrix3d& T = noise.rotation_covariance;
     const Matrix3d G = 0.5 * (T.trace() * Matrix3d::Identity() - T);
@@ -111,13 +112,11 @@ struct RoomSums {
     right.head<3>() += mean - R * noise.visible_mean;
     right.tail<3>() -= R.transpose() * mean - noise.visible_mean;
     lost += 2.0 * G;
-    pose_m2 += noise.at(poses.world_from_segment[at(f)], about).trace();
   }
   RoomSums& operator+=(const RoomSums& other) {
     normal += other.normal;
     right += other.right;
     lost += other.lost;
-    pose_m2 += other.pose_m2;
     return *this;
   }
   /// @param open  covariance of what lack of motion leaves open; may be null
@@ -138,21 +137,35 @@ struct RoomSums {
   }
 };
 
-/// Variance of a marker's place on its segment over that of a sample: mean over markers of one over the
-/// frames that show it, less the six numbers of each frame that its pose takes.
-double per_sighting(const Samples& samples, const SegmentPoses& poses,
-                    const std::vector<std::int64_t>& frames) {
-  double sum = 0.0, all = 0.0, placed = 0.0;
-  for (std::size_t k = 0; k < poses.markers.size(); ++k) {
-    if (!poses.x_in_segment.col(static_cast<Eigen::Index>(k)).allFinite()) continue;
-    const auto seen = static_cast<double>(
-        std::ranges::count_if(frames, [&](std::int64_t f) { return samples.seen(f, poses.markers[k]); }));
-    sum += 1.0 / std::clamp(seen, 1.0, static_cast<double>(kFitFrames));
-    all += seen;
-    placed += 1.0;
+/// What errors of the markers' places on their segment, which all frames share, make of the joint with the
+/// room: each marker's by the frames that show it, less what the frames' poses take of these.
+Matrix6 by_shape(const Samples& samples, const SegmentPoses& poses, const std::vector<std::int64_t>& frames,
+                 const RoomSums& sums, const Vector3d& x) {
+  const auto K = poses.x_in_segment.cols();
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(6, 3 * K);
+  Eigen::VectorXd seen = Eigen::VectorXd::Zero(K);
+  const double variance = poses.noise_sd_m * poses.noise_sd_m;
+  for (const auto f : frames) {
+    const PoseNoise noise = pose_noise(samples, poses, f);
+    const Matrix3d& R = poses.world_from_segment[at(f)];
+    const Matrix3d turn = math::skew(x - noise.visible_mean) * noise.rotation_covariance / variance;
+    for (Eigen::Index k = 0; k < K; ++k) {
+      const Vector3d place = poses.x_in_segment.col(k);
+      if (!place.allFinite() || !samples.seen(f, poses.markers[at(k)])) continue;
+      seen(k) += 1.0;
+      const Matrix3d by_marker = noise.mean_variance / variance * Matrix3d::Identity() -
+                                 turn * math::skew(place - noise.visible_mean);
+      moved.block<3, 3>(0, 3 * k) += R * by_marker;
+      moved.block<3, 3>(3, 3 * k) -= by_marker;
+    }
   }
-  const double in_frame = all / static_cast<double>(std::max<std::size_t>(frames.size(), 1));
-  return sum / std::max(placed, 1.0) / std::max(1.0 - 2.0 / std::max(in_frame, 2.0), 0.1);
+  const double in_frame = std::max(seen.sum() / static_cast<double>(frames.size()), 3.0);
+  const double kept = 1.0 - kPoseTakes / in_frame;
+  for (Eigen::Index k = 0; k < K; ++k)
+    moved.middleCols<3>(3 * k) *=
+        std::sqrt(variance / (kept * std::clamp(seen(k), 1.0, static_cast<double>(kFitFrames))));
+  const Matrix6 solved = (sums.normal + 1e-9 * sums.normal(0, 0) * Matrix6::Identity()).inverse();
+  return solved * moved * moved.transpose() * solved;
 }
 
 /// Blocks of a jackknife: two seconds of half a minute, as what is seen is alike in a movement.
@@ -166,8 +179,7 @@ void fit_to_room(const Samples& samples, const SegmentPoses& poses, const Relati
   const auto n = std::ssize(motion.frames);
   const std::int64_t blocks = std::min<std::int64_t>(kRoomBlocks, n / 2);
   std::vector<RoomSums> parts(at(blocks));
-  for (std::ptrdiff_t i = 0; i < n; ++i)
-    parts[at(i * blocks / n)].add(samples, poses, motion.frames[at(i)], fit.centre.tail<3>());
+  for (std::ptrdiff_t i = 0; i < n; ++i) parts[at(i * blocks / n)].add(samples, poses, motion.frames[at(i)]);
   RoomSums all;
   for (const auto& part : parts) all += part;
   fit.open.setZero();
@@ -180,9 +192,9 @@ void fit_to_room(const Samples& samples, const SegmentPoses& poses, const Relati
     const Vector6 d = rest.solve(fit.residual_rms_m, nullptr) - fit.centre;
     fit.scatter += static_cast<double>(blocks - 1) / static_cast<double>(blocks) * d * d.transpose();
   }
-  const double of_shape =
-      all.pose_m2 / (3.0 * static_cast<double>(n)) * per_sighting(samples, poses, motion.frames);
-  fit.covariance = fit.scatter + fit.open + of_shape * Matrix6::Identity();
+  fit.covariance = fit.scatter + fit.open;
+  if (poses.noise_sd_m > 0.0)
+    fit.covariance += by_shape(samples, poses, motion.frames, all, fit.centre.tail<3>());
 }
 
 /// RMS distance from where a point of the segment is said to be that noise of the poses makes.
