@@ -170,12 +170,11 @@ int run_check(int argc, char** argv) {
   const int recordings = argc > 1 ? std::max(1, std::atoi(argv[1])) : 20;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   const std::vector<std::string> parts(argv + std::min(argc, 3), argv + argc);
-  const auto wanted = [&](const char* part, const char* other) {
-    const bool names_one = std::ranges::any_of(parts, [&](const auto& p) { return p == part || p == other; });
-    return std::ranges::find(parts, part) != parts.end() || !names_one;
-  };
+  const auto named = [&](const char* part) { return std::ranges::find(parts, part) != parts.end(); };
+  const auto wanted = [&](const char* part, const char* other) { return named(part) || !named(other); };
+  const bool alone = parts.size() == 1 && named("report");
   for (const int factor : {1, kHandedOn}) {
-    if (!wanted(factor == 1 ? "60" : "240", factor == 1 ? "240" : "60")) continue;
+    if (alone || !wanted(factor == 1 ? "60" : "240", factor == 1 ? "240" : "60")) continue;
     for (const bool skin : {false, true}) {
       if (!wanted(skin ? "skin" : "none", skin ? "none" : "skin")) continue;
       Cell cell;
@@ -186,8 +185,7 @@ int run_check(int argc, char** argv) {
            skin);
     }
   }
-  if (parts.empty() || std::ranges::find(parts, "report") != parts.end())
-    report(std::min(recordings, 10), seed);
+  if (parts.empty() || named("report")) report(std::min(recordings, 10), seed);
   return testing_support::exit_status();
 }
 
