@@ -26,8 +26,8 @@ class SleeveSight {
   int cameras_;
   bool obstacles_;
   std::vector<std::uint8_t> hidden_;  // per LED, by the visit that goes on
-  bool at_mouth_ = false;
-  Random random_;
+  bool at_mouth_ = false, tip_hidden_ = false;
+  Random random_, tip_random_;
 };
 
 }  // namespace kinemark::simulation::internal

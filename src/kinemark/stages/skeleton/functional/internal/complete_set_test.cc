@@ -17,7 +17,7 @@ data::Trajectories seen_at_random(std::int64_t frames, int markers, std::uint64_
   std::vector<std::string> names;
   for (int k = 0; k < markers; ++k) names.push_back("m" + std::to_string(k));
   auto out = data::Trajectories::all_missing(names, {.rate_hz = 60.0, .t0_s = 0.0, .frames = frames});
-  Random random(seed);
+  Random random(seed, 1);
   std::vector<double> chance;
   for (int k = 0; k < markers; ++k) chance.push_back(random.uniform(0.3, 0.95));
   for (std::int64_t f = 0; f < frames; ++f)
