@@ -12,7 +12,14 @@
 namespace kinemark::simulation::internal {
 
 /// Streams of random numbers: motion, noise and losses are independent of one another.
-enum class LimbStream : std::uint64_t { motion = 700, noise = 701, loss = 702, sight = 703, skin = 705, tip = 706 };
+enum class LimbStream : std::uint64_t {
+  motion = 700,
+  noise = 701,
+  loss = 702,
+  sight = 703,
+  skin = 705,
+  tip = 706
+};
 
 inline constexpr double kMostLimbFrames = 1e7;
 
