@@ -10,6 +10,7 @@
 #include "cli/recording_options.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/joints/joints_json.h"
+#include "studies/macaque/limb_figure.h"
 
 namespace kinemark::cli {
 namespace {
@@ -41,6 +42,8 @@ int run_many_joints(const CommonOptions& common, JointsArguments& arguments) {
   if (many.to.empty()) many.to = "csv";
   if (auto s = many.check_format(); !s) return report_error(s.error());
   if (auto s = pipeline::check_for_several(arguments.job); !s) return report_error(s.error());
+  if (!arguments.job.figures.empty())
+    return report_error(Error{Code::usage, "--figures draws one recording; several were given"});
   const auto find_one = [&arguments](const std::filesystem::path& input, const std::filesystem::path& output,
                                      const std::filesystem::path& page,
                                      const pipeline::JobSettings& settings) -> Result<pipeline::JobOutcome> {
@@ -59,6 +62,8 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   if (auto s = read_names(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
+  job.draw = [](const data::Trajectories& markers, const data::Skeleton& skeleton,
+                const Eigen::Vector3d& up) { return studies::limb_figure(markers, skeleton, up); };
   job.continuity = !arguments.no_continuity;
   auto& many = arguments.many;
   if (many.are_many()) return run_many_joints(common, arguments);
@@ -108,9 +113,10 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
       ->group("Several recordings");
   add_many_options(*command, arguments->many);
   command
-      ->add_option(
-          "--segments", job.segments,
-          "TOML: [[segment]] name, markers; [[joint]] name, parent, child; or the .vsk of a Vicon subject")
+      ->add_option("--segments", job.segments,
+                   "TOML: [[segment]] name, markers; [[joint]] name, parent (or \"ground\"), child; [[end]] "
+                   "name, segment, "
+                   "marker; or the .vsk of a Vicon subject")
       ->group("Input");
   command
       ->add_option("-o,--output", job.output,
@@ -121,6 +127,10 @@ void add_joints(CLI::App& app, const CommonOptions& common, Run& run) {
   command
       ->add_option("--report", job.report,
                    "Also write the page that shows the result, R.html; a folder for several")
+      ->group("Output");
+  command
+      ->add_option("--figures", job.figures,
+                   "Also draw the limb in several postures from its markers, F.svg: dots, black line, shadow")
       ->group("Output");
   command
       ->add_option("--method", job.method,

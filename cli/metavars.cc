@@ -27,7 +27,7 @@ constexpr std::array kValues = {
     Values{"rate cutoff half-gain resample", "HZ"},
     Values{"duration start end max-gap longest-gap", "S"},
     Values{"step", "MS"},
-    Values{"noise max-rms max-offset max-gap-sd place-prior joint-prior stagger loss-scale", "MM"},
+    Values{"noise max-rms max-offset max-gap-sd place-prior joint-prior stagger skin loss-scale", "MM"},
     Values{"sides", "M"},
     Values{"image-noise", "PX"},
     Values{"mass", "KG"},

@@ -71,6 +71,7 @@ constexpr std::array kNeeds = {
     Need{"simulate arm,simulate macaque", "interpolation", "upsample", kGiven,
          "frames that the recorder makes"},
     Need{"simulate arm", "planar", "stagger", kNotZero, "markers beside the bone"},
+    Need{"simulate arm", "pose-correlated", "missing", kNotZero, "samples that are lost"},
     Need{"simulate rig", "pose", "scene", "tree", "the scene tree"},
     Need{"simulate rig", "turned leds glint", "scene", "wheel", "the scene wheel"},
     Need{"simulate rig", "markers marker z-up keep-place", "scene", "markers", "the scene markers"},

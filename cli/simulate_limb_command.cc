@@ -13,7 +13,7 @@ namespace {
 
 struct LimbArguments {
   pipeline::SimulateLimbJob job;
-  double noise_mm = 1.0, stagger_mm = 0.0;
+  double noise_mm = 1.0, stagger_mm = 0.0, skin_mm = 0.0;
   std::vector<double> lengths_mm{150.0, 160.0};
   std::string interpolation = "linear";
   bool all_seen = false, hard = false;
@@ -34,6 +34,7 @@ int run_limb(const CommonOptions& common, LimbArguments& arguments) {
     if (!arguments.missing_given) job.macaque.missing = hard.missing;
   }
   job.macaque.line_of_sight = !arguments.all_seen;
+  job.macaque.skin_m = 1e-3 * arguments.skin_mm;
   job.upsample.how =
       arguments.interpolation == "cubic" ? simulation::Upsampling::cubic : simulation::Upsampling::linear;
   return run_job(common, "files", job, pipeline::run_simulate_limb, print_written);
@@ -75,6 +76,9 @@ void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run
   arm->add_option("--stagger", chain->stagger_mm, "Distance of the markers from the bone, mm")
       ->capture_default_str();
   arm->add_flag("--planar", options.planar, "Staggered to both sides, not all around the bone");
+  arm->add_flag("--pose-correlated", options.pose_correlated,
+                "--missing goes with the pose: none where the arm points away from a certain side, twice the "
+                "share there");
   arm->callback([&common, chain, &run] { run = [&common, chain] { return run_limb(common, *chain); }; });
 
   auto* macaque = simulate.add_subcommand(
@@ -86,6 +90,9 @@ void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run
   macaque->add_option("--duration", worn.duration_s, "Length, s; an hour is 3600")->capture_default_str();
   macaque->add_option("--rate", worn.rate_hz, "Frames per second of the cameras")->capture_default_str();
   macaque->add_option("--leds", worn.leds_per_segment, "LEDs on each segment")->capture_default_str();
+  macaque->add_flag("--tip", worn.tip, "One more LED, w0, at the wrist");
+  macaque->add_option("--skin", sleeve->skin_mm, "How far skin moves an LED on its bone, RMS, mm")
+      ->capture_default_str();
   auto* all_seen =
       macaque->add_flag("--all-seen", sleeve->all_seen, "No LED is hidden, whichever way it looks");
   macaque

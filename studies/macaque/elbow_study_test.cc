@@ -46,6 +46,9 @@ TEST(StudySleeve, ContinuityAnswersEveryFrame) {
   EXPECT_EQ(errors->smoothed.share_answered(), 1.0);
   EXPECT_LT(errors->smoothed.rms_answered_m(), errors->alone.rms_determined_m() + 2e-4);
   EXPECT_LT(errors->alone.over_bound(), 1.3);
+  EXPECT_GT(errors->report.share_answered(), 0.8)
+      << "no frame shows all markers: it takes those that are complete";
+  EXPECT_LT(errors->report.rms_answered_m(), 0.1);
   EXPECT_FALSE(study_sleeve({.duration_s = -1.0}, 1));
 }
 

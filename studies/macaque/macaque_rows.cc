@@ -212,6 +212,13 @@ void add_sleeve(const MacaqueStudy& study, bool pooled, std::vector<StudyRow>& r
                     .expected = kRowsPerM * r.errors.alone.bound_m(),
                     .expected_is = Expectation::frame_alone,
                     .at_most = 1.25 * kRowsPerM * r.errors.alone.bound_m()});
+    rows.push_back(
+        {.quantity = fmt::format(
+             "sleeve{}, 1 mm: elbow, every frame (classic: the report's, from its largest complete set)",
+             r.cell.hard ? ", hard" : ""),
+         .unit = "mm",
+         .classic = if_any(kRowsPerM * r.errors.report.rms_answered_m()),
+         .ours = kRowsPerM * r.errors.smoothed.rms_answered_m()});
   }
   Extreme usual(true), answered(false), bridged(true);
   std::int64_t frames = 0, beyond = 0, unbounded = 0, beyond_alone = 0;

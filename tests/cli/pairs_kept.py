@@ -201,7 +201,7 @@ class Bench:
             "clean": ["clean", "in/body/markers.c3d", "out/x.c3d", "--derivatives", "--report", "out/x.html"],
             "clean several": ["clean", "in/walk.trc", "in/elbow.trc", "out", "--to", "csv", "--report", "out/pages"],
             "edit": ["edit", "in/arm/markers.c3d", "--edits", "out/x.jsonl", "--region", "x", "--from", 1, "--to", 2],
-            "joints": ["joints", "in/arm/markers.c3d", "--segments", "in/arm/segments.toml", "--method", "score", "--edits", "in/other.jsonl",
+            "joints": ["joints", "in/arm/markers.c3d", "--segments", "in/arm/segments.toml", "--method", "score", "--figures", "out/x.svg", "--edits", "in/other.jsonl",
                        "-o", "out", "--report", "out/x.html"],
             "joints to a file": ["joints", "in/arm/markers.c3d", "--segments", "in/arm/segments.toml", "--method", "score", "-o", "out/x.c3d"],
             "joints of a subject": ["joints", "in/arm.csv", "--segments", "in/ann.vsk", "-o", "out/x.csv"],

@@ -209,9 +209,39 @@ class Joints(CommandTest):
     def test_no_complete_frame(self):
         self.write("gaps.csv", arm(lose=lambda f, name: int(name[1]) == f % 4)[0])
         options = ("joints", "gaps.csv", "--segments", "segments.toml", "--method")
-        self.refused(3, ["gaps.csv", "no frames show all 8 markers"], *options, "constant-distance")
+        ran = self.good(*options, "constant-distance")
+        self.assertIn("no two frames show all 8 markers; the distances are those of 6 markers in 30 of the 30 frames", ran.err)
+        self.assertNotIn("no two frames show all", self.good("joints", "arm.csv", *options[2:], "constant-distance").err)
         self.good(*options, "score", "-o", "centres.csv")
         self.assertLess(self.rms_mm("centres.csv")[0], 5.0)
+        self.write("few.csv", arm(lose=lambda f, name: name in ("u0", "u1", "u2"))[0])
+        self.refused(3, ["few.csv", "no frames show all 8 markers"], "joints", "few.csv", *options[2:], "constant-distance")
+
+    def test_the_whole_arm_and_its_figure(self):
+        self.good("simulate", "macaque", "-o", "m", "--duration", 8, "--tip", "--quiet")
+        of_arm = ("joints", "m/markers.c3d", "--segments", "m/segments.toml")
+        ran = self.good(*of_arm, "-o", "out", "--figures", "arm.svg")
+        self.assertIn("shoulder (fixed): ", ran.err)
+        self.assertIn("wrist (end): marker 'w0'", ran.err)
+        ends = {end["name"]: end for end in json.loads((self.folder / "out/skeleton.json").read_text())["ends"]}
+        self.assertEqual([ends["shoulder"]["kind"], ends["wrist"]["kind"]], ["fixed", "marker"])
+        for name, length in (("shoulder", 0.150), ("wrist", 0.160)):
+            self.assertAlmostEqual(ends[name]["length_m"], length, delta=4 * ends[name]["length_sd_m"], msg=name)
+        shoulder = [[float(row[f"{axis}_m"]) for axis in "xyz"] for row in read_csv(self.folder / "out/centres.csv") if row["marker"] == "shoulder"]
+        self.assertEqual(len(shoulder), 480)
+        self.assertTrue(all(place == shoulder[0] for place in shoulder))
+        self.assertLess(math.hypot(*shoulder[0]), 0.003)
+        self.good("joints", "m/markers.c3d", "--segments", "out/segments.toml", "-o", "again")
+        self.assertEqual((self.folder / "again/centres.csv").read_text().splitlines()[-1], (self.folder / "out/centres.csv").read_text().splitlines()[-1])
+        picture = (self.folder / "arm.svg").read_text()
+        self.assertTrue(picture.startswith("<svg xmlns="))
+        self.assertEqual(picture.count('stroke="#000"'), 8)
+        self.assertGreater(picture.count("<circle"), 4 * 6)
+        self.refused(4, ["arm.svg", "--force"], *of_arm, "--figures", "arm.svg")
+        self.refused(2, "figures are .svg", *of_arm, "--figures", "arm.png")
+        self.refused(2, "--figures draws one recording", "joints", "m/markers.c3d", "m/markers.trc", "-o", "all", "--figures", "b.svg")
+        self.write("bad.toml", (self.folder / "m/segments.toml").read_text().replace('marker = "w0"', 'marker = "u0"'))
+        self.refused(3, ["bad.toml: end 1", "'u0' is no marker of segment 'forearm'"], "joints", "m/markers.c3d", "--segments", "bad.toml")
 
     def test_what_cannot_be_known_is_one_sentence(self):
         self.write("still.csv", arm(moving=False)[0])

@@ -64,6 +64,15 @@ Status SegmentLayout::validate(std::int64_t markers) const {
     if (a == b) return bad(fmt::format("joint '{}' closes a circle; a tree was expected", j.name));
     root[static_cast<std::size_t>(b)] = a;
   }
+  for (const End& e : ends) {
+    if (e.name.empty() || !names.insert(e.name).second)
+      return bad(fmt::format("name '{}' of an end is empty or used twice", e.name));
+    const auto of = std::ranges::find(segments, e.segment, &Segment::name);
+    if (of == segments.end())
+      return bad(fmt::format("'{}' is on '{}', which is no segment", e.name, e.segment));
+    if (!e.stays() && std::ranges::find(of->markers, e.marker) == of->markers.end())
+      return bad(fmt::format("the marker of '{}' is not on '{}'", e.name, e.segment));
+  }
   return {};
 }
 
@@ -106,6 +115,16 @@ Status Skeleton::validate() const {
     if (l.joint_a < 0 || l.joint_a >= J || l.joint_b < 0 || l.joint_b >= J)
       return bad(
           fmt::format("length '{}' lies between joints {} and {} of {}", l.name, l.joint_a, l.joint_b, J));
+  const auto F = static_cast<std::size_t>(std::max<std::int64_t>(0, frames()));
+  for (const SkeletonEnd& e : ends) {
+    if (e.name.empty() || !names.insert(e.name).second)
+      return bad(fmt::format("name '{}' of an end is empty or used twice", e.name));
+    if (e.segment < 0 || e.segment >= S || e.joint < -1 || e.joint >= J)
+      return bad(
+          fmt::format("end '{}' is on segment {} of {}, joint {} of {}", e.name, e.segment, S, e.joint, J));
+    if (e.state.size() != F || e.centre_in_world.size() != 3 * F || e.covariance_in_world.size() != 6 * F)
+      return bad(fmt::format("end '{}' has {} frames of {}", e.name, e.state.size(), F));
+  }
   const std::size_t n = static_cast<std::size_t>(std::max<std::int64_t>(0, frames())) * joints.size();
   if (state.size() != n || centre_in_world.size() != 3 * n || covariance.size() != 6 * n)
     return bad(fmt::format("{} states, {} coordinates, {} covariances; need {}, {}, {}", state.size(),

@@ -57,11 +57,19 @@ struct SegmentLayout {
     std::string name;           ///< unique
     int parent = 0, child = 0;  ///< indices of segments
   };
+  /// A point of one segment that is no joint of two: where it turns about the room, or where it ends.
+  struct End {
+    std::string name;     ///< unique, also among the joints
+    std::string segment;  ///< by its name: segments may be left out
+    int marker = -1;      ///< of the segment, where it ends; -1: the point that stays where it is in the room
+    [[nodiscard]] bool stays() const { return marker < 0; }
+  };
   std::vector<Segment> segments;  ///< S
   std::vector<Joint> joints;      ///< J
+  std::vector<End> ends;          ///< fixed joints and ends
 
   /// Names are unique, no marker is on two segments, indices are in range (`markers` of the recording),
-  /// joints form no circle.
+  /// joints form no circle, an end's marker is on its segment.
   [[nodiscard]] Status validate(std::int64_t markers) const;
 };
 
@@ -125,12 +133,32 @@ struct SkeletonLength {
   double length_m = 0.0, sd_m = 0.0;  ///< SD is NaN when unknown
 };
 
+/// A point of one segment that is no joint of two, and its way: F frames.
+struct SkeletonEnd {
+  std::string name;                                        ///< as in the layout
+  int segment = 0;                                         ///< index into Skeleton::segments
+  int marker = -1;                                         ///< as in the layout; -1: it stays in the room
+  Eigen::Vector3d x_in_segment = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of x_in_segment, about the bone's point, m^2
+  int joint = -1;                                          ///< of its segment, index; -1: none
+  double length_m = kNaN, length_sd_m = kNaN;              ///< from that joint
+  double gap_m = kNaN;      ///< where it stays: RMS distance of its places in the room and in the segment
+  SkinAccount skin;         ///< where it stays: of the segment's markers
+  std::string description;  ///< what the recording shows of it
+  Array<double> centre_in_world;      ///< F x 3, m; NaN where undetermined
+  Array<double> covariance_in_world;  ///< F x 6 (xx xy xz yy yz zz), m^2; NaN likewise
+  Array<CentreState> state;  ///< F: determined by the frame, bridged by its neighbours, or undetermined
+
+  [[nodiscard]] bool stays() const { return marker < 0; }
+};
+
 /// Segments, joints and, frame by frame, the joint centres: F frames, J joints, metres.
 struct Skeleton {
   std::vector<std::string> markers;       ///< M, as in the recording
   std::vector<SkeletonSegment> segments;  ///< as in the layout, with the positions of their markers
   std::vector<SkeletonJoint> joints;      ///< J
   std::vector<SkeletonLength> lengths;    ///< between the joints that share a segment
+  std::vector<SkeletonEnd> ends;          ///< fixed joints and ends of segments, where some were asked for
   TimeBase time;                          ///< F = time.frames
   Array<double> centre_in_world;          ///< F x J x 3, m; NaN where undetermined
   Array<double> covariance;  ///< F x J x 6 (xx xy xz yy yz zz), m^2; NaN where undetermined or unknown

@@ -114,6 +114,26 @@ TEST(SegmentLayout, EveryBrokenRuleIsNamed) {
   EXPECT_EQ(verdict([](SegmentLayout& l) { l.joints.clear(); }), "valid") << "segments may lie apart";
 }
 
+TEST(SegmentLayout, EndsAreOnTheirSegmentsAndHaveNamesOfTheirOwn) {
+  SegmentLayout arm{{{"upper", {0, 1}}, {"lower", {2}}}, {{"elbow", 0, 1}}};
+  arm.ends = {{.name = "shoulder", .segment = "upper"}, {.name = "wrist", .segment = "lower", .marker = 2}};
+  EXPECT_TRUE(arm.validate(3));
+  EXPECT_TRUE(arm.ends[0].stays());
+  EXPECT_FALSE(arm.ends[1].stays());
+  const auto verdict = [&](auto&& spoil) {
+    SegmentLayout layout = arm;
+    spoil(layout.ends[1]);
+    const auto status = layout.validate(3);
+    return status ? std::string("valid") : status.error().message;
+  };
+  EXPECT_THAT(verdict([](SegmentLayout::End& e) { e.name = "elbow"; }), HasSubstr("'elbow' of an end"));
+  EXPECT_THAT(verdict([](SegmentLayout::End& e) { e.name = "shoulder"; }), HasSubstr("empty or used twice"));
+  EXPECT_THAT(verdict([](SegmentLayout::End& e) { e.segment = "hand"; }),
+              HasSubstr("'hand', which is no segment"));
+  EXPECT_THAT(verdict([](SegmentLayout::End& e) { e.marker = 1; }),
+              HasSubstr("the marker of 'wrist' is not on"));
+}
+
 TEST(Skeleton, NamesItsWords) {
   EXPECT_EQ(to_string(SegmentKind::plane), "plane");
   EXPECT_EQ(to_string(JointKind::hinge), "hinge");

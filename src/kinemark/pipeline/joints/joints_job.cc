@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/pipeline/joints/joints_job.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -23,6 +25,9 @@ bool into_folder(const fs::path& output) { return !output.has_extension() || fs:
 
 Status check_options(const JointsJob& job) {
   if (auto s = job.JointsMethod::check(); !s) return s;
+  if (!job.figures.empty() && ending_of(job.figures) != ".svg")
+    return fail(Code::usage, fmt::format("{}: figures are .svg; '{}' is another ending", job.figures.string(),
+                                         ending_of(job.figures)));
   if (!job.output.empty() && !into_folder(job.output)) return io::check_marker_format(job.output);
   return {};
 }
@@ -65,7 +70,8 @@ Result<Staging> stage(const JointsJob& job) {
 }
 
 std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& outcome,
-                                   const data::Trial& centres, const std::vector<fs::path>& targets) {
+                                   const data::Trial& centres, const Eigen::Vector3d& up,
+                                   const std::vector<fs::path>& targets) {
   std::vector<ResultFile> files;
   for (const auto& target : targets) {
     if (target == job.report) {
@@ -73,6 +79,10 @@ std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& ou
       continue;
     }
     if (outcome.skeleton.joints.empty() && target.extension() != ".json") continue;
+    if (target == job.figures) {
+      files.push_back(text_file(target, [&] { return job.draw(outcome.used, outcome.skeleton, up); }));
+      continue;
+    }
     files.push_back(target.extension() == ".json"
                         ? json_file(target, [&] { return joints_json(job, outcome); })
                     : target.extension() == ".toml"
@@ -116,6 +126,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   auto staging = stage(job);
   if (!staging) return std::unexpected(staging.error());
   if (auto s = staging->add_page(job.report); !s) return std::unexpected(s.error());
+  if (!job.figures.empty())
+    if (auto s = staging->add({job.figures}); !s) return std::unexpected(s.error());
   staging->add_inputs(std::vector{outcome.input});
   // Solve and judge.
   auto found = workflow::joints(*recording, options);
@@ -127,7 +139,9 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   centres.first_frame = recording->trial.first_frame;
   centres.markers = workflow::centre_trajectories(outcome.skeleton);
   if (const auto up = workflow::stated_vertical(job.axes)) workflow::set_screen_up(centres, up->up);
-  auto written = write_results(*staging, list_files(job, outcome, centres, staging->targets()), {},
+  const Eigen::Vector3d up = workflow::screen_up(centres).value_or(
+      workflow::screen_up(recording->trial).value_or(Eigen::Vector3d(Eigen::Vector3d::UnitZ())));
+  auto written = write_results(*staging, list_files(job, outcome, centres, up, staging->targets()), {},
                                "the search for joints", name_set(job, outcome, centres));
   if (!written) return std::unexpected(written.error());
   outcome.written = std::move(*written);

@@ -3,7 +3,10 @@
 // Joint centres and axes of a recording of markers, from file to files.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "kinemark/core/result.h"
 #include "kinemark/data/run_record.h"
@@ -23,7 +26,10 @@ struct JointsJob : JobSettings, RecordingOptions, workflow::JointsMethod {
   /// file: the centres in its format, and NAME_skeleton.json beside it. Where no joint is determined, the
   /// JSON alone.
   std::filesystem::path output;
-  std::filesystem::path report;  ///< page to write as well, .html
+  std::filesystem::path report;   ///< page to write as well, .html
+  std::filesystem::path figures;  ///< picture to write as well, .svg, as `draw` makes it
+  /// The limb from the markers that were used and what was found, up along an axis, as SVG.
+  std::function<std::string(const data::Trajectories&, const data::Skeleton&, const Eigen::Vector3d&)> draw;
 };
 
 /// Warnings and gates are the remarks of workflow::joints(), which are empty here.

@@ -122,6 +122,18 @@ double sd_of(const data::SkeletonJoint& joint, const Eigen::Matrix3d& in_parent,
   return std::sqrt((across * (parent ? in_parent : in_child) * across).trace());
 }
 
+Json skin_json(const data::SkinAccount& skin) {
+  return {{"verdict", data::to_string(skin.verdict)},
+          {"words", skin.description},
+          {"movements", skin.movements},
+          {"alike", skin.alike},
+          {"p_value", number(skin.p_value)},
+          {"explained", number(skin.explained)},
+          {"own_slide_m_per_rad", number(skin.own_slide_m)},
+          {"own_slide_limit_m_per_rad", number(skin.own_limit_m)},
+          {"gap_with_posture_m", number(skin.gap_m)}};
+}
+
 /// Three numbers, never one: what another part of the trial would repeat, how far the bone's joint may be,
 /// and whether the recording or prior knowledge says so. And what was seen of skin.
 void add_skin(const data::SkeletonJoint& joint, Json& out) {
@@ -131,16 +143,7 @@ void add_skin(const data::SkeletonJoint& joint, Json& out) {
   out["prior_share"] = number(joint.prior_share);
   out["source"] =
       std::isnan(joint.prior_share) ? Json(nullptr) : Json(joint.prior_dominated() ? "prior" : "recording");
-  const auto& skin = joint.skin;
-  out["skin"] = {{"verdict", data::to_string(skin.verdict)},
-                 {"words", skin.description},
-                 {"movements", skin.movements},
-                 {"alike", skin.alike},
-                 {"p_value", number(skin.p_value)},
-                 {"explained", number(skin.explained)},
-                 {"own_slide_m_per_rad", number(skin.own_slide_m)},
-                 {"own_slide_limit_m_per_rad", number(skin.own_limit_m)},
-                 {"gap_with_posture_m", number(skin.gap_m)}};
+  out["skin"] = skin_json(joint.skin);
 }
 
 Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
@@ -178,6 +181,31 @@ Json joint_json(const data::Skeleton& skeleton, std::size_t j) {
   for (const auto state : {data::CentreState::determined, data::CentreState::bridged,
                            data::CentreState::ambiguous, data::CentreState::undetermined})
     out["frames"][std::string(data::to_string(state))] = frames.count[static_cast<std::size_t>(state)];
+  return out;
+}
+
+/// A fixed joint or an end of a segment.
+Json end_json(const data::Skeleton& skeleton, const data::SkeletonEnd& end) {
+  Json out;
+  out["name"] = end.name;
+  out["kind"] = end.stays() ? "fixed" : "marker";
+  out["segment"] = skeleton.segments[at(end.segment)].name;
+  if (!end.stays()) out["marker"] = skeleton.markers[at(end.marker)];
+  out["words"] = end.description;
+  out["x_in_segment_m"] = numbers(end.x_in_segment);
+  out["covariance_m2"] = matrix(end.covariance);
+  if (end.stays()) {
+    out["gap_m"] = number(end.gap_m);
+    out["skin"] = skin_json(end.skin);
+  }
+  if (end.joint >= 0) {
+    out["from"] = skeleton.joints[at(end.joint)].name;
+    out["length_m"] = number(end.length_m);
+    out["length_sd_m"] = number(end.length_sd_m);
+  }
+  for (const auto state :
+       {data::CentreState::determined, data::CentreState::bridged, data::CentreState::undetermined})
+    out["frames"][std::string(data::to_string(state))] = std::ranges::count(end.state, state);
   return out;
 }
 
@@ -337,6 +365,10 @@ Json skeleton_json(const data::Skeleton& skeleton) {
                               {"to", skeleton.joints[static_cast<std::size_t>(length.joint_b)].name},
                               {"length_m", number(length.length_m)},
                               {"sd_m", number(length.sd_m)}});
+  if (!skeleton.ends.empty()) {
+    out["ends"] = Json::array();
+    for (const auto& end : skeleton.ends) out["ends"].push_back(end_json(skeleton, end));
+  }
   out["warnings"] = skeleton.warnings;
   return out;
 }
@@ -359,6 +391,10 @@ std::vector<std::string> skeleton_description(const data::Skeleton& skeleton) {
     if (ambiguous > 0) line += fmt::format(", {} ambiguous", ambiguous);
     lines.push_back(std::move(line));
     if (!joint.skin.description.empty()) lines.push_back(joint.name + ": " + joint.skin.description);
+  }
+  for (const auto& end : skeleton.ends) {
+    lines.push_back(end.name + (end.stays() ? " (fixed): " : " (end): ") + end.description);
+    if (!end.skin.description.empty()) lines.push_back(end.name + ": " + end.skin.description);
   }
   for (const auto& length : skeleton.lengths)
     lines.push_back(

@@ -70,19 +70,49 @@ int find_segment(const data::SegmentLayout& layout, const std::string& name) {
   return at == layout.segments.end() ? -1 : static_cast<int>(at - layout.segments.begin());
 }
 
-Result<data::SegmentLayout::Joint> read_joint(const toml::table& table, const std::string& where,
-                                              const data::SegmentLayout& layout) {
+constexpr const char* kRoom = "ground";
+
+/// A joint, or a fixed one that is put to the ends.
+Status read_joint(const toml::table& table, const std::string& where, data::SegmentLayout& layout) {
   data::SegmentLayout::Joint joint;
   std::string parent, child;
   io::TomlFields fields(table, where);
   fields.text("name", joint.name).text("parent", parent, Need::required).text("child", child, Need::required);
-  if (auto s = fields.finish(); !s) return std::unexpected(s.error());
+  if (auto s = fields.finish(); !s) return s;
+  if (joint.name.empty()) joint.name = parent + "-" + child;
   joint.parent = find_segment(layout, parent);
   joint.child = find_segment(layout, child);
+  const bool stays = joint.parent < 0 && parent == kRoom;
   for (const auto& [index, name] : {std::pair{joint.parent, parent}, {joint.child, child}})
-    if (index < 0) return fail(Code::bad_input, fmt::format("{}: no segment is called '{}'", where, name));
-  if (joint.name.empty()) joint.name = parent + "-" + child;
-  return joint;
+    if (index < 0 && !(stays && name == kRoom))
+      return fail(Code::bad_input, fmt::format("{}: no segment is called '{}'", where, name));
+  if (stays)
+    layout.ends.push_back({.name = joint.name, .segment = child});
+  else
+    layout.joints.push_back(std::move(joint));
+  return {};
+}
+
+/// Where a segment ends: one of its markers.
+Status read_end(const toml::table& table, const std::string& where, const data::NameIndex& markers,
+                data::SegmentLayout& layout) {
+  data::SegmentLayout::End end;
+  std::string marker;
+  io::TomlFields fields(table, where);
+  fields.text("name", end.name, Need::required)
+      .text("segment", end.segment, Need::required)
+      .text("marker", marker, Need::required);
+  if (auto s = fields.finish(); !s) return s;
+  const int segment = find_segment(layout, end.segment);
+  if (segment < 0)
+    return fail(Code::bad_input, fmt::format("{}: no segment is called '{}'", where, end.segment));
+  end.marker = static_cast<int>(markers.find(marker));
+  const auto& on = layout.segments[at(segment)].markers;
+  if (std::ranges::find(on, end.marker) == on.end())
+    return fail(Code::bad_input, fmt::format("{}: '{}' is no marker of segment '{}'; name one of its own",
+                                             where, marker, end.segment));
+  layout.ends.push_back(std::move(end));
+  return {};
 }
 
 std::string toml_string(std::string_view text) {
@@ -152,9 +182,10 @@ Result<data::SegmentLayout> parse_segments(std::string_view text, const std::str
   if (!parsed) return std::unexpected(parsed.error());
   const toml::table& root = *parsed;
   for (const auto& [key, value] : root)
-    if ((key.str() != "segment" && key.str() != "joint") || !value.is_array_of_tables())
-      return fail(Code::bad_input,
-                  fmt::format("{}: '{}': only [[segment]] and [[joint]] tables are read", name, key.str()));
+    if ((key.str() != "segment" && key.str() != "joint" && key.str() != "end") || !value.is_array_of_tables())
+      return fail(
+          Code::bad_input,
+          fmt::format("{}: '{}': only [[segment]], [[joint]] and [[end]] tables are read", name, key.str()));
   data::SegmentLayout layout;
   const data::NameIndex index(markers);
   const auto* segments = root["segment"].as_array();
@@ -167,11 +198,14 @@ Result<data::SegmentLayout> parse_segments(std::string_view text, const std::str
   }
   n = 0;
   if (const auto* joints = root["joint"].as_array())
-    for (const auto& item : *joints) {
-      auto joint = read_joint(*item.as_table(), fmt::format("{}: joint {}", name, ++n), layout);
-      if (!joint) return std::unexpected(joint.error());
-      layout.joints.push_back(std::move(*joint));
-    }
+    for (const auto& item : *joints)
+      if (auto s = read_joint(*item.as_table(), fmt::format("{}: joint {}", name, ++n), layout); !s)
+        return std::unexpected(s.error());
+  n = 0;
+  if (const auto* ends = root["end"].as_array())
+    for (const auto& item : *ends)
+      if (auto s = read_end(*item.as_table(), fmt::format("{}: end {}", name, ++n), index, layout); !s)
+        return std::unexpected(s.error());
   if (layout.joints.empty())
     for (std::size_t s = 1; s < layout.segments.size(); ++s)
       layout.joints.push_back({layout.segments[s - 1].name + "-" + layout.segments[s].name,
@@ -200,6 +234,12 @@ std::string segments_text(const data::SegmentLayout& layout, const std::vector<s
     text += fmt::format("[[joint]]\nname = {}\nparent = {}\nchild = {}\n\n", toml_string(joint.name),
                         toml_string(layout.segments[static_cast<std::size_t>(joint.parent)].name),
                         toml_string(layout.segments[static_cast<std::size_t>(joint.child)].name));
+  for (const auto& end : layout.ends)
+    text += end.stays()
+                ? fmt::format("[[joint]]\nname = {}\nparent = \"{}\"\nchild = {}\n\n", toml_string(end.name),
+                              kRoom, toml_string(end.segment))
+                : fmt::format("[[end]]\nname = {}\nsegment = {}\nmarker = {}\n\n", toml_string(end.name),
+                              toml_string(end.segment), toml_string(markers[at(end.marker)]));
   return text;
 }
 

@@ -30,7 +30,11 @@ namespace kinemark::pipeline {
 ///   [[joint]]
 ///   name = "elbow"
 ///   parent = "upper_arm"
-///   child = "forearm"
+///   child = "forearm"      # parent = "ground": the point of the child that stays in the room
+///   [[end]]
+///   name = "wrist"
+///   segment = "forearm"
+///   marker = "WRA"         # of the segment's
 /// Markers are names of the recording, exactly or behind a subject's prefix ("Ann:WRA"). Without any
 /// [[joint]] the segments are joined in the order given. Code::bad_input with file and place for what does
 /// not fit.

@@ -160,6 +160,49 @@ TEST(SegmentsFile, NamesWithLineEndsAndOtherControlCharactersAreReadBack) {
   EXPECT_EQ(back->segments[0].markers, std::vector<int>{0});
 }
 
+TEST(SegmentsFile, FixedJointsAndEndsComeBack) {
+  const std::vector<std::string> markers{"a", "b", "c", "d"};
+  const std::string segments =
+      "[[segment]]\nname = \"upper\"\nmarkers = [\"a\", \"b\"]\n"
+      "[[segment]]\nname = \"fore\"\nmarkers = [\"c\", \"d\"]\n";
+  const auto layout =
+      parse_segments(segments +
+                         "[[joint]]\nname = \"shoulder\"\nparent = \"ground\"\nchild = \"upper\"\n"
+                         "[[end]]\nname = \"wrist\"\nsegment = \"fore\"\nmarker = \"d\"\n",
+                     "arm.toml", markers);
+  ASSERT_TRUE(layout) << layout.error().message;
+  EXPECT_THAT(joint_names(*layout), ElementsAre("upper-fore: upper, fore")) << "in the order given";
+  ASSERT_EQ(layout->ends.size(), 2U);
+  EXPECT_EQ(layout->ends[0].name, "shoulder");
+  EXPECT_TRUE(layout->ends[0].stays());
+  EXPECT_EQ(layout->ends[1].marker, 3);
+  const auto again = parse_segments(segments_text(*layout, markers), "again", markers);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(segments_text(*again, markers), segments_text(*layout, markers));
+  EXPECT_EQ(again->ends.size(), 2U);
+  const auto said = [&](const std::string& more) {
+    return parse_segments(segments + more, "arm.toml", markers).error().message;
+  };
+  EXPECT_THAT(said("[[end]]\nname = \"wrist\"\nsegment = \"fore\"\nmarker = \"a\"\n"),
+              HasSubstr("arm.toml: end 1: 'a' is no marker of segment 'fore'"));
+  EXPECT_THAT(said("[[end]]\nname = \"wrist\"\nsegment = \"hand\"\nmarker = \"a\"\n"),
+              HasSubstr("end 1: no segment is called 'hand'"));
+  EXPECT_THAT(said("[[joint]]\nparent = \"ground\"\nchild = \"hand\"\n"),
+              HasSubstr("no segment is called 'hand'"));
+  EXPECT_THAT(said("[[joint]]\nparent = \"upper\"\nchild = \"ground\"\n"),
+              HasSubstr("no segment is called 'ground'"));
+}
+
+TEST(SegmentsFile, ASegmentMayBeCalledGround) {
+  const auto layout = parse_segments(
+      "[[segment]]\nname = \"ground\"\nmarkers = [\"a\"]\n[[segment]]\nname = \"fore\"\nmarkers = [\"b\"]\n"
+      "[[joint]]\nparent = \"ground\"\nchild = \"fore\"\n",
+      "arm.toml", {"a", "b"});
+  ASSERT_TRUE(layout) << layout.error().message;
+  EXPECT_THAT(joint_names(*layout), ElementsAre("ground-fore: ground, fore"));
+  EXPECT_THAT(layout->ends, IsEmpty());
+}
+
 }  // namespace
 
 }  // namespace kinemark::pipeline

@@ -23,10 +23,12 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// Joint centres first, then every marker.
+/// Joint centres first, origin and end where they have names, then every marker.
 data::Trajectories truth_of(const simulation::LimbRecording& limb) {
   std::vector<std::string> names;
   for (const auto& joint : limb.layout.joints) names.push_back(joint.name);
+  if (!limb.origin_name.empty()) names.push_back(limb.origin_name);
+  if (!limb.end_name.empty()) names.push_back(limb.end_name);
   names.insert(names.end(), limb.markers.names.begin(), limb.markers.names.end());
   auto out = data::Trajectories::all_missing(std::move(names), limb.markers.time);
   std::ranges::fill(out.state, data::SampleState::measured);
@@ -35,6 +37,8 @@ data::Trajectories truth_of(const simulation::LimbRecording& limb) {
   for (std::int64_t f = 0; f < out.frames(); ++f) {
     const auto frame = static_cast<std::size_t>(f);
     to = std::copy_n(limb.centre_in_world.data() + frame * centres, centres, to);
+    if (!limb.origin_name.empty()) to = std::fill_n(to, 3, 0.0);
+    if (!limb.end_name.empty()) to = std::copy_n(limb.end_in_world.data() + 3 * frame, 3, to);
     to = std::copy_n(limb.x_true.data() + frame * markers, markers, to);
   }
   return out;
@@ -56,6 +60,12 @@ std::string segment_layout_toml(const data::SegmentLayout& layout, const std::ve
   for (const auto& joint : layout.joints)
     out += fmt::format("[[joint]]\nname = {}\nparent = {}\nchild = {}\n\n", quoted(joint.name),
                        segment(joint.parent), segment(joint.child));
+  for (const auto& end : layout.ends)
+    out += end.stays()
+               ? fmt::format("[[joint]]\nname = {}\nparent = \"ground\"\nchild = {}\n\n", quoted(end.name),
+                             quoted(end.segment))
+               : fmt::format("[[end]]\nname = {}\nsegment = {}\nmarker = {}\n\n", quoted(end.name),
+                             quoted(end.segment), quoted(markers[static_cast<std::size_t>(end.marker)]));
   out.pop_back();
   return out;
 }

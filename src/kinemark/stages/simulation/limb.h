@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "kinemark/core/array.h"
@@ -21,6 +22,8 @@ struct LimbRecording {
   Array<double> x_true;           ///< F x M x 3, m: all markers, without noise
   Array<double> centre_in_world;  ///< F x J x 3, m: the joints between the segments
   Array<double> end_in_world;     ///< F x 3, m: the far end of the last segment
+  /// Names of the chain's origin, which stays at (0, 0, 0), and of its far end; empty where they have none.
+  std::string origin_name, end_name;
   /// S matrices 3 x (markers of the segment), m: their positions in segment axes, z along the bone from its
   /// upper joint.
   std::vector<Eigen::Matrix3Xd> x_in_segment;
@@ -63,7 +66,11 @@ struct SleeveOptions {
   double mouth_loss = 0.6;    ///< chance that an LED near the hand is hidden for a whole visit to the mouth
   bool obstacles = false;  ///< head, trunk and the cage's front bars stand between LEDs and cameras as well
   double missing = 0.0;    ///< share of samples lost besides, each on its own
-  std::uint64_t seed = 1;  ///< of poses, noise and losses
+  bool tip = false;        ///< one more LED, "w0", at the wrist, which shines along the forearm
+  /// RMS distance that skin moves an LED on its bone, 0 to 1: in proportion to the rotation of elbow and
+  /// shoulder from their means, each LED by itself and all of a segment as one body.
+  double skin_m = 0.0;
+  std::uint64_t seed = 1;  ///< of poses, noise, losses and skin
 
   /// Three cameras, a narrow beam, 0.9 hidden at the mouth and a fifth of the rest lost: about 30 % is seen.
   [[nodiscard]] static SleeveOptions hard();
@@ -72,7 +79,8 @@ struct SleeveOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// Segments "upper_arm" and "forearm", joint "elbow", markers "u0", ..., "f0", ...
+/// Segments "upper_arm" and "forearm", joint "elbow", markers "u0", ..., "f0", ...; the "shoulder" stays, and
+/// with a tip the "wrist" is an end.
 [[nodiscard]] Result<LimbRecording> simulate_sleeve(const SleeveOptions& options);
 
 }  // namespace kinemark::simulation

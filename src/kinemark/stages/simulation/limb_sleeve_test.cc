@@ -115,6 +115,49 @@ TEST(SimulateSleeve, ObstaclesHideMore) {
     }
 }
 
+TEST(SimulateSleeve, ATipIsAtTheWristAndSeenLikeTheOthers) {
+  const auto plain = simulate_sleeve({.duration_s = 20.0}).value();
+  const auto limb = simulate_sleeve({.duration_s = 20.0, .tip = true}).value();
+  ASSERT_EQ(limb.markers.markers(), 17);
+  EXPECT_EQ(limb.markers.names.back(), "w0");
+  EXPECT_EQ(limb.layout.segments[1].markers.back(), 16);
+  EXPECT_TRUE(limb.layout.validate(17));
+  ASSERT_EQ(limb.layout.ends.size(), 2U);
+  EXPECT_EQ(limb.layout.ends[1].marker, 16);
+  ASSERT_EQ(plain.layout.ends.size(), 1U) << "the shoulder stays in any case";
+  EXPECT_TRUE(plain.layout.ends[0].stays());
+  double seen = 0.0;
+  for (std::int64_t f = 0; f < limb.markers.frames(); ++f) {
+    EXPECT_LT((point(limb.x_true, 17 * f + 16) - point(limb.end_in_world, f)).norm(), 1e-12);
+    EXPECT_EQ(point(limb.x_true, 17 * f + 3), point(plain.x_true, 16 * f + 3));
+    seen += limb.markers.present(f, 16) ? 1.0 : 0.0;
+  }
+  EXPECT_GT(seen / static_cast<double>(limb.markers.frames()), 0.2);
+  EXPECT_LT(seen / static_cast<double>(limb.markers.frames()), 0.95);
+}
+
+TEST(SimulateSleeve, SkinMovesLedsOnTheirBonesByWhatIsAsked) {
+  const auto rigid = simulate_sleeve({.duration_s = 20.0, .tip = true}).value();
+  const auto soft = simulate_sleeve({.duration_s = 20.0, .tip = true, .skin_m = 0.006}).value();
+  EXPECT_EQ(rigid.end_in_world, soft.end_in_world);
+  double most = 0.0;
+  for (const int first : {0, 8}) {
+    const int last = first == 0 ? 8 : 17;
+    double squares = 0.0, n = 0.0;
+    for (std::int64_t f = 0; f < rigid.markers.frames(); ++f)
+      for (int led = first; led < last; ++led) {
+        const double slid = (point(soft.x_true, 17 * f + led) - point(rigid.x_true, 17 * f + led)).norm();
+        squares += slid * slid;
+        most = std::max(most, slid);
+        n += 1.0;
+      }
+    EXPECT_NEAR(std::sqrt(squares / n), 0.006, 1e-9) << first;
+  }
+  EXPECT_GT(most, 0.012) << "it goes with the posture";
+  EXPECT_EQ(simulate_sleeve({.duration_s = 2.0, .tip = true, .skin_m = 0.0}).value().x_true,
+            simulate_sleeve({.duration_s = 2.0, .tip = true}).value().x_true);
+}
+
 TEST(SimulateSleeve, SameSeedSameBits) {
   SleeveOptions options;
   options.duration_s = 3.0;
@@ -142,6 +185,7 @@ TEST(SimulateSleeve, RefusesWhatItCannotDraw) {
   refused([](SleeveOptions& o) { o.sight_cosine = 2.0; }, "sight_cosine");
   refused([](SleeveOptions& o) { o.sight_cameras = 7; }, "sight_cameras");
   refused([](SleeveOptions& o) { o.mouth_loss = -0.1; }, "mouth_loss");
+  refused([](SleeveOptions& o) { o.skin_m = -0.001; }, "skin_m");
 }
 
 }  // namespace

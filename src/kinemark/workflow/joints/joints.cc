@@ -17,6 +17,7 @@
 #include "kinemark/data/filtering.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
+#include "kinemark/stages/skeleton/articulated/ends.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
 #include "kinemark/workflow/joints/internal/joints_layout.h"
 #include "kinemark/workflow/joints/internal/joints_segmentation.h"
@@ -317,6 +318,14 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
   found.used = std::move(trial.markers);
   if (auto s = lay_out(options, found.used, found); !s) return std::unexpected(s.error());
   if (auto s = solve(options, found.used, found); !s) return std::unexpected(s.error());
+  if (options.segments && !found.skeleton.joints.empty()) {
+    found.layout.ends = options.segments->ends;
+    skeleton::place_ends(found.used, found.layout.ends, found.skeleton);
+    std::erase_if(found.layout.ends, [&](const auto& end) {
+      return std::ranges::find(found.skeleton.ends, end.name, &data::SkeletonEnd::name) ==
+             found.skeleton.ends.end();
+    });
+  }
   judge(options, found);
   add_contradictions(recording.contradicted, found.remarks.gates);
   return found;
@@ -325,19 +334,33 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
 data::Trajectories centre_trajectories(const data::Skeleton& skeleton) {
   std::vector<std::string> names;
   for (const auto& joint : skeleton.joints) names.push_back(joint.name);
+  for (const auto& end : skeleton.ends) names.push_back(end.name);
+  const auto J = static_cast<std::int64_t>(skeleton.joints.size());
   auto out = data::Trajectories::all_missing(std::move(names), skeleton.time);
-  out.covariance = skeleton.covariance;
-  for (std::int64_t f = 0; f < out.frames(); ++f)
-    for (std::int64_t j = 0; j < out.markers(); ++j) {
-      const auto state = skeleton.state[skeleton.index(f, j)];
-      if (state == data::CentreState::undetermined) continue;
-      out.x(f, j) = skeleton.centre(f, j);
-      out.state[out.index(f, j)] = state == data::CentreState::bridged ? data::SampleState::interpolated
-                                                                       : data::SampleState::model_filled;
-      out.set_method(
-          f, j,
-          fmt::format("{}: {}", skeleton.joints[static_cast<std::size_t>(j)].method, data::to_string(state)));
+  out.covariance.assign(6 * out.state.size(), kNaN);
+  const auto put = [&](std::int64_t f, std::int64_t m, data::CentreState state, const double* x,
+                       const double* C, const std::string& method) {
+    const std::size_t i = out.index(f, m);
+    std::copy_n(C, 6, out.covariance.data() + 6 * i);
+    if (state == data::CentreState::undetermined) return;
+    std::copy_n(x, 3, out.x_in_world.data() + 3 * i);
+    out.state[i] = state == data::CentreState::bridged ? data::SampleState::interpolated
+                                                       : data::SampleState::model_filled;
+    out.set_method(f, m, fmt::format("{}: {}", method, data::to_string(state)));
+  };
+  for (std::int64_t f = 0; f < out.frames(); ++f) {
+    for (std::int64_t j = 0; j < J; ++j) {
+      const std::size_t i = skeleton.index(f, j);
+      put(f, j, skeleton.state[i], skeleton.centre_in_world.data() + 3 * i,
+          skeleton.covariance.data() + 6 * i, skeleton.joints[static_cast<std::size_t>(j)].method);
     }
+    for (std::size_t e = 0; e < skeleton.ends.size(); ++e) {
+      const auto& end = skeleton.ends[e];
+      put(f, J + static_cast<std::int64_t>(e), end.state[static_cast<std::size_t>(f)],
+          end.centre_in_world.data() + 3 * f, end.covariance_in_world.data() + 6 * f,
+          end.stays() ? "stays in the room" : "end");
+    }
+  }
   return out;
 }
 

@@ -75,8 +75,9 @@ struct JointsFound {
 /// find_joints(); Code::cancelled when progress says so.
 [[nodiscard]] Result<JointsFound> joints(const data::Recording& recording, const JointsOptions& options = {});
 
-/// The centres as trajectories, one a joint. States: model_filled where the joint was placed by its frame,
-/// interpolated where with the help of others; the method's name ends in ": determined", ": bridged" or
+/// The centres as trajectories, one a joint, then fixed joints and ends. States: model_filled where the joint
+/// was placed by its frame, interpolated where with the help of others; the method's name ends in ":
+/// determined", ": bridged" or
 /// ": ambiguous".
 [[nodiscard]] data::Trajectories centre_trajectories(const data::Skeleton& skeleton);
 

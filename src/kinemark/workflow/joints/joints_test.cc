@@ -51,8 +51,13 @@ TEST_F(JointsVerb, FindsTheElbowFromMemory) {
   EXPECT_TRUE(found->remarks.passed());
   EXPECT_FALSE(found->segmentation) << "the segments were given";
   const auto centres = centre_trajectories(found->skeleton);
-  EXPECT_EQ(centres.names, std::vector<std::string>{"elbow"});
+  EXPECT_EQ(centres.names, (std::vector<std::string>{"elbow", "shoulder"}));
   EXPECT_TRUE(centres.made_by(0, 0).ends_with(": determined"));
+  EXPECT_THAT(std::string(centres.made_by(0, 1)), HasSubstr("stays in the room"));
+  EXPECT_THAT(std::string(centres.made_by(0, 0)), Not(HasSubstr("stays in the room")));
+  EXPECT_LT(centres.x(0, 1).norm(), 0.005) << "the shoulder is the origin";
+  ASSERT_EQ(found->layout.ends.size(), 1U);
+  EXPECT_EQ(found->layout.ends[0].name, "shoulder");
 }
 
 TEST_F(JointsVerb, TheRecordingStaysAsItIs) {

@@ -17,7 +17,7 @@ Status in_range(const char* name, double value, double low, double high) {
 
 LimbRecording empty_limb(const std::vector<std::string>& segments, const std::vector<std::string>& joints,
                          const std::vector<std::string>& prefixes, int markers_per_segment,
-                         const TimeBase& time) {
+                         const TimeBase& time, const std::vector<std::string>& on_last) {
   LimbRecording out;
   std::vector<std::string> names;
   for (std::size_t s = 0; s < segments.size(); ++s) {
@@ -26,8 +26,12 @@ LimbRecording empty_limb(const std::vector<std::string>& segments, const std::ve
       segment.markers.push_back(static_cast<int>(names.size()));
       names.push_back(fmt::format("{}{}", prefixes[s], k));
     }
+    for (std::size_t k = 0; s + 1 == segments.size() && k < on_last.size(); ++k) {
+      segment.markers.push_back(static_cast<int>(names.size()));
+      names.push_back(on_last[k]);
+    }
+    out.x_in_segment.emplace_back(Eigen::Matrix3Xd::Zero(3, std::ssize(segment.markers)));
     out.layout.segments.push_back(std::move(segment));
-    out.x_in_segment.emplace_back(Eigen::Matrix3Xd::Zero(3, markers_per_segment));
   }
   for (std::size_t j = 0; j < joints.size(); ++j)
     out.layout.joints.push_back({joints[j], static_cast<int>(j), static_cast<int>(j) + 1});

@@ -51,7 +51,8 @@ SleeveSight::SleeveSight(const SleeveOptions& options)
       cameras_(options.sight_cameras),
       obstacles_(options.obstacles),
       hidden_(2 * static_cast<std::size_t>(options.leds_per_segment), 0),
-      random_(options.seed, static_cast<std::uint64_t>(LimbStream::sight)) {}
+      random_(options.seed, static_cast<std::uint64_t>(LimbStream::sight)),
+      tip_random_(options.seed, static_cast<std::uint64_t>(LimbStream::tip)) {}
 
 void SleeveSight::begin_frame(const Vector3d& wrist) {
   const bool near = (wrist - mouth_in_world()).norm() < kNear_m;
@@ -59,13 +60,18 @@ void SleeveSight::begin_frame(const Vector3d& wrist) {
     // The distal half of the forearm is hidden by the jaw.
     for (std::size_t led = hidden_.size() / 2 + hidden_.size() / 4; led < hidden_.size(); ++led)
       hidden_[led] = random_.uniform() < mouth_loss_ ? 1 : 0;
+    tip_hidden_ = tip_random_.uniform() < mouth_loss_;
   }
-  if (!near && at_mouth_) std::ranges::fill(hidden_, 0);
+  if (!near && at_mouth_) {
+    std::ranges::fill(hidden_, 0);
+    tip_hidden_ = false;
+  }
   at_mouth_ = near;
 }
 
 bool SleeveSight::sees(int led, const Vector3d& x, const Vector3d& normal) const {
-  if (hidden_[static_cast<std::size_t>(led)] != 0) return false;
+  const auto of_sleeve = static_cast<std::size_t>(led);
+  if (of_sleeve < hidden_.size() ? hidden_[of_sleeve] != 0 : tip_hidden_) return false;
   int seen = 0;
   for (const auto& camera : kCameras_m) {
     const Vector3d to_camera = Eigen::Map<const Vector3d>(camera.data()) - x;

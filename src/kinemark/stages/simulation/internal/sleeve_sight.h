@@ -18,7 +18,7 @@ class SleeveSight {
 
   /// Set the wrist position of this frame, m; while the hand is at the mouth, LEDs are hidden.
   void begin_frame(const Eigen::Vector3d& wrist);
-  /// True when LED `led` (of both segments) at x, shining along this unit vector, is seen.
+  /// True when LED `led` (of both segments, then the tip's) at x, shining along this unit vector, is seen.
   [[nodiscard]] bool sees(int led, const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
 
  private:
@@ -26,8 +26,8 @@ class SleeveSight {
   int cameras_;
   bool obstacles_;
   std::vector<std::uint8_t> hidden_;  // per LED, by the visit that goes on
-  bool at_mouth_ = false;
-  Random random_;
+  bool at_mouth_ = false, tip_hidden_ = false;
+  Random random_, tip_random_;
 };
 
 }  // namespace kinemark::simulation::internal

@@ -81,9 +81,34 @@ TEST(ConstantDistance, MaskedSamplesAreAsGoodAsMissing) {
   EXPECT_EQ(masked->distances_m, missing->distances_m);
 }
 
-TEST(ConstantDistance, SaysWhenNoFrameIsComplete) {
+TEST(ConstantDistance, TakesTheLargestSetWhereNoFrameIsComplete) {
+  auto chain = testing::make_chain({.frames = 400, .stagger_m = 0.02});
+  for (std::int64_t f = 0; f < 400; ++f) chain.markers.set_missing(f, f % 10 == 0 ? 0 : 5);
+  const auto f = fit(chain);
+  ASSERT_TRUE(f) << f.error().message;
+  EXPECT_EQ(f->complete, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(f->complete_frames, 360);
+  ASSERT_EQ(f->chosen.size(), 30U);
+  EXPECT_GT(f->chosen.back(), 360) << "spread over the frames that show them";
+  EXPECT_LT(median_error(*f, chain), 2e-3);
+  const double truth = (chain.x_in_segment[1].col(2)).norm();
+  EXPECT_NEAR(f->distances_m(5), truth, 3e-3) << "seen in 40 frames, none of them complete";
+  EXPECT_NE(f->state[10], data::CentreState::undetermined);
+}
+
+TEST(ConstantDistance, TakesAllMarkersWhereTwoFramesShowThem) {
+  auto chain = testing::make_chain({.frames = 400, .stagger_m = 0.02});
+  for (std::int64_t f = 2; f < 400; ++f) chain.markers.set_missing(f, 5);
+  const auto f = fit(chain);
+  ASSERT_TRUE(f);
+  EXPECT_EQ(f->complete, f->markers);
+  EXPECT_EQ(f->chosen, (std::vector<std::int64_t>{0, 1}));
+}
+
+TEST(ConstantDistance, SaysWhenNoTwoFramesShowTwoOfEach) {
   auto chain = testing::make_chain({.frames = 40});
-  for (std::int64_t f = 0; f < 40; ++f) chain.markers.set_missing(f, f % 6);
+  for (std::int64_t f = 0; f < 40; ++f)
+    for (const int m : {3, 4}) chain.markers.set_missing(f, m);
   const auto none = fit(chain);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, Code::bad_input);
@@ -91,7 +116,8 @@ TEST(ConstantDistance, SaysWhenNoFrameIsComplete) {
       << none.error().message;
   EXPECT_FALSE(none.error().message.contains("only one frame does"));
   auto once = testing::make_chain({.frames = 40});
-  for (std::int64_t f = 1; f < 40; ++f) once.markers.set_missing(f, f % 6);
+  for (std::int64_t f = 1; f < 40; ++f)
+    for (const int m : {3, 4}) once.markers.set_missing(f, m);
   const auto one = fit(once);
   ASSERT_FALSE(one);
   EXPECT_TRUE(one.error().message.contains("only one frame does show all 6 markers")) << one.error().message;

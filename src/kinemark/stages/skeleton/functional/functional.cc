@@ -93,6 +93,12 @@ std::string find_joint(const Samples& samples, const internal::JointTask& task,
           fmt::format("distances of the markers from the joint keep to {:.1f} mm", 1e3 * fit->distance_sd_m);
     internal::place_joint(*fit, j, skeleton);
     placed = true;
+    if (fit->complete.size() < fit->markers.size())
+      why = fmt::format(
+          "no two frames show all {} markers; the distances are those of {} markers in {} of the {} frames "
+          "that "
+          "show these, and the others' follow from them",
+          fit->markers.size(), fit->complete.size(), fit->chosen.size(), fit->complete_frames);
     return why;
   }
   const auto fit = internal::fit_joint(samples, task, options, why);

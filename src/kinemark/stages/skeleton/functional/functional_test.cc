@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/skeleton/functional/functional.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,7 +15,10 @@ namespace kinemark::skeleton {
 namespace {
 
 using testing::centre_error;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 using testing::make_chain;
+using ::testing::Not;
 using testing::Rotations;
 
 constexpr FunctionalMethod kAll[] = {FunctionalMethod::score,    FunctionalMethod::sara,
@@ -297,6 +300,20 @@ TEST(Functional, AFrameOrNoneIsASentence) {
     for (const auto state : found->state)
       EXPECT_EQ(state, data::CentreState::undetermined) << to_string(method);
   }
+}
+
+TEST(Functional, TheReportsMethodSaysOnWhichMarkersItRests) {
+  auto chain = testing::make_chain({.frames = 400, .stagger_m = 0.02});
+  const auto whole =
+      find_joints(chain.markers, chain.layout, {.method = FunctionalMethod::constant_distance}).value();
+  EXPECT_THAT(whole.warnings, Not(Contains(HasSubstr("no two frames show all"))));
+  for (std::int64_t f = 0; f < 400; ++f) chain.markers.set_missing(f, f % 10 == 0 ? 0 : 5);
+  const auto part =
+      find_joints(chain.markers, chain.layout, {.method = FunctionalMethod::constant_distance}).value();
+  EXPECT_THAT(
+      part.warnings,
+      Contains(HasSubstr(
+          "no two frames show all 6 markers; the distances are those of 5 markers in 30 of the 360 frames")));
 }
 
 }  // namespace

@@ -360,6 +360,12 @@ SkinSlide measure_skin_slide(const Samples& samples, const SegmentPoses& parent,
   return out;
 }
 
+Matrix6 positive_part(const Matrix6& C) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(C);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
 void widen_by_skin(const Samples& samples, const SegmentPoses& parent, const SegmentPoses& child,
                    const RelativeMotion& motion, JointFit& fit, const SkinPrior& prior) {
   const SkinSlide slide = measure_skin_slide(samples, parent, child, motion, fit, prior);

@@ -74,6 +74,9 @@ struct SkinSlide {
                                            const SegmentPoses& child, const RelativeMotion& motion,
                                            const JointFit& score, const SkinPrior& prior = {});
 
+/// A difference of covariances without what is below nothing.
+[[nodiscard]] Matrix6 positive_part(const Matrix6& C);
+
 /// Gives a least-squares joint the covariance about the bone, the repeatability and the account of skin: the
 /// joint stays where it is, and the way to its expected place counts as error. Nothing where the slides are
 /// not known.

@@ -94,13 +94,6 @@ void widen_lengths(int joint, data::Skeleton& skeleton) {
   }
 }
 
-/// A difference of covariances without what is below nothing.
-Matrix6 positive_part(const Matrix6& C) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(C);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
 /// What a covariance of independent frames lacks where only one of `alike` frames counts; for a hinge across
 /// its axis, along which nothing is known anyway.
 Matrix3d of_fewer_frames(const Matrix3d& C, double alike, const Vector3d& axis) {

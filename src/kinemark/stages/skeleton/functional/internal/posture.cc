@@ -60,6 +60,15 @@ Eigen::MatrixX3d smooth_path(const Eigen::MatrixX3d& q, double step_s, bool& in_
   return out;
 }
 
+/// Frames from one that can be used to the next, as a rule: 4 where a recorder made three of four.
+std::int64_t spacing_of(const std::vector<std::int64_t>& frames) {
+  if (frames.size() < 2) return 1;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    steps.push_back(static_cast<double>(frames[i] - frames[i - 1]));
+  return std::max<std::int64_t>(1, std::llround(math::upper_median(steps)));
+}
+
 /// Frames of a block: 0.2 s, less where a mean over it would take from the movement.
 Eigen::Index block_of(const Eigen::MatrixX3d& z, double step_s) {
   auto length = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::lround(kBlock_s / step_s)));
@@ -150,7 +159,7 @@ Posture posture_of(const SegmentPoses& parent, const SegmentPoses& child, const 
                    const std::vector<std::int64_t>& frames, double rate_hz) {
   Posture out;
   const auto n = static_cast<std::int64_t>(frames.size());
-  const double rate = rate_hz > 0.0 ? rate_hz : 1.0 / kStep_s;
+  const double rate = rate_hz > 0.0 ? rate_hz / static_cast<double>(spacing_of(frames)) : 1.0 / kStep_s;
   const std::int64_t stride = std::max(
       {std::int64_t{1}, std::int64_t{std::lround(kStep_s * rate)}, (n + kMostFrames - 1) / kMostFrames});
   out.step_s = static_cast<double>(stride) / rate;

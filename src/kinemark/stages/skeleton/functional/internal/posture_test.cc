@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <set>
+#include <vector>
 
 #include "kinemark/stages/skeleton/functional/testing/joint_setup.h"
 #include "kinemark/stages/skeleton/functional/testing/swinging_joint.h"
@@ -37,6 +39,19 @@ TEST(Posture, AtMostFiftyFramesASecondAndThreeThousand) {
   const Posture slow = posture_in(testing::JointSetup(chain));
   EXPECT_EQ(slow.frames.size(), 2000U);
   EXPECT_NEAR(slow.step_s, 0.2, 1e-12);
+}
+
+// A recorder that makes three of four frames leaves every fourth.
+TEST(Posture, FramesThatAreLeftOutTakeTheirTime) {
+  auto chain = testing::make_swings({.movements = 40});
+  chain.markers.time.rate_hz = 200.0;
+  const testing::JointSetup setup(chain);
+  std::vector<std::int64_t> measured;
+  for (const auto f : setup.task.motion.frames)
+    if (f % 4 == 0) measured.push_back(f);
+  const Posture posture = posture_of(setup.parent, setup.child, setup.task.motion, measured, 200.0);
+  EXPECT_EQ(posture.frames, measured) << "fifty a second are all there are";
+  EXPECT_NEAR(posture.step_s, 0.02, 1e-12);
 }
 
 TEST(Posture, ComponentsThatHardlyMoveAreDamped) {
