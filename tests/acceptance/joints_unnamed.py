@@ -189,8 +189,9 @@ def simulated():
 
 
 def read_truth(folder):
-    """Joints of a simulated limb by frame."""
-    joints = {joint["name"] for joint in tomllib.loads((folder / "segments.toml").read_text(encoding="utf-8"))["joint"]}
+    """Joints of two segments of a simulated limb by frame."""
+    joints = {joint["name"] for joint in tomllib.loads((folder / "segments.toml").read_text(encoding="utf-8"))["joint"]
+              if joint["parent"] != "ground"}
     out = {}
     with (folder / "truth.csv").open(encoding="utf-8") as lines:
         for line in csv.DictReader(lines):

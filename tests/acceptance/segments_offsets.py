@@ -18,6 +18,7 @@ import tempfile
 from pathlib import Path
 
 import segments_vicon as vicon
+from rows import exit_status
 from segments_vicon import kinemark, read_c3d, read_results, row, turned
 
 BONES = ("FEO", "FEA", "FEL", "FEP", "TIO", "TIA", "TIL", "TIP", "FOO", "FOA", "FOL", "FOP")
@@ -206,7 +207,7 @@ def main():
         folder = Path(scratch)
         for check in (agreement, edited, named, from_static, withheld, diameter, moments):
             check(folder, data)
-    return 1 if vicon.failed else 0
+    return exit_status()
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ SEGMENT_SLIPS = (
     ('name = "s0"', 'name = ""', "segment 1: needs a name"),
     ('name = "s0"', 'nam = "s0"', "segment 1: needs a name"),
     ('name = "s0"', "name = 7", "segment 1: needs a name"),
-    ("[[segment]]", "[[segmnt]]", "'segmnt': only [[segment]] and [[joint]] tables are read"),
+    ("[[segment]]", "[[segmnt]]", "'segmnt': only [[segment]], [[joint]] and [[end]] tables are read"),
     ("[[segment]]", "[segment]", "cannot redefine existing table"),
     ('parent = "s0"', 'parent = "s9"', "joint 1: no segment is called 's9'"),
     ('parent = "s0"', 'paren = "s0"', "joint 1: parent is missing; need text in quotes"),

@@ -62,7 +62,7 @@ struct SegmentLayout {
     std::string name;     ///< unique, also among the joints
     std::string segment;  ///< by its name: segments may be left out
     int marker = -1;      ///< of the segment, where it ends; -1: the point that stays where it is in the room
-    [[nodiscard]] bool stays() const { return marker < 0; }
+    [[nodiscard]] bool stays() const { return marker < 0; }  ///< whether it stays in the room
   };
   std::vector<Segment> segments;  ///< S
   std::vector<Joint> joints;      ///< J
@@ -149,7 +149,7 @@ struct SkeletonEnd {
   Array<double> covariance_in_world;  ///< F x 6 (xx xy xz yy yz zz), m^2; NaN likewise
   Array<CentreState> state;  ///< F: determined by the frame, bridged by its neighbours, or undetermined
 
-  [[nodiscard]] bool stays() const { return marker < 0; }
+  [[nodiscard]] bool stays() const { return marker < 0; }  ///< whether it stays in the room
 };
 
 /// Segments, joints and, frame by frame, the joint centres: F frames, J joints, metres.

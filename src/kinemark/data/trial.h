@@ -53,7 +53,7 @@ struct ForcePlate {
 /// unlike noise it is the same in every frame. Lengths in the axes of the fields; functions:
 /// calibration_error.h.
 struct CalibrationError {
-  static constexpr std::size_t kMostFields = 12;
+  static constexpr std::size_t kMostFields = 12;   ///< that a recording holds
   static constexpr int kTerms = 20;                ///< of a polynomial of degree 3 in x, y, z
   using Field = Eigen::Matrix<double, kTerms, 3>;  ///< displacement in x, y, z by each term, m
 
