@@ -100,13 +100,18 @@ void add_poizner(CLI::App& command, const CommonOptions& common, Run& run) {
       [&common, arguments, &run] { run = [&common, arguments] { return run_poizner(common, *arguments); }; });
 }
 
-int run_macaque(const CommonOptions& common, const StudyArguments& arguments) {
+struct MacaqueArguments : StudyArguments {
+  bool as_published = false;
+};
+
+int run_macaque(const CommonOptions& common, const MacaqueArguments& arguments) {
   return run_study(
       common, arguments,
       [&](const std::vector<std::uint64_t>& seeds) {
         studies::MacaqueJob job;
         job.seeds = seeds;
         job.threads = common.threads;
+        job.as_published = arguments.as_published;
         return studies::study_macaque(job, show_progress(common, "recordings"));
       },
       studies::macaque_page);
@@ -118,8 +123,10 @@ void add_macaque(CLI::App& command, const CommonOptions& common, Run& run) {
   macaque->footer(
       "The column 'classic' is the report's method, or SCoRE where the row says so. Errors of all seeds are\n"
       "pooled. About a minute a seed on one core. Exit status 1 when a row fails.");
-  const auto arguments = std::make_shared<StudyArguments>();
+  const auto arguments = std::make_shared<MacaqueArguments>();
   add_options(*macaque, *arguments, "Recordings of each cell");
+  macaque->add_flag("--as-published", arguments->as_published,
+                    "The report's method alone, by the reading that its numbers need; forty seeds show it");
   macaque->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return run_macaque(common, *arguments); }; });
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -222,9 +223,40 @@ Result<StudyFigure> sleeve_picture(std::uint64_t seed) {
               kPerM * scene.square()))};
 }
 
+// Mean error against the share missing, of less than 1 mm of noise.
+std::string published_curve(const std::vector<PublishedResult>& cells) {
+  SvgPlot plot("Mean error against missing data, less than 1 mm of noise", "missing, %", "mean error, mm");
+  const auto curve = [&](std::vector<double> PublishedResult::* method, const char* name,
+                         const char* colour) {
+    std::vector<double> at, value;
+    for (const auto& cell : cells) {
+      const auto& errors = cell.*method;
+      if (cell.cell.missing == 0.0 || errors.empty()) continue;
+      at.push_back(100.0 * cell.cell.missing);
+      value.push_back(1e3 * std::accumulate(errors.begin(), errors.end(), 0.0) /
+                      static_cast<double>(errors.size()));
+    }
+    const auto n = static_cast<Eigen::Index>(at.size());
+    plot.line(name, colour, Eigen::Map<const Eigen::VectorXd>(at.data(), n),
+              Eigen::Map<const Eigen::VectorXd>(value.data(), n));
+  };
+  curve(&PublishedResult::classic_m, "report's method", kReport);
+  curve(&PublishedResult::ours_m, "ours", kOurs);
+  return plot.svg();
+}
+
 }  // namespace
 
 Result<StudyPage> macaque_page(const MacaqueStudy& study) {
+  if (!study.published.empty())
+    return StudyPage{.title = "Study: the macaque report's elbow, as published",
+                     .heading = "The macaque report's elbow as published",
+                     .description = fmt::format(
+                         "{} recordings of each cell, by the reading that the report's numbers need.",
+                         study.table.seeds.size()),
+                     .classic = "report's method",
+                     .figures = {{"Mean error against missing data", published_curve(study.published)}},
+                     .table = study.table};
   check(!study.table.seeds.empty(), "the page shows the first seed");
   const auto seed = study.table.seeds.front();
   StudyPage page{

@@ -73,6 +73,13 @@ const ElbowResult* MacaqueStudy::find(double noise_mm, double missing, bool stag
 
 Result<MacaqueStudy> study_macaque(const MacaqueJob& job, const Progress& progress) {
   if (job.seeds.empty()) return fail(Code::usage, "the study needs one seed or more");
+  if (job.as_published) {
+    auto published = study_published(job.seeds, job.threads, progress);
+    if (!published) return std::unexpected(published.error());
+    MacaqueStudy out{.published = std::move(*published)};
+    out.table = {job.seeds, published_rows(out.published)};
+    return out;
+  }
   const auto elbow = elbow_cells(job);
   const auto sleeve = sleeve_cells(job);
   const std::size_t seeds = job.seeds.size(), elbows = elbow.size() * seeds;

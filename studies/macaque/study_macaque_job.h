@@ -10,12 +10,15 @@
 #include "studies/common/study_page.h"
 #include "studies/common/study_table.h"
 #include "studies/macaque/elbow_study.h"
+#include "studies/macaque/published_elbow.h"
 
 namespace kinemark::studies {
 
 /// What `kinemark study macaque` is asked to do.
 struct MacaqueJob {
   std::vector<std::uint64_t> seeds{1};  ///< one recording a cell each
+  bool as_published =
+      false;  ///< the report's own method by the reading that its numbers need, and nothing else
   std::vector<double> noise_mm{0.5, 1.0, 2.0, 3.0, 5.0};
   std::vector<double> missing{0.0, 0.2, 0.4, 0.6};
   std::int64_t frames = 400;                                ///< of the report's arm
@@ -42,7 +45,8 @@ struct MacaqueStudy {
   /// Noise (none for the report's method alone, and as asked) x missing x collinear and staggered by 20 mm x
   /// uniform and pose-correlated losses.
   std::vector<ElbowResult> elbow;
-  std::vector<SleeveResult> sleeve;  ///< noise x line of sight as usual and hard
+  std::vector<SleeveResult> sleeve;        ///< noise x line of sight as usual and hard
+  std::vector<PublishedResult> published;  ///< where it was asked for
   StudyTable table;
 
   /// The cell, or null when it was not asked for.

@@ -75,6 +75,15 @@ class Poizner(CommandTest):
         self.assertLess(best["ours"], 0.3 * best["classic"])
         self.assertIn("Errors of the tree's distances over the room", (self.folder / "b.html").read_text())
 
+    def test_the_macaque_reports_numbers_come_out_as_published(self):
+        ran = self.good("study", "macaque", "--as-published", "--seeds", "1-6", "--json", "--figures", "m.html")
+        rows = {row["quantity"]: row for row in json.loads(ran.out)["rows"]}
+        noisy = rows["2 mm noise, 0 % missing: mean error of the elbow, mean of recordings"]
+        self.assertEqual(noisy["paper"], 30)
+        self.assertLess(abs(noisy["classic"] - 30), 10)
+        self.assertLess(noisy["ours"], 3)
+        self.assertIn("Mean error against missing data", (self.folder / "m.html").read_text())
+
     def test_a_rig_that_misses_bounds_is_shown_whole_and_says_which(self):
         ran = run("study", "poizner", "--seeds", "0", "--json", cwd=self.folder)
         table = json.loads(ran.out)

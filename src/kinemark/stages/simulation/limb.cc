@@ -27,7 +27,8 @@ Eigen::Matrix3Xd marker_positions(const ChainOptions& options, double length_m) 
   const int n = options.markers_per_segment;
   Eigen::Matrix3Xd out(3, n);
   for (int k = 0; k < n; ++k) {
-    const double along = length_m * (k + 1) / (n + 1), angle = 2.0 * std::numbers::pi * k / n;
+    const double along = length_m * (k + 1) / (options.last_at_end ? n : n + 1),
+                 angle = 2.0 * std::numbers::pi * k / n;
     out.col(k) = options.planar ? Vector3d(k % 2 == 0 ? options.stagger_m : -options.stagger_m, 0.0, along)
                                 : Vector3d(options.stagger_m * std::cos(angle),
                                            options.stagger_m * std::sin(angle), along);

@@ -35,7 +35,8 @@ struct ChainOptions {
   double rate_hz = 60.0;                        ///< > 0; of the time base alone
   std::vector<double> lengths_m{0.150, 0.160};  ///< 2 segments or more, > 0
   int markers_per_segment = 3;                  ///< at even steps: length k / (n + 1)
-  double stagger_m = 0.0;                       ///< distance of the markers from the bone's axis, >= 0
+  bool last_at_end = false;   ///< at length k / n instead: the last one lies at the segment's end
+  double stagger_m = 0.0;     ///< distance of the markers from the bone's axis, >= 0
   bool planar = false;        ///< staggered to both sides in one plane, not all around the bone
   double noise_sd_m = 0.001;  ///< per axis, >= 0
   double missing = 0.0;       ///< 0 to 0.95, share of samples lost, each on its own

@@ -105,6 +105,16 @@ TEST(SimulateChain, NoiseAndLossesAreAsAsked) {
   EXPECT_NEAR(std::sqrt(squares / (3.0 * seen)), 0.002, 5e-5);
 }
 
+TEST(SimulateChain, MarkersMayGoUpToTheEnd) {
+  ChainOptions options;
+  options.last_at_end = true;
+  const auto thirds = simulate_chain(options).value();
+  EXPECT_NEAR(thirds.x_in_segment[0](2, 0), 0.05, 1e-12);
+  EXPECT_NEAR(thirds.x_in_segment[0](2, 2), 0.15, 1e-12);
+  options.last_at_end = false;
+  EXPECT_NEAR(simulate_chain(options).value().x_in_segment[0](2, 2), 0.1125, 1e-12);
+}
+
 TEST(SimulateChain, LossesMayGoWithThePose) {
   ChainOptions options;
   options.frames = 4000;
