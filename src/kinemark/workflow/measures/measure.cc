@@ -11,6 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/stages/analysis/path/path_measures.h"
 #include "kinemark/stages/trajectory/edits/part_of_trial.h"
 #include "kinemark/workflow/measures/regions.h"
@@ -158,6 +159,10 @@ Status measure_all(const AskedMeasures& asked, const data::Recording& recording,
   if (!measured) return std::unexpected(measured.error());
   if (measured->measures.empty() && found.measures.empty())
     return fail(Code::bad_input, fmt::format("nothing can be measured: {}", why_nothing(*measured)));
+  if (trial.calibration_error.known() && of_paths.refits > 0)
+    found.remarks.warnings.push_back(
+        fmt::format("Intervals hold what the calibration leaves unknown of all positions: {:.2g} mm (RMS)",
+                    1e3 * data::rms_of(trial.calibration_error, trial.markers)));
   found.curves = std::move(measured->curves);
   found.rhythms = std::move(measured->rhythms);
   found.noises = std::move(measured->noises);

@@ -53,6 +53,26 @@ TEST(Measure, APathInMemoryHasItsMeasuresWithIntervals) {
   EXPECT_EQ(recording.trial.markers.x(5, 0), found.recording.trial.markers.x(5, 0));
 }
 
+TEST(Measure, WhatTheCalibrationLeavesUnknownIsSaidAndHeld) {
+  auto recording = circle();
+  MeasureOptions options;
+  options.measures = {"circle_diameter"};
+  const auto without = measure(recording, options).value();
+  auto& error = recording.trial.calibration_error;
+  error = {
+      .middle_in_world = {0.0, 0.0, 1.0}, .scale_m = 1.0, .fields = {data::CalibrationError::Field::Zero()}};
+  error.fields[0](0, 2) = 4e-4;  // up and down alike, which moves no diameter
+  const auto with = measure(recording, options).value();
+  EXPECT_THAT(with.remarks.warnings,
+              Contains("Intervals hold what the calibration leaves unknown of all positions: 0.4 mm (RMS)"));
+  EXPECT_THAT(
+      without.remarks.warnings,
+      Not(Contains(HasSubstr("Intervals hold what the calibration leaves unknown of all positions:"))));
+  options.refits = 0;
+  EXPECT_THAT(measure(recording, options).value().remarks.warnings,
+              Not(Contains(HasSubstr("Intervals hold what the calibration leaves unknown"))));
+}
+
 TEST(Measure, RegionsAreThoseOfTheEditsAndOfTheOptions) {
   auto recording = circle();
   recording.edits.regions = {{.name = "first", .first_frame = 0, .last_frame = 99}};
