@@ -77,7 +77,8 @@ TEST(SimulateLimb, SaysWhichMarkersRideWhere) {
             "# kinemark_set=" + set_in(scratch / "segments.toml") +
                 "\n[[segment]]\nname = \"upper_arm\"\nmarkers = [\"u0\", \"u1\"]\n\n"
                 "[[segment]]\nname = \"forearm\"\nmarkers = [\"f0\", \"f1\"]\n\n"
-                "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n");
+                "[[joint]]\nname = \"elbow\"\nparent = \"upper_arm\"\nchild = \"forearm\"\n\n"
+                "[[joint]]\nname = \"shoulder\"\nparent = \"ground\"\nchild = \"upper_arm\"\n");
   const data::SegmentLayout odd{{{"a\"b", {0}}}, {}};
   EXPECT_THAT(segment_layout_toml(odd, {"c\\d"}), HasSubstr("name = \"a\\\"b\"\nmarkers = [\"c\\\\d\"]"));
 }

@@ -246,8 +246,7 @@ Status solve_plausibly(const JointsOptions& options, const data::Trajectories& m
     if (!found) {
       if (found.error().code != Code::bad_input) return std::unexpected(found.error());
       if (first) first = std::unexpected(with_left_out(outcome, found.error()));
-      outcome.remarks.warnings.push_back(
-          fmt::format("Nothing can be said of {}: {}.", names_of(layout), found.error().message));
+      outcome.remarks.warnings.push_back(fmt::format("{}: {}.", names_of(layout), found.error().message));
       continue;
     }
     const auto bad = skeleton::judge_skeleton(markers, *found);
