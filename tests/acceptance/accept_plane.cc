@@ -109,6 +109,7 @@ std::array<Judged, 3> judge(bool circle, std::uint64_t seed) {
   const auto& any = measured->measures.front();
   const auto path = part_of(around.path, any.start_s, any.end_s);
   const analysis::PathFrame frame = analysis::recognise(path);
+  for (auto& one : out) one.turns = frame.turning.turns;  // as far as it went at an uneven pace
   const analysis::PathFacts truth(path, frame);
   const auto study = studies::measure_wheel(path.x.transpose(), around.ratio);
   const std::array<double, 3> by_study{study.spread_ratio, study.width_ratio, study.ellipse_ratio};
