@@ -29,8 +29,9 @@ struct PlaneView {
 
 [[nodiscard]] PlaneView best_fit_plane(const Eigen::Matrix3Xd& points);
 
-/// Each point's diameter is its distance to the farthest other point. Plane, axes and circle are those that
-/// `kinemark measure` takes. At least four points. O(points^2).
+/// Each point's diameter is its distance to the farthest other point. Ratios of the axes and the circle are
+/// those that `kinemark measure` takes; the plane's scatter is over the points less three. At least four
+/// points. O(points^2).
 [[nodiscard]] WheelMeasures measure_wheel(const Eigen::Matrix3Xd& points, double true_diameter_m);
 
 }  // namespace kinemark::studies

@@ -14,7 +14,14 @@
 namespace kinemark::analysis {
 
 /// Of which movements a measure is told unless it is asked for by name.
-enum class Applies : std::uint8_t { always, periodic, closed, round, whole, discrete };
+enum class Applies : std::uint8_t {
+  always,
+  periodic,
+  closed,
+  round,  ///< closed, or goes around by more than half a turn
+  whole,  ///< closed, or goes around by a turn or more
+  discrete
+};
 
 /// How value and interval follow from refits of simulated noise (docs/theory/measures.md).
 enum class Pivot : std::uint8_t {
