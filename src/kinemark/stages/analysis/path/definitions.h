@@ -18,7 +18,7 @@ enum class Applies : std::uint8_t {
   always,
   periodic,
   closed,
-  round,  ///< closed, or goes around by more than half a turn
+  round,  ///< closed, or goes around by 0.6 turns or more
   whole,  ///< closed, or goes around by a turn or more
   discrete
 };

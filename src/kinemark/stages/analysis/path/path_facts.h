@@ -22,7 +22,7 @@ struct PathFrame {
   bool periodic = false;  ///< it repeats: see recognise()
   bool discrete = false;  ///< it begins and ends at rest
   bool closed = false;    ///< periodic, and comes back to where it was: not a walk
-  bool round = false;     ///< it goes around one way by more than half a turn: along an ellipse, or closed
+  bool round = false;     ///< it goes around one way by 0.6 turns or more: along an ellipse, or closed
   bool whole = false;     ///< closed, or round by a whole turn or more
   bool steady = false;    ///< hardly_changes() of its speed
   Turning turning;        ///< about the centre of an ellipse
