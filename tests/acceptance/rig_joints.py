@@ -32,7 +32,7 @@ def table(path):
 
 
 def trc(path):
-    """Names, times and places (m) of a TRC."""
+    """Names, times and positions (m) of a TRC."""
     lines = path.read_text().splitlines()
     names = [name for name in lines[3].split("\t")[2:] if name.strip()]
     rows = numpy.array([[float(cell) for cell in line.split("\t") if cell.strip()] for line in lines[5:] if line.strip()])
@@ -40,7 +40,7 @@ def trc(path):
 
 
 def true_from_calibrated(folder):
-    """Rotation and shift that bring places of the calibrated rig to those of the true one."""
+    """Rotation and shift that bring points of the calibrated rig to those of the true one."""
     clouds = []
     for rig in ("rig", "rig_true"):
         output("reconstruct", folder / "tree_poses.mcap", "--rig", folder / f"{rig}.toml", "--method", "frames", "-o", folder / f"tree_{rig}.csv", "--quiet")
@@ -54,9 +54,9 @@ def true_from_calibrated(folder):
 
 def truth(arm, rig):
     """Joint centres (functions of time) in the room of the calibrated rig."""
-    names, _, places = trc(arm / "markers.trc")
-    rig_names, _, rig_places = trc(rig / "truth.trc")
-    shift = rig_places[0, rig_names.index(names[0])] - places[0, 0]
+    names, _, positions = trc(arm / "markers.trc")
+    rig_names, _, rig_positions = trc(rig / "truth.trc")
+    shift = rig_positions[0, rig_names.index(names[0])] - positions[0, 0]
     turn, moved = true_from_calibrated(rig)
     out = {}
     for joint in ("elbow", "shoulder"):

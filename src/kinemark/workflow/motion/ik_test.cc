@@ -56,9 +56,12 @@ TEST(Ik, WhatTheCalibrationLeavesUnknownWidensEveryEstimator) {
     error.fields = {data::CalibrationError::Field::Zero()};
     error.fields[0](0, 0) = 2e-3;  // the whole room alike, which moves the root alone
     const auto with = ik(recorded.model, recording, {.estimator = estimator}).value();
-    const char* said = "Deviations of coordinates hold what the calibration leaves unknown of all positions:";
-    EXPECT_THAT(with.remarks.warnings, Contains(HasSubstr(said)));
-    EXPECT_THAT(without.remarks.warnings, Not(Contains(HasSubstr(said))));
+    EXPECT_THAT(with.remarks.warnings,
+                Contains(HasSubstr("hold what the calibration leaves unknown of all positions: 2 mm (RMS)")));
+    EXPECT_THAT(
+        without.remarks.warnings,
+        Not(Contains(HasSubstr("Deviations of coordinates hold what the calibration leaves unknown of all "
+                               "positions:"))));
     const auto &a = without.result.motion, &b = with.result.motion;
     const auto forward = a.index(30, a.find("pelvis_tx")), knee = a.index(30, a.find("knee_angle_r"));
     EXPECT_NEAR(b.q_sd[forward], std::hypot(a.q_sd[forward], 2e-3), 1e-6);
