@@ -79,6 +79,7 @@ Status prepare_recording(const RecordingSource& source, const RecordingOptions& 
                          Recording& recording) {
   if (auto s = apply_journal(recording.journal, source.seed, source.threads, recording); !s) return s;
   const workflow::PrepareOptions asked{
+      .one_time = source.one_time,
       .selection = options.selection,
       .axes = source.turns ? options.axes : workflow::AxesChoice{},
       .facts = source.facts,

@@ -62,6 +62,7 @@ struct RecordingSource {
   double contact_force_n = 0.0;             ///< below which a plate is empty (io::PlateOptions); 0: never
   std::filesystem::path forces = {};        ///< file that holds them instead; empty: its own plates
   workflow::HeldFacts facts = {};           ///< what the job rests on
+  bool one_time = false;                    ///< the job needs the markers of a frame at one time
   bool turns = true;                        ///< false: the job itself turns it, into the axes of a model
   bool force = false;                       ///< apply edits of another recording too
   std::uint64_t seed = 1;                   ///< of fills among the edits

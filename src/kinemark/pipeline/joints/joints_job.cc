@@ -138,6 +138,7 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   centres.source = recording->trial.source;
   centres.first_frame = recording->trial.first_frame;
   centres.markers = workflow::centre_trajectories(outcome.skeleton);
+  centres.calibration_error = recording->trial.calibration_error;
   if (const auto up = workflow::stated_vertical(job.axes)) workflow::set_screen_up(centres, up->up);
   const Eigen::Vector3d up = workflow::screen_up(centres).value_or(
       workflow::screen_up(recording->trial).value_or(Eigen::Vector3d(Eigen::Vector3d::UnitZ())));

@@ -75,6 +75,7 @@ Result<MotionInputs> read_inputs(const MotionJob& job) {
                                    .plates = !job.forces.empty(),
                                    .contact_force_n = motion::DynamicsOptions{}.contact_force_n,
                                    .forces = job.forces,
+                                   .one_time = true,
                                    .turns = false,
                                    .force = job.force,
                                    .seed = job.seed,

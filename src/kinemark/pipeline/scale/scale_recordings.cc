@@ -45,6 +45,7 @@ Result<Recording> open_scale_recording(const ScaleJob& job, std::size_t count, c
                                .rate = count > 1 ? io::RateRule::where_needed : io::RateRule::given,
                                .record = !job.joints.empty(),
                                .facts = {.sides = moves, .pairs = moves},
+                               .one_time = true,
                                .turns = false,
                                .force = job.force,
                                .seed = job.seed,

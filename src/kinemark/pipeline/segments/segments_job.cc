@@ -62,6 +62,7 @@ Result<Recording> read_one(const SegmentsJob& job, const fs::path& path, const R
                               .plates = path == job.input,
                               .forces = path == job.input ? job.forces : fs::path{},
                               .facts = {.sides = !judged, .pairs = false},
+                              .one_time = true,
                               .force = job.force,
                               .seed = job.seed,
                               .threads = job.threads},

@@ -11,6 +11,7 @@
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
 #include "kinemark/data/trajectories.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/model/model.h"
 #include "kinemark/stages/motion/ik_options.h"
 
@@ -49,6 +50,15 @@ struct CommonOffset {
 [[nodiscard]] Result<CommonOffset> find_common_offset(const model::Model& model,
                                                       const data::Trajectories& markers,
                                                       const IkOptions& options = {});
+
+/// Adds to q_sd of a motion of these markers what a calibration leaves unknown of all positions alike: each
+/// of its fields displaces the markers, and the coordinates by the least squares of `options`, to first order
+/// (a frame's markers, their weights, its tasks and loops; limits do not count). The residuals that q_sd
+/// comes from show hardly anything of it. What becomes wider than a linear error bar is valid is no longer
+/// determined. Nothing is done where the calibration is not known. Fails as solve_ik() does.
+[[nodiscard]] Status add_calibration_error(const model::Model& model, const data::Trajectories& markers,
+                                           const data::CalibrationError& error, const IkOptions& options,
+                                           data::JointMotion& motion);
 
 /// The cost of given coordinates (F x n, rows are the frames of `markers` in the time range), for comparing
 /// solvers.

@@ -19,6 +19,7 @@
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 #include "kinemark/stages/skeleton/articulated/ends.h"
 #include "kinemark/stages/skeleton/functional/slip.h"
+#include "kinemark/workflow/joints/internal/calibration_part.h"
 #include "kinemark/workflow/joints/internal/joints_layout.h"
 #include "kinemark/workflow/joints/internal/joints_segmentation.h"
 #include "kinemark/workflow/prepare/contradictions.h"
@@ -314,6 +315,8 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
   if (auto note = data::note_on_noise(trial.markers); !note.empty() && options.noise_sd_m == 0.0)
     found.remarks.warnings.push_back(std::move(note));
   if (auto s = screen_trial(options, recording.edits, trial, found); !s) return std::unexpected(s.error());
+  if (auto note = bring_to_one_time(trial.markers); !note.empty())
+    found.remarks.warnings.push_back(std::move(note));
   found.used = std::move(trial.markers);
   if (auto s = lay_out(options, found.used, found); !s) return std::unexpected(s.error());
   if (auto s = solve(options, found.used, found); !s) return std::unexpected(s.error());
@@ -325,6 +328,12 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
              found.skeleton.ends.end();
     });
   }
+  if (const double off_m = internal::add_calibration_error(recording.trial.calibration_error, found.skeleton);
+      off_m > 0.0)
+    found.remarks.warnings.push_back(
+        fmt::format("Deviations of centres and lengths hold what the calibration leaves unknown of all "
+                    "positions: {:.2g} mm (RMS)",
+                    1e3 * off_m));
   judge(options, found);
   add_contradictions(recording.contradicted, found.remarks.gates);
   return found;

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/smoother/camera_observations.h"
@@ -154,6 +155,10 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
                                            : estimate_with_sensors(model, markers, options, found.sensors);
   if (!result) return std::unexpected(result.error());
   found.result = std::move(*result);
+  const auto& calibration = recording.trial.calibration_error;
+  if (auto s = motion::add_calibration_error(model, markers, calibration, options.ik, found.result.motion);
+      !s)
+    return std::unexpected(s.error());
   if (options.torques)
     if (auto s = find_torques(model, recording, options, errors, found); !s)
       return std::unexpected(s.error());
@@ -162,6 +167,11 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   found.used = solved_markers(markers, fit, motion);
   auto& [warnings, gates] = found.remarks;
   warnings = fit.warnings;
+  if (calibration.known() && options.ik.error_bars)
+    warnings.push_back(
+        fmt::format("Deviations of coordinates hold what the calibration leaves unknown of all positions: "
+                    "{:.2g} mm (RMS)",
+                    1e3 * data::rms_of(calibration, markers)));
   std::ranges::move(data::describe_all(fit.findings, motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(gates, options, model, markers, found.result);

@@ -46,6 +46,29 @@ TEST(Ik, TheSmootherBeatsLeastSquaresOnASmoothMotion) {
             0.8 * rms_error(plain.motion, recorded.subject.truth));
 }
 
+TEST(Ik, WhatTheCalibrationLeavesUnknownWidensEveryEstimator) {
+  const Recorded recorded;
+  auto recording = as_recording(recorded);
+  auto& error = recording.trial.calibration_error;
+  for (const auto estimator : {Estimator::least_squares, Estimator::smoother}) {
+    error.fields.clear();
+    const auto without = ik(recorded.model, recording, {.estimator = estimator}).value();
+    error.fields = {data::CalibrationError::Field::Zero()};
+    error.fields[0](0, 0) = 2e-3;  // the whole room alike, which moves the root alone
+    const auto with = ik(recorded.model, recording, {.estimator = estimator}).value();
+    EXPECT_THAT(with.remarks.warnings,
+                Contains(HasSubstr("hold what the calibration leaves unknown of all positions: 2 mm (RMS)")));
+    EXPECT_THAT(
+        without.remarks.warnings,
+        Not(Contains(HasSubstr("Deviations of coordinates hold what the calibration leaves unknown of all "
+                               "positions:"))));
+    const auto &a = without.result.motion, &b = with.result.motion;
+    const auto forward = a.index(30, a.find("pelvis_tx")), knee = a.index(30, a.find("knee_angle_r"));
+    EXPECT_NEAR(b.q_sd[forward], std::hypot(a.q_sd[forward], 2e-3), 1e-6);
+    EXPECT_NEAR(b.q_sd[knee], a.q_sd[knee], 1e-6);
+  }
+}
+
 TEST(Ik, TorquesComeWithEitherEstimator) {
   const Recorded recorded;
   for (const auto estimator : {Estimator::least_squares, Estimator::smoother}) {

@@ -102,4 +102,12 @@ struct Screening {
                                        const std::vector<std::pair<std::string, std::string>>& swapped,
                                        std::vector<std::string>& warnings);
 
+/// The markers of each frame at its own time, where they were measured one after another
+/// (Trajectories::sample_offset_s, as of LEDs that shine in turns): a body's markers have one pose only at
+/// one time. Each sample becomes the cubic through the two before that time and the two behind it, with the
+/// covariance of these; a sample without another beside it becomes missing. Markers that have the same
+/// instant in each frame stay as they are. O(samples).
+/// @return one sentence on what was done; empty where nothing was
+[[nodiscard]] std::string bring_to_one_time(data::Trajectories& markers);
+
 }  // namespace kinemark::workflow

@@ -12,6 +12,7 @@
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/trajectory/edits/apply_edits.h"
 #include "kinemark/workflow/prepare/contradictions.h"
+#include "kinemark/workflow/prepare/marker_screening.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 #include "kinemark/workflow/prepare/turn.h"
 
@@ -62,6 +63,9 @@ Status PrepareOptions::check() const {
 Result<data::Recording> prepare(data::Recording recording, const PrepareOptions& options) {
   if (auto s = options.check(); !s) return std::unexpected(s.error());
   if (auto s = take_edits(options, recording); !s) return std::unexpected(s.error());
+  if (options.one_time)
+    if (auto note = bring_to_one_time(recording.trial.markers); !note.empty())
+      recording.notes.push_back(std::move(note));
   if (auto s = take_selection(options.selection, recording.trial); !s) return std::unexpected(s.error());
   // Forces stand on the frames that are left.
   const auto& time = recording.trial.markers.time;

@@ -32,6 +32,7 @@ struct HeldFacts {
 /// What is done to a recording before anything is computed from it, in this order.
 struct PrepareOptions {
   std::vector<data::Edit> edits = {};  ///< operations of a person, undo and redo among them
+  bool one_time = false;               ///< then the markers of each frame at one time
   Selection selection = {};            ///< then markers, names, frames
   AxesChoice axes = {};                ///< then which way is up, or a rotation
   HeldFacts facts = {};                ///< of what is left

@@ -12,6 +12,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
+#include "kinemark/data/filtering.h"
 #include "kinemark/math/symmetric3.h"
 #include "kinemark/stages/skeleton/articulated/chain/joint_tree.h"
 #include "kinemark/stages/skeleton/articulated/geometry/fit_chain.h"
@@ -37,6 +38,26 @@ constexpr double kRobustDof =
 constexpr double kMm = 1e3;
 constexpr std::size_t kSegmentsNamed = 8;
 
+/// The noise of filtered markers follows itself in time: frames nearer to each other than a filter lets
+/// through say the same twice.
+struct NoiseInTime {
+  bool filtered = false;
+  std::int64_t frames = 0;  ///< of the recording whose noise is independent
+};
+
+NoiseInTime noise_in_time(const data::Trajectories& markers) {
+  NoiseInTime out{.frames = markers.frames()};
+  for (std::int64_t m = 0; m < markers.markers(); ++m) {
+    if (!data::was_filtered(markers, m)) continue;
+    out.filtered = true;
+    const double apart = markers.time.rate_hz / (2.0 * markers.filters[at(m)].cutoff_hz);
+    if (apart > 1.0)
+      out.frames = std::min(
+          out.frames, static_cast<std::int64_t>(std::ceil(static_cast<double>(markers.frames()) / apart)));
+  }
+  return out;
+}
+
 /// Everything that is known on the direction, in the chain's order of segments and joints.
 struct Work {
   const data::Trajectories& markers;
@@ -47,6 +68,7 @@ struct Work {
   FittedChain fit;
   articulated::RecordingPass pass;
   articulated::Continuity continuity;
+  NoiseInTime noise;
 };
 
 Status check_input(const data::Trajectories& markers, const data::SegmentLayout& layout,
@@ -70,7 +92,7 @@ ChainFitOptions fit_options(const Work& w) {
   ChainFitOptions out;
   out.noise_sd_m = w.options.noise_sd_m;
   out.robust_dof = w.options.robust ? kRobustDof : 0.0;
-  out.frames_max = w.options.max_fit_frames;
+  out.frames_max = static_cast<int>(std::min<std::int64_t>(w.options.max_fit_frames, w.noise.frames));
   out.marker_noise = w.options.soft_tissue;
   out.most_noise_m = w.options.most_noise_m;
   out.most_reach_m = w.options.most_reach_m;
@@ -207,7 +229,7 @@ void write_centres(const Work& w, int j, data::Skeleton& skeleton, JointSummary&
     Matrix3d C = state == CentreState::undetermined
                      ? Matrix3d::Zero()
                      : articulated::load_symmetric(w.pass.covariance[at(j)].data() + 6 * k);
-    if (!path.position.empty() && path.known(k)) {
+    if (!path.position.empty() && path.known(k) && !(alone && w.noise.filtered)) {
       const Matrix3d own = path.covariance_at(k);
       if (alone || own.trace() < widest) {
         state = alone ? CentreState::determined : CentreState::bridged;
@@ -387,6 +409,7 @@ Result<ArticulatedFit> fit_articulated(const data::Trajectories& markers, const 
   if (auto s = check_input(markers, layout, options); !s) return std::unexpected(s.error());
   Work w{.markers = markers, .layout = layout, .options = options, .tree = articulated::JointTree(layout)};
   w.input = articulated::arrange(markers, layout, w.tree);
+  w.noise = noise_in_time(markers);
   auto fit = fit_chain(w.input.samples, w.input.layout, fit_options(w), progress);
   if (!fit) return std::unexpected(fit.error());
   w.fit = std::move(*fit);

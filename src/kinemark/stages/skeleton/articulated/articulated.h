@@ -66,7 +66,10 @@ struct ArticulatedFit {
 /// neighbours decides or fills in, else `ambiguous` (best of several positions, with that position's own
 /// covariance) or `undetermined` (NaN). With continuity the centres of determined frames are smoothed as
 /// well; the result is then better than each frame's own, by as much as the movement is slow. Where frames do
-/// not follow each other (their innovations say so) nothing is smoothed and a warning says it.
+/// not follow each other (their innovations say so) nothing is smoothed and a warning says it. The noise of
+/// markers that went through a filter (Trajectories::filters) follows itself, and smoothing once more takes
+/// nothing of it: their determined frames keep their own centre, and the geometry rests on no more frames
+/// than the filter lets differ.
 ///
 /// Fails with one sentence where the geometry cannot be known at all: no frame that shows two segments, fewer
 /// than two markers on a segment, a joint that never moves. What the recording shows about each joint is in
