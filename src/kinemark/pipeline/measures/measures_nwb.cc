@@ -232,7 +232,8 @@ std::vector<io::NwbTable> measure_tables(const std::vector<NamedMeasures>& recor
 }
 
 ResultFile nwb_file(std::filesystem::path target, std::vector<NamedMeasures> recordings,
-                    const std::vector<data::InputFile>& inputs, const JobSettings& settings) {
+                    const std::vector<data::InputFile>& inputs, const JobSettings& settings,
+                    data::Beside beside) {
   io::NwbMetadata metadata{.session_description = "measures of movement"};
   std::set<std::string> participants;
   for (const auto& recording : recordings) participants.insert(recording.name.participant);
@@ -242,11 +243,11 @@ ResultFile nwb_file(std::filesystem::path target, std::vector<NamedMeasures> rec
   metadata.seed = settings.seed;
   for (const auto& input : inputs) metadata.sources.push_back({input.path, input.bytes, input.hash});
   return {.target = std::move(target),
-          .write = [recordings = std::move(recordings), metadata](const std::filesystem::path& staged,
-                                                                  const std::string& set) -> Status {
+          .write = [recordings = std::move(recordings), metadata, beside = std::move(beside)](
+                       const std::filesystem::path& staged, const std::string& set) -> Status {
             auto named = metadata;
             named.set = set;
-            return io::write_nwb_tables(staged, measure_tables(recordings), named, false);
+            return io::write_nwb_tables(staged, measure_tables(recordings), named, false, &beside);
           }};
 }
 

@@ -28,7 +28,10 @@ struct NamedMeasures {
 [[nodiscard]] std::vector<io::NwbTable> measure_tables(const std::vector<NamedMeasures>& recordings);
 
 /// The file of these tables, with what it was made of and how.
+/// @param beside  of the one recording that is measured: the tables go into a copy of its file. Of no file: they
+///                are alone
 [[nodiscard]] ResultFile nwb_file(std::filesystem::path target, std::vector<NamedMeasures> recordings,
-                                  const std::vector<data::InputFile>& inputs, const JobSettings& settings);
+                                  const std::vector<data::InputFile>& inputs, const JobSettings& settings,
+                                  data::Beside beside = {});
 
 }  // namespace kinemark::pipeline
