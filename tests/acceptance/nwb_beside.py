@@ -102,7 +102,7 @@ def by_h5py(path, random, **options):
         position = typed(module, "Position", "Position")
         for k in range(3):
             series = typed(position, f"hand{k}", "SpatialSeries")
-            data = series.create_dataset("data", data=reach(random, k, 400).astype(">f8"), chunks=(64, 3), maxshape=(None, 3), compression="lzf", shuffle=True)
+            data = series.create_dataset("data", data=reach(random, k, 400).astype(">f8"), chunks=(64, 3), maxshape=(None, 3), compression="gzip", shuffle=True)
             attributes(data, unit="meters", conversion=1.0)
             series["starting_time"] = 2.0
             series["starting_time"].attrs["rate"] = 100.0
@@ -133,6 +133,7 @@ def by_h5py(path, random, **options):
         other.create_dataset("nothing", data=h5py.Empty("f4"))
         other.create_dataset("filled", shape=(1000, 1000), chunks=(100, 100), dtype="f4", fillvalue=7.0)
         other["filled"][5, 5] = 1.0
+        other.create_dataset("of a filter of its own", data=random.integers(0, 9, 5000), chunks=(512,), compression="lzf")
         other["complex"] = numpy.array([1 + 2j, 3 - 1j])
         other["cube"] = random.normal(size=(3, 4, 5)).astype("f2")
         other["named type"] = numpy.dtype("i8")
@@ -383,7 +384,9 @@ def main():
         reaching, by_hand, late = folder / "reach.nwb", folder / "hand.nwb", folder / "late.nwb"
         by_pynwb(reaching, random)
         by_h5py(by_hand, random)
-        by_h5py(late, random, libver="latest", userblock_size=1024)
+        by_h5py(late, random, libver=("v110", "v110"), userblock_size=1024)
+        with h5py.File(late, "a", libver="latest") as f:  # of a type that an older HDF5 does not know
+            f.create_dataset("my lab/tomorrow", data=numpy.arange(3000), chunks=(300,), compression="gzip")
         walk = walk_of_ours(folder, random, seed)
         model = folder / "subject" / "model.osim"
         for name, source in (("pynwb", reaching), ("h5py", by_hand), ("h5py, latest", late), ("walk", walk)):

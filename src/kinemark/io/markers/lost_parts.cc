@@ -165,9 +165,10 @@ std::string lost_beside(std::string_view extension, const data::Beside& beside) 
     names += fmt::format("{}{}", i == 0 ? "" : ", ", lost[i]);
   if (lost.size() > kNamed) names += fmt::format(" and {} more", lost.size() - kNamed);
   return kept ? fmt::format("not carried on: {}", names)
-              : fmt::format("not carried on: what its file holds besides movement ({}); only an .nwb file keeps "
-                            "it, and info lists it",
-                            names);
+              : fmt::format(
+                    "not carried on: what its file holds besides movement ({}); only an .nwb file keeps "
+                    "it, and info lists it",
+                    names);
 }
 
 std::string marker_format_table() {

@@ -18,8 +18,8 @@ namespace kinemark::io {
 /// each; empty when nothing is lost.
 [[nodiscard]] std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& trial);
 
-/// What a file of that ending ("" or any) does not keep of what lies besides movement, in one sentence; empty:
-/// nothing is lost.
+/// What a file of that ending ("" or any) does not keep of what lies besides movement, in one sentence;
+/// empty: nothing is lost.
 [[nodiscard]] std::string lost_beside(std::string_view extension, const data::Beside& beside);
 
 /// The table of formats as Markdown: a row for each, what it is read or written as, a column for each part.

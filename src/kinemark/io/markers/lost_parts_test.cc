@@ -150,10 +150,12 @@ TEST(LostParts, WhatLiesBesideMovementIsNamedOnce) {
   EXPECT_EQ(lost_beside(".csv", trial.beside), "");
   trial.beside = {.file = "a.nwb",
                   .room = "/processing/behavior",
-                  .objects = {{.path = "/units", .type = "Units"}, {.path = "/intervals/trials", .type = "TimeIntervals"}}};
-  EXPECT_THAT(lost_in(*written_format(".c3d"), trial),
-              ElementsAre("not carried on: what its file holds besides movement (/units, /intervals/trials); only an "
-                          ".nwb file keeps it, and info lists it"));
+                  .objects = {{.path = "/units", .type = "Units"},
+                              {.path = "/intervals/trials", .type = "TimeIntervals"}}};
+  EXPECT_THAT(
+      lost_in(*written_format(".c3d"), trial),
+      ElementsAre("not carried on: what its file holds besides movement (/units, /intervals/trials); only "
+                  "an .nwb file keeps it, and info lists it"));
   EXPECT_THAT(lost_in(*written_format(".nwb"), trial), IsEmpty());
   trial.beside.objects[1].lost = "why";
   EXPECT_EQ(lost_beside(".nwb", trial.beside), "not carried on: /intervals/trials (TimeIntervals: why)");

@@ -56,8 +56,8 @@ struct NwbWriteOptions {
   /// with pynwb then needs that extension.
   bool ndx_pose = false;
   /// The file becomes a copy of the one that this is of, with what is written in place of our positions from
-  /// before: what it holds besides movement stays as it is, byte for byte, date and person too. Null, or of no
-  /// file: a file of its own. A copy that cannot be made: Code::bad_input or Code::io.
+  /// before: what it holds besides movement stays as it is, byte for byte, date and person too. Null, or of
+  /// no file: a file of its own. A copy that cannot be made: Code::bad_input or Code::io.
   const data::Beside* beside = nullptr;
 };
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <fstream>
 
+#include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/nwb/internal/carry.h"
 #include "kinemark/io/nwb/internal/content_list.h"
@@ -164,7 +165,8 @@ TEST(NwbBeside, PositionsOfOthersKeepTheirNames) {
   auto trial = read_nwb(scratch / "in.nwb").value().trial;
   EXPECT_EQ(trial.beside.room, "/processing/kinemark");
   trial.markers.x(0, 0).x() = 9.0;
-  ASSERT_TRUE(write_nwb(scratch / "out.nwb", trial, nullptr, {}, {.ndx_pose = true, .beside = &trial.beside}));
+  ASSERT_TRUE(
+      write_nwb(scratch / "out.nwb", trial, nullptr, {}, {.ndx_pose = true, .beside = &trial.beside}));
   const auto back = read_nwb(scratch / "out.nwb");
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->trial.markers.x(0, 0).x(), 9.0);
@@ -240,7 +242,8 @@ TEST(NwbBeside, ANameThatOthersHaveIsRefusedAndNothingIsWritten) {
   const auto status = write_nwb(scratch / "out.nwb", trial, nullptr, {}, {.beside = &trial.beside});
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Code::bad_input);
-  EXPECT_THAT(status.error().message, HasSubstr("/acquisition/analog_N is there already and is not of kinemark"));
+  EXPECT_THAT(status.error().message,
+              HasSubstr("/acquisition/analog_N is there already and is not of kinemark"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out.nwb"));
   EXPECT_EQ(scratch.count_files(), 1) << "nothing half-written";
 }
@@ -254,6 +257,31 @@ TEST(NwbBeside, ACopyThatHdf5CannotOpenIsOneSentence) {
   const auto carried = internal::carry_here(scratch / "cut.nwb", scratch / "fresh.nwb");
   ASSERT_FALSE(carried);
   EXPECT_THAT(carried.error().message, HasSubstr("cannot be opened for writing"));
+}
+
+TEST(NwbBeside, WhateverIsBrokenInACopyItIsWrittenOrRefusedInOneSentence) {
+  const testing_support::ScratchFolder scratch;
+  const auto source = make_source(scratch);
+  const auto trial = read_nwb(source).value().trial;
+  const auto whole = read_text(source).value();
+  Random random(48, 0);
+  int refused = 0;
+  for (int round = 0; round < 24; ++round) {
+    auto broken = whole;
+    for (int k = 0; k < 40; ++k)
+      broken[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(broken.size())))] ^=
+          static_cast<char>(1 << (k % 8));
+    ASSERT_TRUE(write_text(source, broken, true));
+    const auto status =
+        write_nwb(scratch / "out.nwb", trial, nullptr, {}, {.force = true, .beside = &trial.beside});
+    EXPECT_EQ(scratch.count_files(), 1 + static_cast<int>(std::filesystem::exists(scratch / "out.nwb")));
+    if (status) continue;
+    ++refused;
+    EXPECT_TRUE(status.error().code == Code::bad_input || status.error().code == Code::io);
+    EXPECT_THAT(status.error().message, HasSubstr("out.nwb: "));
+    EXPECT_EQ(status.error().message.find('\n'), std::string::npos);
+  }
+  EXPECT_GT(refused, 0);
 }
 
 TEST(NwbBeside, SamplesThatAreDamagedGoAlongAsTheyAre) {
@@ -277,7 +305,8 @@ TEST(NwbBeside, SamplesThatAreDamagedGoAlongAsTheyAre) {
   const auto trial = read_nwb(source).value().trial;
   ASSERT_TRUE(write_nwb(scratch / "out.nwb", trial, nullptr, {}, {.beside = &trial.beside}));
   EXPECT_NE(read_text(scratch / "out.nwb")->find("damage!"), std::string::npos);
-  EXPECT_EQ(testing::content(scratch / "out.nwb", "/units/spike_times"), testing::content(source, "/units/spike_times"));
+  EXPECT_EQ(testing::content(scratch / "out.nwb", "/units/spike_times"),
+            testing::content(source, "/units/spike_times"));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [poses | carry FRESH NAME]: reads an NWB file for read_nwb(), or points in images for
-// read_pose_table(), or puts the results of a file into another for carry(), which is at the other end of standard
-// output. A process of its own, because HDF5 crashes
-// on some damaged files and never returns from others.
+// kinemark-nwb FILE SECONDS BYTES [poses | carry FRESH NAME]: reads an NWB file for read_nwb(), or points in
+// images for read_pose_table(), or puts the results of a file into another for carry(), which is at the other
+// end of standard output. A process of its own, because HDF5 crashes on some damaged files and never returns
+// from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>

@@ -105,7 +105,8 @@ Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTa
   }
   const auto fresh = Temporary::file_for(path);
   if (!fresh) return std::unexpected(fresh.error());
-  if (auto s = write_alone(fresh->path(), path, tables, metadata, room_for_tables(*beside, module)); !s) return s;
+  if (auto s = write_alone(fresh->path(), path, tables, metadata, room_for_tables(*beside, module)); !s)
+    return s;
   if (auto s = internal::carry(beside->file, fresh->path(), *file, path.string()); !s) return s;
   return file->commit();
 }

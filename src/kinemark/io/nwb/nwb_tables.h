@@ -33,7 +33,8 @@ struct NwbTable {
 /// Code::bad_input for no table, one without rows, columns of different lengths, names that occur twice or
 /// hold a slash, and metadata that NWB does not allow; Code::io: the disk; Code::not_supported without HDF5.
 /// @param force   replace a file that exists
-/// @param beside  null, or of no file: the tables alone. Else the file is a copy of that one, untouched, with the
+/// @param beside  null, or of no file: the tables alone. Else the file is a copy of that one, untouched, with
+/// the
 ///                tables in a processing module of their own, in place of those that we put there before
 /// @param module  its name
 [[nodiscard]] Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> tables,

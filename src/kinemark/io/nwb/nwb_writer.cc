@@ -107,9 +107,8 @@ void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
       out.attribute(stamps.of_marker.back().id(), "interval", 1.0, H5T_STD_I32LE);
       out.attribute(stamps.of_marker.back().id(), "unit", "seconds");
     } else {
-      out.soft_link(
-          series.id(), "timestamps",
-          fmt::format("{}/{}/{}/timestamps", room, internal::kPosition, series_names[marker]));
+      out.soft_link(series.id(), "timestamps",
+                    fmt::format("{}/{}/{}/timestamps", room, internal::kPosition, series_names[marker]));
     }
     return;
   }
@@ -288,8 +287,8 @@ Result<NwbWriter> NwbWriter::create(const std::filesystem::path& path, const Nwb
     fresh.emplace(std::move(*made));
   }
   const internal::Quiet quiet;
-  NwbWriter writer(std::make_unique<Open>(std::move(*file), std::move(fresh), path.string(), outline,
-                                          metadata, options));
+  NwbWriter writer(
+      std::make_unique<Open>(std::move(*file), std::move(fresh), path.string(), outline, metadata, options));
   writer.open_->build();
   if (writer.open_->out.failed())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));

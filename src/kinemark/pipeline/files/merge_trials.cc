@@ -282,10 +282,13 @@ class Merger {
     const auto kept = std::ranges::find_if(trials_, [](const auto& t) { return !t.beside.file.empty(); });
     if (kept == trials_.end()) return;
     out_.beside = std::move(kept->beside);
-    for (auto other = std::next(kept); other != trials_.end(); ++other)
-      if (!other->beside.objects.empty())
-        out_.unread.push_back(fmt::format("what {} holds besides movement ({} and {} more)", other->source,
-                                          other->beside.objects.front().path, other->beside.objects.size() - 1));
+    for (auto other = std::next(kept); other != trials_.end(); ++other) {
+      const auto& objects = other->beside.objects;
+      if (objects.empty()) continue;
+      const auto more = objects.size() > 1 ? fmt::format(" and {} more", objects.size() - 1) : std::string();
+      out_.unread.push_back(
+          fmt::format("what {} holds besides movement ({}{})", other->source, objects.front().path, more));
+    }
   }
 
   /// Of one rig it is the same in all files; of several rigs nobody knows it for all markers.

@@ -138,7 +138,8 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   data::Trial centres;
   centres.source = recording->trial.source;
   centres.first_frame = recording->trial.first_frame;
-  if (auto lost = io::lost_beside(into_folder(job.output) ? ".csv" : ending_of(job.output), recording->trial.beside);
+  if (auto lost =
+          io::lost_beside(into_folder(job.output) ? ".csv" : ending_of(job.output), recording->trial.beside);
       !lost.empty() && !job.output.empty())
     outcome.warnings.push_back(std::move(lost));
   centres.beside = std::move(recording->trial.beside);

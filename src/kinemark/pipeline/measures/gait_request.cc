@@ -48,7 +48,8 @@ Status GaitRequest::check(bool drawn) const {
     return fail(Code::usage, choice.error().message + ", and movement for that of the markers themselves");
   }
   if (!write_events.empty() && ending_of(write_events) != ".csv" && !into_recording())
-    return fail(Code::usage, fmt::format("{}: events are written as .csv, .c3d or .nwb", write_events.string()));
+    return fail(Code::usage,
+                fmt::format("{}: events are written as .csv, .c3d or .nwb", write_events.string()));
   if (!write_cycles.empty() && ending_of(write_cycles) != ".csv")
     return fail(Code::usage, fmt::format("{}: cycles are written as .csv", write_cycles.string()));
   if (!angles.empty() && write_cycles.empty() && !drawn)

@@ -114,7 +114,7 @@ Status write_tables(const ManyMeasuresJob& job, Staging& staging, ManyMeasuresOu
     std::vector<NamedMeasures> named;
     std::vector<data::InputFile> inputs;
     for (const auto& one : recordings) {
-      named.push_back({one.name, one.outcome.measures});
+      named.push_back({one.name, one.outcome.measures, one.events});
       std::ranges::move(inputs_of(one.outcome), std::back_inserter(inputs));
     }
     files.push_back(nwb_file(job.output, std::move(named), inputs, job));

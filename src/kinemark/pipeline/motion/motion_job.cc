@@ -118,7 +118,8 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   if (auto note = data::note_on_noise(inputs.recording.trial.markers); !note.empty())
     run.warnings.push_back(std::move(note));
   run.warnings.insert(run.warnings.end(), inputs.recording.notes.begin(), inputs.recording.notes.end());
-  if (auto lost = io::lost_beside(job.into_nwb ? ".nwb" : ending_of(job.output), inputs.recording.trial.beside);
+  if (auto lost =
+          io::lost_beside(job.into_nwb ? ".nwb" : ending_of(job.output), inputs.recording.trial.beside);
       !lost.empty() && !job.output.empty())
     run.warnings.push_back(std::move(lost));
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());

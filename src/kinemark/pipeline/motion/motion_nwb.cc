@@ -15,13 +15,14 @@ namespace kinemark::pipeline::internal {
 namespace {
 
 io::NwbColumn column_of(const data::Table& table, std::int64_t k, std::string name, std::string description) {
-  io::NwbColumn out{.name = std::move(name), .description = std::move(description), .texts = {}, .numbers = {}};
+  io::NwbColumn out{
+      .name = std::move(name), .description = std::move(description), .texts = {}, .numbers = {}};
   for (std::int64_t row = 0; row < table.rows(); ++row) out.numbers.push_back(table(row, k));
   return out;
 }
 
-/// A row for each frame: its time, the coordinates, and of each one standard deviation and the bound of its error
-/// where they are known.
+/// A row for each frame: its time, the coordinates, and of each one standard deviation and the bound of its
+/// error where they are known.
 io::NwbTable angles_table(const data::JointMotion& motion, const report::IkSummary& summary) {
   const auto values = coordinates_table(motion);
   io::NwbTable out{.name = "coordinates",

@@ -83,10 +83,11 @@ std::unexpected<Error> describe_end(const ApartJob& job, int status, const Apart
   };
   // It came to its end, or was ended because of what it sent.
   if (status == 0 || (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM))
-    return fail(Code::bad_input,
-                fmt::format("{}: {} does not answer as expected: it is of another version, or the file misled "
-                            "it. {}",
-                            job.name, kProgram, job.undone));
+    return fail(
+        Code::bad_input,
+        fmt::format("{}: {} does not answer as expected: it is of another version, or the file misled "
+                    "it. {}",
+                    job.name, kProgram, job.undone));
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
     return damaged(fmt::format("HDF5 did not come to an end with it in {} s", limits.seconds));
   if (WIFSIGNALED(status)) return damaged(fmt::format("HDF5 crashed on it (signal {})", WTERMSIG(status)));

@@ -19,10 +19,18 @@ constexpr int kMostGroupsBelow = 32;
 constexpr std::size_t kMostObjects = 20'000;
 
 // What every file has and nobody asks for.
-constexpr std::array kNotNamed = {"/identifier",     "/session_description",       "/file_create_date",
-                              "/acquisition",    "/analysis",                  "/general",
-                              "/stimulus",       "/stimulus/presentation",     "/stimulus/templates",
-                              "/processing",     "/timestamps_reference_time", "/general/was_generated_by"};
+constexpr std::array kNotNamed = {"/identifier",
+                                  "/session_description",
+                                  "/file_create_date",
+                                  "/acquisition",
+                                  "/analysis",
+                                  "/general",
+                                  "/stimulus",
+                                  "/stimulus/presentation",
+                                  "/stimulus/templates",
+                                  "/processing",
+                                  "/timestamps_reference_time",
+                                  "/general/was_generated_by"};
 
 struct Link {
   std::string name;
@@ -58,7 +66,7 @@ class Survey {
   void all() {
     const Handle root = in_.object(in_.file(), "/");
     H5O_info_t info{};
-    if (!root || H5Oget_info(root.id(), &info) < 0) return damaged("/");
+    if (!root || H5Oget_info2(root.id(), &info, H5O_INFO_BASIC) < 0) return closed("/");
     seen_.insert(info.addr);
     group(root.id(), "", 0);
   }
@@ -69,7 +77,7 @@ class Survey {
   void group(hid_t group, const std::string& path, int depth) {
     std::vector<Link> links;
     hsize_t at = 0;
-    if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &at, collect_link, &links) < 0) return damaged(path);
+    if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &at, collect_link, &links) < 0) return closed(path);
     for (const auto& link : links) {
       const std::string child = path + "/" + link.name;
       if (is_movement(child) || out_.size() >= kMostObjects) continue;
@@ -89,12 +97,9 @@ class Survey {
     return name && name->size() == 1 && name->front() == kUnknownSubject;
   }
 
-  void damaged(const std::string& path) {
-    out_.push_back({.path = path,
-                    .type = "cannot be opened",
-                    .shape = {},
-                    .unit = {},
-                    .lost = "it is damaged and goes along as it is"});
+  /// Damaged, or of a type that only a newer HDF5 knows.
+  void closed(const std::string& path) {
+    out_.push_back({.path = path, .type = "cannot be opened", .shape = {}, .unit = {}, .lost = {}});
   }
 
   void note_link(hid_t group, const Link& link, const std::string& path) {
@@ -116,9 +121,10 @@ class Survey {
   void object(hid_t parent, const std::string& name, const std::string& path, int depth) {
     const Handle object = in_.object(parent, name);
     H5O_info_t info{};
-    if (!object || H5Oget_info(object.id(), &info) < 0) return damaged(path);
+    if (!object || H5Oget_info2(object.id(), &info, H5O_INFO_BASIC) < 0) return closed(path);
     if (!seen_.insert(info.addr).second) {
-      out_.push_back({.path = path, .type = "another name of an object", .shape = {}, .unit = {}, .lost = {}});
+      out_.push_back(
+          {.path = path, .type = "another name of an object", .shape = {}, .unit = {}, .lost = {}});
     } else if (H5Iget_type(object.id()) == H5I_DATASET) {
       dataset(object.id(), path);
     } else if (H5Iget_type(object.id()) == H5I_GROUP) {
@@ -130,7 +136,8 @@ class Survey {
 
   void dataset(hid_t dataset, const std::string& path) {
     if (std::ranges::find(kNotNamed, path) != kNotNamed.end()) return;
-    data::BesideObject one{.path = path, .type = type_of(dataset, "dataset"), .shape = {}, .unit = {}, .lost = {}};
+    data::BesideObject one{
+        .path = path, .type = type_of(dataset, "dataset"), .shape = {}, .unit = {}, .lost = {}};
     if (path == "/session_start_time") {
       const auto date = in_.texts(dataset);
       if (!date || date->size() != 1 || date->front() == kUnknownDate) return;

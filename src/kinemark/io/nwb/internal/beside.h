@@ -11,7 +11,8 @@
 namespace kinemark::io::internal {
 
 /// What a file holds besides what we wrote and the series that were read as markers (`movement`, by their
-/// paths). Nothing is read but shapes, units, rates and dates. A file of ours that holds no more has no `file`.
+/// paths). Nothing is read but shapes, units, rates and dates. A file of ours that holds no more has no
+/// `file`.
 [[nodiscard]] data::Beside find_beside(Input& in, const std::set<std::string>& movement);
 
 }  // namespace kinemark::io::internal

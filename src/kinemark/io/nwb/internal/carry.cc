@@ -132,10 +132,12 @@ class Carrier {
     const auto slash = path.rfind('/');
     const std::string parent = path.substr(0, slash);
     if (is_there(path))
-      return fail(Code::bad_input,
-                  fmt::format("{} is there already and is not of kinemark; rename it. Nothing was written.", path));
+      return fail(
+          Code::bad_input,
+          fmt::format("{} is there already and is not of kinemark; rename it. Nothing was written.", path));
     if (!is_there(parent)) out_.group(out_.file(), parent.c_str());
-    out_.require(H5Ocopy(fresh_.file(), path.c_str(), out_.file(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    out_.require(H5Ocopy(fresh_.file(), path.c_str(), out_.file(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >=
+                 0);
     return {};
   }
 
@@ -156,8 +158,8 @@ class Carrier {
   Output out_;
 };
 
-/// Zeros in place of a text that HDF5 left where it is of no use any more: whoever looks for the mark of a set
-/// among the bytes of a file must not find that of an older one.
+/// Zeros in place of a text that HDF5 left where it is of no use any more: whoever looks for the mark of a
+/// set among the bytes of a file must not find that of an older one.
 Status blank(const std::filesystem::path& path, const std::string& text) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   std::string block(kCopyBlock + text.size(), '\0');
@@ -198,9 +200,10 @@ Result<Carried> carry_here(const std::filesystem::path& copy, const std::filesys
   auto results = Input::of(made.id());
   auto file = open_ours(copy, H5F_ACC_RDWR);
   if (!file)
-    return fail(Code::bad_input,
-                "the file cannot be opened for writing: it is damaged, or a program that wrote it did not close "
-                "it. Nothing was written.");
+    return fail(
+        Code::bad_input,
+        "the file cannot be opened for writing: it is damaged, or a program that wrote it did not close "
+        "it. Nothing was written.");
   const auto before = Input::of(file.id()).text_attribute(file.id(), std::string(kSetKey).c_str());
   const auto now = results.text_attribute(results.file(), std::string(kSetKey).c_str());
   auto carried = Carrier(std::move(file), results).put();

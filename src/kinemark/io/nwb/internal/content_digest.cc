@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kMostDepth = 12;
 // Attributes of the root that are ours: others may add theirs.
-constexpr std::array kOfRoot = {std::string_view("kinemark_content"), std::string_view("kinemark_module"), kSetKey};
+constexpr std::array kOfRoot = {std::string_view("kinemark_content"), std::string_view("kinemark_module"),
+                                kSetKey};
 constexpr std::int64_t kBlockNumbers = 1 << 17;
 
 struct FreeState {
@@ -171,8 +172,6 @@ void seal(Output& out, const std::string& set, const std::vector<std::string>& c
   if (digest) out.attribute(out.file(), kDigestAttribute, *digest);
 }
 
-void seal_whole(Output& out, const std::string& set) {
-  seal(out, set, all_content(Input::of(out.file())));
-}
+void seal_whole(Output& out, const std::string& set) { seal(out, set, all_content(Input::of(out.file()))); }
 
 }  // namespace kinemark::io::internal

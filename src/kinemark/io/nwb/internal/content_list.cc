@@ -14,18 +14,20 @@ namespace kinemark::io::internal {
 namespace {
 
 // Groups of NWB itself: what is in them is listed, not they.
-constexpr std::array kFrames = {"/acquisition",           "/analysis",           "/general",   "/intervals", "/stimulus",
-                                "/stimulus/presentation", "/stimulus/templates", "/processing"};
+constexpr std::array kFrames = {"/acquisition",        "/analysis",  "/general",
+                                "/intervals",          "/stimulus",  "/stimulus/presentation",
+                                "/stimulus/templates", "/processing"};
 
 // What a file of ours has at its root and below /general.
-constexpr std::array kOwnHead = {"/file_create_date",           "/identifier",        "/session_description",
-                              "/session_start_time",         "/general/subject",   "/timestamps_reference_time",
-                              "/general/was_generated_by"};
+constexpr std::array kOwnHead = {"/file_create_date",        "/identifier",      "/session_description",
+                                 "/session_start_time",      "/general/subject", "/timestamps_reference_time",
+                                 "/general/was_generated_by"};
 
-constexpr std::array kContainers = {kPosition, kPose,     kSkeletons,     kMethod,      kCovariance,   kOffset,
-                                    kUnfiltered, kResidual, kCameras,       kChannels};
-constexpr std::array kTables = {kMarkersTable, kChannelsTable, kAnalogTable,     kEventsTable,  kPlatesTable,
-                                kMethodsTable, kProvenanceTable, kCalibrationTable, kSourcesTable};
+constexpr std::array kContainers = {kPosition, kPose,       kSkeletons, kMethod,  kCovariance,
+                                    kOffset,   kUnfiltered, kResidual,  kCameras, kChannels};
+constexpr std::array kTables = {kMarkersTable,    kChannelsTable,    kAnalogTable,
+                                kEventsTable,     kPlatesTable,      kMethodsTable,
+                                kProvenanceTable, kCalibrationTable, kSourcesTable};
 constexpr std::array kMeasureTables = {"measures", "measures_tidy", "measure_definitions"};
 
 template <class Names>

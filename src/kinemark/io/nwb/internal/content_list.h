@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Which objects of a file are ours: what the digest covers, what another result replaces, and what is left for
-// others.
+// Which objects of a file are ours: what the digest covers, what another result replaces, and what is left
+// for others.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 
 namespace kinemark::io::internal {
 
-/// Attribute of the root: paths of what we wrote. "/processing/behavior/" with a slash at its end is the group
-/// alone, its attributes without what is in it. Files of older versions have none: all in them is ours.
+/// Attribute of the root: paths of what we wrote. "/processing/behavior/" with a slash at its end is the
+/// group alone, its attributes without what is in it. Files of older versions have none: all in them is ours.
 inline constexpr const char* kContentAttribute = "kinemark_content";
 /// Attribute of the root: the processing module with our positions, where it is not kModule.
 inline constexpr const char* kModuleAttribute = "kinemark_module";
@@ -28,8 +28,8 @@ inline constexpr const char* kModuleAttribute = "kinemark_module";
 /// The list of a file; nothing where it has none.
 [[nodiscard]] std::optional<std::vector<std::string>> listed_content(const Input& in);
 
-/// Ours by the list; of a file of ours without one, what we write under names that we give; of a file of others
-/// nothing.
+/// Ours by the list; of a file of ours without one, what we write under names that we give; of a file of
+/// others nothing.
 [[nodiscard]] std::vector<std::string> our_content(Input& in);
 
 /// True for a path of the list, and for what lies below one.

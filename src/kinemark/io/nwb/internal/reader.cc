@@ -177,7 +177,8 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
   const Handle methods = in.object(in.file(), fmt::format("{}/{}/method", module_of(in), kMethodsTable));
   if (auto names = in.texts(methods.id()); names && names->size() <= 255) t.methods = std::move(*names);
 
-  const Handle calibration = in.object(in.file(), fmt::format("{}/{}/error", module_of(in), kCalibrationTable));
+  const Handle calibration =
+      in.object(in.file(), fmt::format("{}/{}/error", module_of(in), kCalibrationTable));
   if (const auto texts = in.texts(calibration.id()); texts && !texts->empty()) {
     auto error = data::calibration_error_of(texts->front());
     if (!error)

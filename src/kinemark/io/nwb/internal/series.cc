@@ -103,6 +103,10 @@ struct Walked {
 /// A series of anything, as TimeSeries and ElectricalSeries; the containers of behaviour are none.
 bool is_series(const std::string& type) { return type.ends_with("Series") && type != "BehavioralTimeSeries"; }
 
+/// A DynamicTable, or what is derived from it (Units, TimeIntervals): it holds columns, which may be of types
+/// that only a newer HDF5 knows.
+bool is_table(hid_t group) { return H5Aexists(group, "colnames") > 0; }
+
 /// Every group of a positional type under `path`. Fails where something is there that cannot be opened:
 /// leaving it out would lose markers silently.
 Status walk(Input& in, const std::string& path, int depth, Walked& walked) {
@@ -122,7 +126,7 @@ Status walk(Input& in, const std::string& path, int depth, Walked& walked) {
     const std::string type = in.text_attribute(child.id(), "neurodata_type").value_or("");
     if (type == "SpatialSeries" || type == "PoseEstimationSeries") {
       walked.found[path].push_back({child_path, name, type == "PoseEstimationSeries"});
-    } else if (!is_series(type) && depth < kMaxDepth && type != "DynamicTable") {
+    } else if (!is_series(type) && depth < kMaxDepth && !is_table(child.id())) {
       if (auto status = walk(in, child_path, depth + 1, walked); !status) return status;
     }
   }
@@ -235,7 +239,8 @@ Result<PositionGroup> find_positions(Input& in) {
   const auto software = in.texts(generated.id());
   const auto content = listed_content(in);
   const bool no_markers_said = content && !covers(*content, module_of(in) + "/" + kMarkersTable);
-  const bool says_ours = !no_markers_said && software && !software->empty() && software->front() == NwbMetadata{}.software;
+  const bool says_ours =
+      !no_markers_said && software && !software->empty() && software->front() == NwbMetadata{}.software;
   // H5Lexists() is negative where the links themselves are damaged.
   if (says_ours || (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0))
     return fail(Code::bad_input,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// What other programs put into an NWB file: spikes, voltages, trials, references, links. For the tests of this
-// folder.
+// What other programs put into an NWB file: spikes, voltages, trials, references, links. For the tests of
+// this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -66,9 +66,9 @@ inline void add_others(const std::filesystem::path& path) {
   const hsize_t two = 2;
   const Handle space(H5Screate_simple(1, &two, nullptr), H5Sclose);
   const Handle type = stretch_type();
-  const Handle column(H5Dcreate2(trials.id(), "timeseries", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT,
-                                 H5P_DEFAULT),
-                      H5Dclose);
+  const Handle column(
+      H5Dcreate2(trials.id(), "timeseries", type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose);
   H5Dwrite(column.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data());
   out.text(file, "/general/lab", "motor lab");
   out.group(file, "/general/devices/probe", "Device");
@@ -87,8 +87,8 @@ inline std::string content(const std::filesystem::path& path, const char* datase
   if (!data) return "absent";
   const Handle type(H5Dget_type(data.id()), H5Tclose);
   const Handle space(H5Dget_space(data.id()), H5Sclose);
-  std::string bytes(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())) * H5Tget_size(type.id()),
-                    '\0');
+  std::string bytes(
+      static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())) * H5Tget_size(type.id()), '\0');
   if (H5Tget_class(type.id()) == H5T_COMPOUND) {
     std::vector<Stretch> rows(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())));
     const Handle memory = stretch_type();

@@ -76,8 +76,8 @@ void add_found(report::IkRun& run, const data::MarkerFit& fit, const workflow::T
 [[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
                                                    const report::IkSummary& summary,
                                                    const nlohmann::ordered_json& more = {});
-/// Q_angles.nwb, where the job asks for it: angles with their standard deviations in a copy of the recording's
-/// file. All of them must live until it is written.
+/// Q_angles.nwb, where the job asks for it: angles with their standard deviations in a copy of the
+/// recording's file. All of them must live until it is written.
 void add_nwb_file(const MotionJob& job, const data::JointMotion& motion, const report::IkSummary& summary,
                   const data::Beside& beside, std::vector<ResultFile>& files);
 /// Name of the set of files of a motion.
