@@ -13,6 +13,7 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
