@@ -2,11 +2,11 @@
 # SPDX-FileCopyrightText: 2026 The kinemark authors
 # SPDX-License-Identifier: Apache-2.0
 """What an NWB file holds besides movement (20 units, 4 trials, field potentials, a session of 2024), through every command
-that reads a recording. Three files: one by pynwb alone, one by plain h5py with layouts of its own, and a simulated walk of
-ours to which pynwb appends. A snapshot by h5py judges: each dataset's type, shape, values and stored chunks, each attribute, each link; references
+that reads a recording. Files by pynwb alone, by plain h5py with layouts of its own in two formats of HDF5, and two of ours (a simulated person,
+a monkey's arm, a walk) to which pynwb appends. A snapshot by h5py judges: each dataset's type, shape, values and stored chunks, each attribute, each link; references
 by what they lead to. pynwb, its validator and nwbinspector judge what was written.
 
-Needs Python with h5py, pynwb and nwbinspector. `--seed N` for other numbers (default 1). Prints rows
+Needs Python with h5py, pynwb and nwbinspector. `--seed N` for other numbers (default 1), `--quick` for two of the files. Prints rows
 "PASS|FAIL | check | asked | measured"; exit status 1 when one fails.
 """
 
@@ -29,6 +29,10 @@ from pynwb.behavior import Position, SpatialSeries
 from pynwb.ecephys import LFP, ElectricalSeries
 
 from rows import exit_status, row, run
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+from test_gait import NAMES, walk  # noqa: E402
+from test_measures import write_trc  # noqa: E402
 
 SESSION = datetime.datetime(2024, 3, 5, 10, 20, 30, tzinfo=datetime.timezone.utc)
 SEVERE = ("CRITICAL", "ERROR", "PYNWB_VALIDATION")
@@ -59,7 +63,7 @@ def add_physiology(nwb, random, seconds):
         nwb.add_trial(start_time=0.2 * seconds * trial, stop_time=0.2 * seconds * (trial + 1), target=f"t{trial}", timeseries=[raw])
 
 
-def person():
+def monkey():
     return pynwb.file.Subject(subject_id="m7", species="Macaca mulatta", sex="M", age="P6Y", weight="8 kg", description="trained")
 
 
@@ -71,7 +75,7 @@ def reach(random, k, frames):
 
 def by_pynwb(path, random):
     nwb = pynwb.NWBFile(session_description="reaching", identifier="judge-2024", session_start_time=SESSION, lab="motor", institution="judge",
-                        experimenter=["Judge, A"], keywords=["reach", "M1"], subject=person())
+                        experimenter=["Judge, A"], keywords=["reach", "M1"], subject=monkey())
     add_physiology(nwb, random, 5.0)
     series = [SpatialSeries(name=f"hand{k}", data=reach(random, k, 500), unit="meters", reference_frame="lab", rate=100.0, starting_time=0.0) for k in range(4)]
     nwb.create_processing_module("behavior", "paths").add(Position(spatial_series=series))
@@ -144,16 +148,29 @@ def by_h5py(path, random, **options):
         typed(f, "general/subject", "Subject")["subject_id"] = "m7"
 
 
-def walk_of_ours(folder, random, seed):
-    """A simulated person, converted to NWB by the program, to which pynwb appends."""
-    run("simulate", "subject", "-o", folder / "subject", "--duration", 6, "--seed", seed, "--quiet", good=(0,))
-    path = folder / "walk.nwb"
-    run("convert", folder / "subject" / "markers.c3d", path, "--quiet", good=(0,))
+def appended(source, path, random):
+    """A recording, converted to NWB by the program, to which pynwb appends."""
+    run("convert", source, path, "--quiet", good=(0,))
     with pynwb.NWBHDF5IO(str(path), "a") as io:
         nwb = io.read()
         add_physiology(nwb, random, 6.0)
         io.write(nwb)
     return path
+
+
+def person(folder, random, seed):
+    run("simulate", "subject", "-o", folder / "subject", "--duration", 6, "--seed", seed, "--quiet", good=(0,))
+    return appended(folder / "subject" / "markers.c3d", folder / "person.nwb", random)
+
+
+def arm(folder, random, seed):
+    run("simulate", "macaque", "-o", folder / "arm", "--duration", 6, "--seed", seed, "--quiet", good=(0,))
+    return appended(folder / "arm" / "markers.c3d", folder / "arm.nwb", random)
+
+
+def steps(folder, random):
+    write_trc(folder / "steps.trc", walk(6.0), names=NAMES)
+    return appended(folder / "steps.trc", folder / "steps.nwb", random)
 
 
 # How they are held beside each other ------------------------------------------------------------------------------------
@@ -188,9 +205,10 @@ def stored(dataset):
 
 def snapshot(path):
     """Path -> what is there, of every object and link."""
-    out = {}
+    out, seen = {}, set()
     with h5py.File(path, "r") as f:
         def visit(group):
+            seen.add(h5py.h5o.get_info(group.id).addr)
             for name in group:
                 link = group.get(name, getlink=True)
                 where = f"{group.name.rstrip('/')}/{name}"
@@ -207,6 +225,8 @@ def snapshot(path):
                 attrs = tuple((a, str(plain(thing.attrs[a], f))) for a in sorted(thing.attrs))
                 if isinstance(thing, h5py.Dataset):
                     out[where] = (str(thing.dtype), thing.shape, thing.maxshape, thing.chunks, str(plain(thing[()], f)), stored(thing), attrs)
+                elif h5py.h5o.get_info(thing.id).addr in seen:
+                    out[where] = ("again", attrs)
                 else:
                     out[where] = ("group", attrs)
                     visit(thing)
@@ -278,7 +298,7 @@ def judge_info(source, name):
     return beside
 
 
-def judge_lost(source, folder, name, commands):
+def judge_lost(folder, name, commands):
     """Where another format is written, one note says what stays behind."""
     for command, words in commands.items():
         done = run(*words, good=(0, 1))
@@ -290,10 +310,10 @@ def through(source, folder, name, commands):
     wanted = of_others(source)
     before = source.read_bytes()
     for command, words in commands.items():
-        target = folder / f"{name}_{command}.nwb"
+        target = folder / f"{name}_{command}{'_angles' if '--nwb' in words else ''}.nwb"
         run(*[target if w == "OUT" else w for w in words], good=(0, 1))
         judge(f"{name}, {command}", source, target, wanted)
-        if name != "h5py" and not name.startswith("h5py"):
+        if not name.startswith("h5py"):  # which are no complete NWB files
             judge_by_others(f"{name}, {command}", target)
     row(source.read_bytes() == before, f"{name}: the input", "not touched", "not touched" if source.read_bytes() == before else "changed")
 
@@ -319,6 +339,32 @@ def judge_measures(path, name):
     deviations = [c for c in values if c.endswith("_error_sd")]
     row({"measures", "measures_tidy", "measure_definitions", "provenance"} <= tables and bool(deviations), f"{name}: measures with deviations stand in their module",
         "4 tables", f"{len(tables)} tables, {len(deviations)} deviations")
+
+
+def judge_angles(folder):
+    """Angles and deviations of `ik --nwb` and `track --nwb` are those of the tables."""
+    for verb in ("ik", "track"):
+        with pynwb.NWBHDF5IO(str(folder / f"person_{verb}_angles.nwb"), "r") as io:
+            table = io.read().processing["kinematics"]["coordinates"].to_dataframe()
+        off, wrong = 0.0, []
+        for ending, suffix in ((".mot", ""), ("_sd.sto", "_sd")):
+            text = (folder / f"person_{verb}{ending}").read_text().split("endheader\n")[1].splitlines()
+            names, rows = text[0].split("\t")[1:], numpy.array([[float(v) for v in line.split("\t")[1:]] for line in text[1:]])
+            for k, one in enumerate(names):
+                found = table[one + suffix].to_numpy()
+                wrong += [] if (numpy.isnan(found) == numpy.isnan(rows[:, k])).all() else [one]
+                off = max(off, float(numpy.nanmax(numpy.abs(found - rows[:, k]), initial=0.0)))
+        row(off <= 1e-6 and not wrong, f"{verb} --nwb: angles and deviations", "those of .mot and _sd.sto to 1e-6", f"{off:.1e}")
+
+
+def judge_events(folder):
+    """Events of feet: in the recording, and with their deviations beside the measures."""
+    with h5py.File(folder / "steps_gait.nwb") as f, h5py.File(folder / "steps_events.nwb") as g:
+        table = f["processing/measures/movement_events"]
+        times, sd = table["time_s"][:], table["sd_s"][:]
+        written = g["processing/behavior/events/timestamp"][:]
+    row(len(times) >= 8 and numpy.isfinite(sd).all() and numpy.allclose(numpy.sort(times), numpy.sort(written), atol=1e-9), "gait: events",
+        "with deviations beside the measures, and in the recording", f"{len(times)} with deviations, {len(written)} in the recording")
 
 
 def judge_bad(folder, random):
@@ -377,7 +423,9 @@ def main():
     warnings.simplefilter("ignore")
     parser = argparse.ArgumentParser()
     parser.add_argument("--seed", type=int, default=1)
-    seed = parser.parse_args().seed
+    parser.add_argument("--quick", action="store_true", help="two of the files")
+    asked = parser.parse_args()
+    seed = asked.seed
     random = numpy.random.default_rng(seed)
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         folder = Path(scratch)
@@ -387,22 +435,33 @@ def main():
         by_h5py(late, random, libver=("v110", "v110"), userblock_size=1024)
         with h5py.File(late, "a", libver="latest") as f:  # of a type that an older HDF5 does not know
             f.create_dataset("my lab/tomorrow", data=numpy.arange(3000), chunks=(300,), compression="gzip")
-        walk = walk_of_ours(folder, random, seed)
+        sources = {"pynwb": reaching, "h5py_later": late}
+        if not asked.quick:
+            sources |= {"h5py": by_hand, "person": person(folder, random, seed), "arm": arm(folder, random, seed), "steps": steps(folder, random)}
         model = folder / "subject" / "model.osim"
-        for name, source in (("pynwb", reaching), ("h5py", by_hand), ("h5py, latest", late), ("walk", walk)):
+        for name, source in sources.items():
             commands = {"convert": ["convert", source, "OUT"], "clean": ["clean", source, "OUT", "--gaps", "auto", "--filter", "auto", "--derivatives"],
-                        "measure": ["measure", source, "-o", "OUT"]}
-            if name == "walk":
-                commands["gait"] = ["gait", source, "-o", "OUT"]
+                        "measure": ["measure", source, "--refits", 0, "-o", "OUT"]}
+            lost = {"convert to CSV": ["convert", source, folder / "x.csv", "--force"], "clean to TRC": ["clean", source, folder / "x.trc", "--force"],
+                    "measure to CSV": ["measure", source, "--refits", 0, "-o", folder / "x.csv", "--force"]}
+            if name == "person":
+                solve = ["--model", model, "--markers", source, "--force", "-o"]
+                commands |= {verb: [verb, *solve, folder / f"person_{verb}.mot", "--nwb"] for verb in ("ik", "track")}
+                lost |= {"ik": ["ik", *solve, folder / "q.mot"], "track": ["track", *solve, folder / "q.mot"]}
+            if name == "arm":
+                find = ["joints", source, "--segments", folder / "arm" / "segments.toml", "--force", "-o"]
+                commands["joints"] = [*find, "OUT"]
+                lost["joints to CSV"] = [*find, folder / "j.csv"]
+            if name == "steps":
+                commands |= {"gait": ["gait", source, "--refits", 0, "-o", "OUT"], "events": ["gait", source, "--refits", 0, "--write-events", "OUT"]}
             judge_info(source, name)
-            through(source, folder, name.replace(", ", "_"), commands)
-            judge_measures(folder / f"{name.replace(', ', '_')}_measure.nwb", name)
-            judge_twice(source, folder, name.replace(", ", "_"))
-            lost = {"convert to CSV": ["convert", source, folder / "x.csv", "--force"], "clean to TRC": ["clean", source, folder / "x.trc", "--force"]}
-            if name == "walk":
-                lost |= {"ik": ["ik", "--model", model, "--markers", source, "-o", folder / "q.mot", "--force"],
-                         "joints": ["joints", source, "-o", folder / "j.csv", "--force"]}
-            judge_lost(source, folder, name, lost)
+            through(source, folder, name, commands)
+            judge_measures(folder / f"{name}_measure.nwb", name)
+            judge_twice(source, folder, name)
+            judge_lost(folder, name, lost)
+        if not asked.quick:
+            judge_angles(folder)
+            judge_events(folder)
         judge_bad(folder, random)
     return exit_status()
 

@@ -150,7 +150,7 @@ std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& 
 }
 
 std::string lost_beside(std::string_view extension, const data::Beside& beside) {
-  constexpr std::size_t kNamed = 12;
+  constexpr std::size_t kNamed = 40;
   if (beside.objects.empty()) return "";
   const bool kept = extension == ".nwb";
   std::vector<std::string> lost;

@@ -159,7 +159,7 @@ TEST(LostParts, WhatLiesBesideMovementIsNamedOnce) {
   EXPECT_THAT(lost_in(*written_format(".nwb"), trial), IsEmpty());
   trial.beside.objects[1].lost = "why";
   EXPECT_EQ(lost_beside(".nwb", trial.beside), "not carried on: /intervals/trials (TimeIntervals: why)");
-  for (int i = 0; i < 20; ++i) trial.beside.objects.push_back({.path = "/more", .type = "dataset"});
+  for (int i = 0; i < 48; ++i) trial.beside.objects.push_back({.path = "/more", .type = "dataset"});
   EXPECT_THAT(lost_beside(".mot", trial.beside), HasSubstr("/more and 10 more); only"));
 }
 
