@@ -120,7 +120,7 @@ void add_cycle_options(CLI::App& command, pipeline::GaitRequest& request, Cycles
   }
   command
       .add_option("--write-events", request.write_events,
-                  fmt::format("{}: .csv, or .c3d, the recording with these events", events))
+                  fmt::format("{}: .csv, or .c3d or .nwb, the recording with these events", events))
       ->type_name("FILE")
       ->group("Output");
   command.add_option("--write-cycles", request.write_cycles, fmt::format("{}, 0 to 100 %, .csv", cycles))

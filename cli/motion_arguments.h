@@ -71,6 +71,12 @@ void add_motion_options(CLI::App& command, Job& job, MotionArguments& a) {
                   "Motion file to write, Q.mot; of one recording walk.c3d, when absent, "
                   "walk.mot beside it")
       ->group("Output");
+  command
+      .add_flag(
+          "--nwb", job.into_nwb,
+          "Also write Q_angles.nwb: a copy of the recording's NWB file, untouched, with the angles and their "
+          "deviations in a processing module; of other recordings the angles alone")
+      ->group("Output");
   command.add_option("--weight", a.weights, "Marker weight NAME=W; 0 leaves the marker out. Repeatable.")
       ->group("Markers");
   command.add_option("--noise", a.noise_mm, "Marker noise per axis, mm; 0 estimates it from the residuals")

@@ -22,7 +22,7 @@ OF_ARM = {**RECORDING, "--select": "absent*", "--drop": "s0m3", "--rename": "abs
 SEVERAL = {"--jobs": 2, "--keep-going": None}
 IMAGES = {"--rig": "absent.toml", "--images": "A=absent.csv", "--image-noise": 3, "--min-likelihood": 0.2, "--person": 2}
 MOTION = {**OF_BODY, **SEVERAL, **IMAGES, "--model": "absent.osim", "--markers": "absent.trc", "--forces": "absent.mot",
-          "--geometry": "absent", "--output": "other.mot", "--no-error-bars": None, "--report": "page.html", "--weight": "LASI=0",
+          "--geometry": "absent", "--output": "other.mot", "--no-error-bars": None, "--nwb": None, "--report": "page.html", "--weight": "LASI=0",
           "--noise": 3, "--no-limits": None, "--max-rms": 0.01, "--max-offset": 1e-6}
 CURVES = {"--output": "o.csv", "--group": "when", "--subject": "who", "--curve": "when,who", "--at": "at", "--value": "other", "--where": "when=x"}
 BY = ["--curve", "who,when"]

@@ -154,7 +154,7 @@ class Gait(CommandTest):
             ((self.file, "--measures", "gait", "--gait-marker", "left_heel=LHEEL"), 3, "nearest: LHEE"),
             ((self.file, "--measures", "gait", "--events", "plates"), 3, "no events of feet by plates"),
             ((self.folder / "no_toe.trc", "--measures", "gait"), 3, "no marker besides those of the feet"),
-            ((self.file, "--write-events", self.folder / "a.txt"), 2, "events are written as .csv or .c3d"),
+            ((self.file, "--write-events", self.folder / "a.txt"), 2, "events are written as .csv, .c3d or .nwb"),
             ((self.file, "--measures", "gait", "--write-cycles", self.folder / "c.csv"), 3, "need --angles"),
         ):
             with self.subTest(words=words):

@@ -65,6 +65,23 @@ struct CalibrationError {
   [[nodiscard]] bool known() const { return !fields.empty(); }  ///< there are fields
 };
 
+/// An object of a file that is no movement: spikes, voltages, trials, a subject, a device.
+struct BesideObject {
+  std::string path;                 ///< within its file: "/units"
+  std::string type;                 ///< "Units", "ElectricalSeries", or what kind of object it is
+  std::vector<std::int64_t> shape;  ///< of its samples or values, rows of a table; empty: it has none
+  std::string unit;                 ///< of its values, as the file says; empty: none
+  double rate_hz = 0.0;             ///< of its samples; 0: none, or uneven times
+  std::string lost;                 ///< why it does not go along, or not all of it; empty: it does
+};
+
+/// What a file holds besides movement. It goes along, untouched, into a file of the same format.
+struct Beside {
+  std::string file;                   ///< where it is; empty: nowhere
+  std::string room;                   ///< group of the file in which a new result finds its names free
+  std::vector<BesideObject> objects;  ///< in the order of their paths; none: the file is all movement
+};
+
 /// What one marker file holds, in SI units.
 struct Trial {
   std::string source;            ///< file name as given
@@ -88,6 +105,7 @@ struct Trial {
   std::vector<ForeignGroup> foreign;  ///< what only a C3D file can keep, and nothing here reads
   /// What the file holds and a trial does not, in words ("derivatives of markers"): no conversion carries it.
   std::vector<std::string> unread;
+  Beside beside;                      ///< what the file holds besides movement (NWB)
   std::vector<std::string> warnings;  ///< irregularities of the file, one sentence each
 
   /// number of the last frame in the file's own counting

@@ -144,7 +144,31 @@ std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& 
                       : fmt::format("{} are {} in a {} file", what, words.in_part, format.extension));
   }
   for (const std::string& what : trial.unread) out.push_back(fmt::format("not carried on: {}", what));
+  if (auto beside = lost_beside(format.extension, trial.beside); !beside.empty())
+    out.push_back(std::move(beside));
   return out;
+}
+
+std::string lost_beside(std::string_view extension, const data::Beside& beside) {
+  constexpr std::size_t kNamed = 40;
+  if (beside.objects.empty()) return "";
+  const bool kept = extension == ".nwb";
+  std::vector<std::string> lost;
+  for (const auto& object : beside.objects)
+    if (!kept)
+      lost.push_back(object.path);
+    else if (!object.lost.empty())
+      lost.push_back(fmt::format("{} ({}: {})", object.path, object.type, object.lost));
+  if (lost.empty()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(lost.size(), kNamed); ++i)
+    names += fmt::format("{}{}", i == 0 ? "" : ", ", lost[i]);
+  if (lost.size() > kNamed) names += fmt::format(" and {} more", lost.size() - kNamed);
+  return kept ? fmt::format("not carried on: {}", names)
+              : fmt::format(
+                    "not carried on: what its file holds besides movement ({}); only an .nwb file keeps "
+                    "it, and info lists it",
+                    names);
 }
 
 std::string marker_format_table() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/data/trial.h"
@@ -16,6 +17,10 @@ namespace kinemark::io {
 /// What a trial holds and a format does not keep, and what its file holds beside (Trial::unread), a sentence
 /// each; empty when nothing is lost.
 [[nodiscard]] std::vector<std::string> lost_in(const MarkerFormat& format, const data::Trial& trial);
+
+/// What a file of that ending ("" or any) does not keep of what lies besides movement, in one sentence;
+/// empty: nothing is lost.
+[[nodiscard]] std::string lost_beside(std::string_view extension, const data::Beside& beside);
 
 /// The table of formats as Markdown: a row for each, what it is read or written as, a column for each part.
 [[nodiscard]] std::string marker_format_table();

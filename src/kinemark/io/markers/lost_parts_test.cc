@@ -145,6 +145,24 @@ TEST(LostParts, WhatTheReaderCouldNotCarryIsSaidOfEveryFormat) {
                 ElementsAre("not carried on: derivatives of markers"));
 }
 
+TEST(LostParts, WhatLiesBesideMovementIsNamedOnce) {
+  data::Trial trial = bare();
+  EXPECT_EQ(lost_beside(".csv", trial.beside), "");
+  trial.beside = {.file = "a.nwb",
+                  .room = "/processing/behavior",
+                  .objects = {{.path = "/units", .type = "Units"},
+                              {.path = "/intervals/trials", .type = "TimeIntervals"}}};
+  EXPECT_THAT(
+      lost_in(*written_format(".c3d"), trial),
+      ElementsAre("not carried on: what its file holds besides movement (/units, /intervals/trials); only "
+                  "an .nwb file keeps it, and info lists it"));
+  EXPECT_THAT(lost_in(*written_format(".nwb"), trial), IsEmpty());
+  trial.beside.objects[1].lost = "why";
+  EXPECT_EQ(lost_beside(".nwb", trial.beside), "not carried on: /intervals/trials (TimeIntervals: why)");
+  for (int i = 0; i < 48; ++i) trial.beside.objects.push_back({.path = "/more", .type = "dataset"});
+  EXPECT_THAT(lost_beside(".mot", trial.beside), HasSubstr("/more and 10 more); only"));
+}
+
 /// What the table promises is what the writers do: written, read, and looked for.
 TEST(LostParts, AFormatKeepsWhatTheTableSays) {
   const testing_support::ScratchFolder scratch;

@@ -92,8 +92,6 @@ Result<data::Trial> read_nwb_trial(const fs::path& path, ReadOptions, Box) {
   trial.warnings = std::move(file->warnings);
   if (file->derivatives && !file->derivatives->velocity.empty())
     trial.unread.emplace_back("derivatives of markers");
-  if (!metadata.subject_id.empty() || !metadata.species.empty() || !metadata.session_start.empty())
-    trial.unread.emplace_back("subject and session");
   return trial;
 }
 
@@ -127,7 +125,8 @@ Status write_nwb_trial(const fs::path& path, const data::Trial& trial, WriteOpti
   metadata.set = options.set;
   metadata.recorder = trial.software == metadata.software ? "" : trial.software;
   if (!trial.source.empty()) metadata.sources.push_back({.file = trial.source});
-  return write_nwb(path, trial, nullptr, metadata, {.force = options.force, .ndx_pose = options.ndx_pose});
+  return write_nwb(path, trial, nullptr, metadata,
+                   {.force = options.force, .ndx_pose = options.ndx_pose, .beside = &trial.beside});
 }
 
 using enum Kept;

@@ -55,6 +55,10 @@ struct NwbWriteOptions {
   /// Also a PoseEstimation of the extension ndx-pose, which shares the data of Position. Who reads the file
   /// with pynwb then needs that extension.
   bool ndx_pose = false;
+  /// The file becomes a copy of the one that this is of, with what is written in place of our positions from
+  /// before: what it holds besides movement stays as it is, byte for byte, date and person too. Null, or of
+  /// no file: a file of its own. A copy that cannot be made: Code::bad_input or Code::io.
+  const data::Beside* beside = nullptr;
 };
 
 /// Write a whole recording; the file appears complete or not at all. `derivatives` may be null.

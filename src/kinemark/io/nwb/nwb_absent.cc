@@ -43,7 +43,8 @@ Status write_nwb(const std::filesystem::path& path, const data::Trial& /*trial*/
 }
 
 Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> /*tables*/,
-                        const NwbMetadata& /*metadata*/, bool /*force*/) {
+                        const NwbMetadata& /*metadata*/, bool /*force*/, const data::Beside* /*beside*/,
+                        const std::string& /*module*/) {
   return absent(path);
 }
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [poses]: reads an NWB file for read_nwb(), or points in images for
-// read_pose_table(), which is at the other end of standard output. A process of its own, because HDF5 crashes
-// on some damaged files and never returns from others.
+// kinemark-nwb FILE SECONDS BYTES [poses | carry FRESH NAME]: reads an NWB file for read_nwb(), or points in
+// images for read_pose_table(), or puts the results of a file into another for carry(), which is at the other
+// end of standard output. A process of its own, because HDF5 crashes on some damaged files and never returns
+// from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,9 +15,11 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "kinemark/io/nwb/internal/carry.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/internal/transfer.h"
@@ -51,9 +54,9 @@ void set_limits(rlim_t seconds, rlim_t bytes) {
 }
 
 /// Send what `read` gives of a file.
-template <class T>
-bool send_read(Result<T> (*read)(const std::filesystem::path&), const char* path) {
-  const auto content = [&]() -> Result<T> {
+template <class Read>
+bool send_read(const Read& read, const char* path) {
+  const auto content = [&]() -> decltype(read(path)) {
     try {
       return read(path);
     } catch (const std::bad_alloc&) {
@@ -64,15 +67,30 @@ bool send_read(Result<T> (*read)(const std::filesystem::path&), const char* path
   return io::internal::send(STDOUT_FILENO, content());
 }
 
+/// Do what the arguments behind the limits ask for; nothing where they ask for nothing known.
+std::optional<bool> answer(const char* path, std::span<char* const> what) {
+  const auto asks = [&](std::string_view word, std::size_t words) {
+    return what.size() == words && what.front() == word;
+  };
+  if (what.empty()) return send_read(io::internal::read_nwb_here, path);
+  if (asks("poses", 1)) return send_read(io::internal::read_pose_table_here, path);
+  const auto carry = [&](const char* copy) -> Result<io::internal::Carried> {
+    auto carried = io::internal::carry_here(copy, what[1]);
+    if (!carried) return fail_at(what[2], carried.error());
+    return carried;
+  };
+  if (asks("carry", 3)) return send_read(carry, path);
+  return std::nullopt;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool poses = argc == 5 && std::string_view(argv[4]) == "poses";
-  const auto seconds = argc == 4 || poses ? number(argv[2]) : std::nullopt;
-  const auto bytes = argc == 4 || poses ? number(argv[3]) : std::nullopt;
+  const auto seconds = argc >= 4 ? number(argv[2]) : std::nullopt;
+  const auto bytes = argc >= 4 ? number(argv[3]) : std::nullopt;
   if (!seconds || !bytes) return 2;
   set_limits(*seconds, *bytes);
-  const bool sent = poses ? send_read(io::internal::read_pose_table_here, argv[1])
-                          : send_read(io::internal::read_nwb_here, argv[1]);
-  _exit(sent ? 0 : 4);  // HDF5 has nothing left to do
+  const auto sent = answer(argv[1], std::span(argv, static_cast<std::size_t>(argc)).subspan(4));
+  if (!sent) return 2;
+  _exit(*sent ? 0 : 4);  // HDF5 has nothing left to do
 }

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/nwb/internal/carry.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/output.h"
 #include "kinemark/io/nwb/internal/root.h"
+#include "kinemark/io/temporary.h"
 
 namespace kinemark::io {
 namespace {
@@ -51,19 +53,22 @@ Status check_tables(std::span<const NwbTable> tables) {
   return {};
 }
 
-}  // namespace
+/// The module of a copy that tables go into: others may have one of its name.
+std::string room_for_tables(const data::Beside& beside, const std::string& name) {
+  const auto taken = [&](const std::string& module) {
+    return std::ranges::any_of(beside.objects, [&](const data::BesideObject& object) {
+      return object.path == module || object.path.starts_with(module + "/");
+    });
+  };
+  std::string out = "/processing/" + name;
+  for (int number = 2; taken(out); ++number) out = fmt::format("/processing/{}_{}", name, number);
+  return out;
+}
 
-Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> tables,
-                        const NwbMetadata& metadata, bool force) {
-  if (auto s = check_tables(tables); !s) return fail_at(path.string(), s.error());
-  if (auto s = internal::check_metadata(metadata); !s) return fail_at(path.string(), s.error());
-  auto file = OutputFile::create(path, force);
-  if (!file) return std::unexpected(file.error());
-  const internal::Quiet quiet;
-  const NwbOutline outline;
-  internal::Output out(file->temporary().string(), internal::identity_of(metadata, outline));
+void write_all(internal::Output& out, std::span<const NwbTable> tables, const NwbMetadata& metadata,
+               const std::string& room) {
   {
-    const auto module = internal::write_root(out, metadata, outline);
+    const auto module = internal::write_root(out, metadata, {}, room);
     for (const auto& table : tables) {
       std::vector<internal::Column> columns;
       for (const auto& [name, description, texts, numbers] : table.columns)
@@ -72,8 +77,37 @@ Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTa
       out.table(module.id(), table.name.c_str(), table.description.c_str(), columns);
     }
   }
-  internal::seal(out, metadata.set);
-  if (!out.close()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));
+  internal::seal_whole(out, metadata.set);
+}
+
+/// The tables as a file of their own, whatever its name.
+Status write_alone(const std::filesystem::path& file, const std::filesystem::path& path,
+                   std::span<const NwbTable> tables, const NwbMetadata& metadata, const std::string& room) {
+  const internal::Quiet quiet;
+  internal::Output out(file.string(), internal::identity_of(metadata, {}));
+  write_all(out, tables, metadata, room);
+  return out.close() ? Status()
+                     : fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));
+}
+
+}  // namespace
+
+Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> tables,
+                        const NwbMetadata& metadata, bool force, const data::Beside* beside,
+                        const std::string& module) {
+  if (auto s = check_tables(tables); !s) return fail_at(path.string(), s.error());
+  if (auto s = internal::check_metadata(metadata); !s) return fail_at(path.string(), s.error());
+  auto file = OutputFile::create(path, force);
+  if (!file) return std::unexpected(file.error());
+  if (beside == nullptr || beside->file.empty()) {
+    if (auto s = write_alone(file->temporary(), path, tables, metadata, internal::kModule); !s) return s;
+    return file->commit();
+  }
+  const auto fresh = Temporary::file_for(path);
+  if (!fresh) return std::unexpected(fresh.error());
+  if (auto s = write_alone(fresh->path(), path, tables, metadata, room_for_tables(*beside, module)); !s)
+    return s;
+  if (auto s = internal::carry(beside->file, fresh->path(), *file, path.string()); !s) return s;
   return file->commit();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/trial.h"
 #include "kinemark/io/nwb/metadata.h"
 
 namespace kinemark::io {
@@ -31,8 +32,14 @@ struct NwbTable {
 /// Write tables into the processing module `behavior` of a new file; it appears complete or not at all.
 /// Code::bad_input for no table, one without rows, columns of different lengths, names that occur twice or
 /// hold a slash, and metadata that NWB does not allow; Code::io: the disk; Code::not_supported without HDF5.
-/// @param force  replace a file that exists
+/// @param force   replace a file that exists
+/// @param beside  null, or of no file: the tables alone. Else the file is a copy of that one, untouched, with
+/// the
+///                tables in a processing module of their own, in place of those that we put there before
+/// @param module  its name
 [[nodiscard]] Status write_nwb_tables(const std::filesystem::path& path, std::span<const NwbTable> tables,
-                                      const NwbMetadata& metadata, bool force);
+                                      const NwbMetadata& metadata, bool force,
+                                      const data::Beside* beside = nullptr,
+                                      const std::string& module = "measures");
 
 }  // namespace kinemark::io

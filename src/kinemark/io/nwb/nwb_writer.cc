@@ -9,6 +9,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/nwb/internal/carry.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/marker_table.h"
 #include "kinemark/io/nwb/internal/names.h"
@@ -17,6 +18,7 @@
 #include "kinemark/io/nwb/internal/root.h"
 #include "kinemark/io/nwb/internal/signals_writer.h"
 #include "kinemark/io/nwb/nwb.h"
+#include "kinemark/io/temporary.h"
 
 namespace kinemark::io {
 namespace {
@@ -47,15 +49,18 @@ struct NwbWriter::Open {
     int width = 1;
   };
 
-  Open(OutputFile target, std::string name, NwbOutline promised, NwbMetadata given,
-       const NwbWriteOptions& options)
+  Open(OutputFile target, std::optional<Temporary> apart, std::string name, NwbOutline promised,
+       NwbMetadata given, const NwbWriteOptions& options)
       : file(std::move(target)),
+        fresh(std::move(apart)),
+        source(fresh ? options.beside->file : std::string()),
+        room(fresh && !options.beside->room.empty() ? options.beside->room : internal::kModule),
         path(std::move(name)),
         outline(std::move(promised)),
         metadata(std::move(given)),
         compression(options.compression),
         ndx_pose(options.ndx_pose),
-        out(file.temporary().string(), internal::identity_of(metadata, outline)) {}
+        out((fresh ? fresh->path() : file.temporary()).string(), internal::identity_of(metadata, outline)) {}
 
   void build();
   void build_pose();
@@ -73,6 +78,8 @@ struct NwbWriter::Open {
   void write_tables();
 
   OutputFile file;
+  std::optional<Temporary> fresh;  ///< what is written, where it goes into a copy of `source`
+  std::string source, room;        ///< room: the processing module
   std::string path;
   NwbOutline outline;
   NwbMetadata metadata;
@@ -100,9 +107,8 @@ void NwbWriter::Open::add_clock(Handle series, std::size_t marker, bool first) {
       out.attribute(stamps.of_marker.back().id(), "interval", 1.0, H5T_STD_I32LE);
       out.attribute(stamps.of_marker.back().id(), "unit", "seconds");
     } else {
-      out.soft_link(
-          series.id(), "timestamps",
-          fmt::format("{}/{}/{}/timestamps", internal::kModule, internal::kPosition, series_names[marker]));
+      out.soft_link(series.id(), "timestamps",
+                    fmt::format("{}/{}/{}/timestamps", room, internal::kPosition, series_names[marker]));
     }
     return;
   }
@@ -149,7 +155,7 @@ NwbWriter::Open::Series NwbWriter::Open::make_series(hid_t parent, const char* c
 }
 
 void NwbWriter::Open::build() {
-  module = internal::write_root(out, metadata, outline);
+  module = internal::write_root(out, metadata, outline, room);
   series_names = internal::series_names(outline.names);
   for (std::size_t m = 0; m < outline.names.size(); ++m) index[outline.names[m]] = m;
   offset_s.assign(outline.names.size(), 0.0);
@@ -181,7 +187,7 @@ void NwbWriter::Open::build() {
 
 void NwbWriter::Open::build_pose() {
   auto series =
-      internal::write_pose(out, module.id(), metadata, series_names, outline.time.frames, compression);
+      internal::write_pose(out, module.id(), room, metadata, series_names, outline.time.frames, compression);
   for (std::size_t m = 0; m < series.size(); ++m) {
     confidence.of_marker.push_back(std::move(series[m].confidence));
     add_clock(std::move(series[m].series), m, false);
@@ -274,8 +280,15 @@ Result<NwbWriter> NwbWriter::create(const std::filesystem::path& path, const Nwb
     return fail_at(path.string(), status.error());
   auto file = OutputFile::create(path, options.force);
   if (!file) return std::unexpected(file.error());
+  std::optional<Temporary> fresh;
+  if (options.beside != nullptr && !options.beside->file.empty()) {
+    auto made = Temporary::file_for(path);
+    if (!made) return std::unexpected(made.error());
+    fresh.emplace(std::move(*made));
+  }
   const internal::Quiet quiet;
-  NwbWriter writer(std::make_unique<Open>(std::move(*file), path.string(), outline, metadata, options));
+  NwbWriter writer(
+      std::make_unique<Open>(std::move(*file), std::move(fresh), path.string(), outline, metadata, options));
   writer.open_->build();
   if (writer.open_->out.failed())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", path.string()));
@@ -373,9 +386,11 @@ Status NwbWriter::commit(const std::string& set) {
                                &open->unfiltered, &open->offset, &open->stamps, &open->confidence})
     series->of_marker.clear();
   open->rates.clear();
-  internal::seal(open->out, set.empty() ? open->metadata.set : set);
+  internal::seal_whole(open->out, set.empty() ? open->metadata.set : set);
   if (!open->out.close())
     return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open->path));
+  if (open->fresh)
+    if (auto s = internal::carry(open->source, open->fresh->path(), open->file, open->path); !s) return s;
   return open->file.commit();
 }
 

@@ -200,7 +200,7 @@ Result<CleanOutput> CleanOutput::create(const CleanJob& job, const std::filesyst
   CleanOutput output(job, file, smoothed.markers);
   if (!is_nwb(file)) return output;
   auto writer = io::NwbWriter::create(file, outline_of(smoothed.markers, job.derivatives, output.unfiltered_),
-                                      metadata_of(job, smoothed, run), {});
+                                      metadata_of(job, smoothed, run), {.beside = &smoothed.beside});
   if (!writer) return std::unexpected(writer.error());
   output.nwb_.emplace(std::move(*writer));
   return output;

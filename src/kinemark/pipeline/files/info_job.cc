@@ -134,6 +134,7 @@ Status describe_markers(const InfoJob& job, InfoOutcome& out) {
                         .channels = describe_channels(trial.channels),
                         .up = describe_up(job, trial),
                         .calibration_error = data::describe(trial.calibration_error, markers),
+                        .beside = trial.beside.objects,
                         .filtered = data::describe_filters(markers)};
   for (const auto& name : markers.names)
     if (data::is_unlabelled(name)) facts.unlabelled.push_back(name);

@@ -71,8 +71,9 @@ struct MarkerFileFacts {
   std::optional<OrientationFacts> orientations;  ///< that the file holds besides; none: it has none
   std::string
       calibration_error;  ///< what the calibration leaves unknown of positions; empty: nothing says it
-  std::string filtered;   ///< by what markers were smoothed, and whether the samples
-                          ///< from before are there; empty: the file tells of no filter
+  std::vector<data::BesideObject> beside;  ///< what the file holds besides movement
+  std::string filtered;                    ///< by what markers were smoothed, and whether the samples
+                                           ///< from before are there; empty: the file tells of no filter
 };
 
 /// Of a table (.mot, .sto).

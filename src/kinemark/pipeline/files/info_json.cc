@@ -64,11 +64,24 @@ std::string sensor_text(const Json& sensor) {
                            sensor["missing"].get<std::int64_t>());
 }
 
+/// "/acquisition/lfp (ElectricalSeries, 1000 x 4, 500 Hz, volts)"
+std::string beside_text(const Json& object) {
+  const auto of = [&](const char* key) { return printable(object[key].get<std::string>(), kNameLetters); };
+  std::string out = fmt::format("{} ({}", of("path"), of("type"));
+  for (std::size_t d = 0; d < object["shape"].size(); ++d)
+    out += fmt::format("{}{}", d == 0 ? ", " : " x ", object["shape"][d].get<std::int64_t>());
+  if (object["rate_hz"].is_number()) out += fmt::format(", {:g} Hz", object["rate_hz"].get<double>());
+  for (const char* key : {"unit", "lost"})
+    if (!object[key].get<std::string>().empty()) out += ", " + of(key);
+  return out + ")";
+}
+
 /// One entry of a list.
 std::string entry_text(const Json& entry) {
   if (entry.is_string()) return printable(entry.get<std::string>(), kNameLetters);
   if (entry.contains("joint_kind")) return segment_text(entry);
   if (entry.contains("first_w_x_y_z")) return sensor_text(entry);
+  if (entry.contains("path")) return beside_text(entry);
   return entry.contains("expression") ? parameter_text(entry) : channel_text(entry);
 }
 
@@ -147,6 +160,13 @@ void add(const MarkerFileFacts& facts, Json& to) {
   if (!facts.up.empty()) to["up"] = facts.up;
   if (!facts.calibration_error.empty()) to["calibration_error"] = facts.calibration_error;
   if (!facts.filtered.empty()) to["filtered"] = facts.filtered;
+  for (const auto& object : facts.beside)
+    to["beside_movement"].push_back({{"path", object.path},
+                                     {"type", object.type},
+                                     {"shape", object.shape},
+                                     {"rate_hz", object.rate_hz > 0.0 ? Json(object.rate_hz) : Json()},
+                                     {"unit", object.unit},
+                                     {"lost", object.lost}});
 }
 
 void add(const TableFacts& facts, Json& to) {

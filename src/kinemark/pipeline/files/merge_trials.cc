@@ -263,6 +263,7 @@ class Merger {
     out_.software = first.software;
     out_.foreign = std::move(first.foreign);
     add_calibration_error();
+    add_beside();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
       for (const auto& what : trials_[i].unread)
         out_.unread.push_back(fmt::format("{} of {}", what, trials_[i].source));
@@ -273,6 +274,20 @@ class Merger {
             "{} of {} left out; those of {} are kept",
             counted(std::ssize(trials_[i].foreign), "group of parameters", "groups of parameters"),
             trials_[i].source, out_.source));
+    }
+  }
+
+  /// One file can be copied; what the others hold besides movement is named.
+  void add_beside() {
+    const auto kept = std::ranges::find_if(trials_, [](const auto& t) { return !t.beside.file.empty(); });
+    if (kept == trials_.end()) return;
+    out_.beside = std::move(kept->beside);
+    for (auto other = std::next(kept); other != trials_.end(); ++other) {
+      const auto& objects = other->beside.objects;
+      if (objects.empty()) continue;
+      const auto more = objects.size() > 1 ? fmt::format(" and {} more", objects.size() - 1) : std::string();
+      out_.unread.push_back(
+          fmt::format("what {} holds besides movement ({}{})", other->source, objects.front().path, more));
     }
   }
 

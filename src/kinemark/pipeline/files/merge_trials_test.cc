@@ -231,6 +231,20 @@ TEST(MergeTrials, TheErrorOfOneCalibrationComesAlong) {
       Contains("what calibrations leave unknown of positions is left out: the files do not hold the same"));
 }
 
+TEST(MergeTrials, OfOneFileGoesAlongWhatIsNoMovement) {
+  auto a = part("a.c3d", 1, 10, {"A"}), b = part("b.nwb", 1, 10, {"B"}), c = part("c.nwb", 1, 10, {"C"});
+  b.beside = {
+      .file = "b.nwb", .room = "/processing/behavior", .objects = {{.path = "/units", .type = "Units"}}};
+  const auto one = merge_trials({a, b}).value();
+  EXPECT_EQ(one.beside.file, "b.nwb");
+  EXPECT_THAT(one.unread, Not(Contains(HasSubstr("holds besides movement ("))));
+  c.beside = b.beside;
+  c.beside.file = "c.nwb";
+  const auto two = merge_trials({a, b, c}).value();
+  EXPECT_EQ(two.beside.file, "b.nwb");
+  EXPECT_THAT(two.unread, ElementsAre("what c.nwb holds besides movement (/units)"));
+}
+
 TEST(MergeTrials, OneMarkerThroughTwoFiltersIsRefused) {
   const auto a = smoothed(part("a", 1, 5, {"A"}), 6.0);
   EXPECT_THAT(refusal({a, smoothed(part("b", 6, 9, {"A"}), 7.0)}),

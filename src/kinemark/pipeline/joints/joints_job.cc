@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/io/markers/marker_file.h"
 #include "kinemark/io/vsk/vsk.h"
 #include "kinemark/pipeline/files/file_set.h"
@@ -137,6 +138,11 @@ Result<JointsOutcome> run_joints(const JointsJob& job) {
   data::Trial centres;
   centres.source = recording->trial.source;
   centres.first_frame = recording->trial.first_frame;
+  if (auto lost =
+          io::lost_beside(into_folder(job.output) ? ".csv" : ending_of(job.output), recording->trial.beside);
+      !lost.empty() && !job.output.empty())
+    outcome.warnings.push_back(std::move(lost));
+  centres.beside = std::move(recording->trial.beside);
   centres.markers = workflow::centre_trajectories(outcome.skeleton);
   centres.calibration_error = recording->trial.calibration_error;
   if (const auto up = workflow::stated_vertical(job.axes)) workflow::set_screen_up(centres, up->up);

@@ -65,7 +65,7 @@ std::vector<ResultFile> GaitDrawing::tables(const std::filesystem::path& path, c
   const auto recording = name_of_recording(path);
   const auto events = events_of(*gait_, trial.markers.time);
   std::vector<ResultFile> files;
-  if (const auto& target = job_.gait.write_events; ending_of(target) == ".c3d") {
+  if (const auto& target = job_.gait.write_events; job_.gait.into_recording()) {
     recorded_ = with_events(trial, events);
     files.push_back(marker_file(target, recorded_));
   } else if (!target.empty()) {

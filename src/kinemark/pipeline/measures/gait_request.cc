@@ -33,6 +33,11 @@ Result<std::vector<analysis::MarkerRole>> read_roles(const std::filesystem::path
 
 }  // namespace
 
+bool GaitRequest::into_recording() const {
+  const auto ending = ending_of(write_events);
+  return ending == ".c3d" || ending == ".nwb";
+}
+
 Status GaitRequest::check(bool drawn) const {
   if (of_movement()) {
     if (!markers.empty() || !angles.empty())
@@ -42,9 +47,9 @@ Status GaitRequest::check(bool drawn) const {
   } else if (const auto choice = analysis::parse_event_choice(events); !choice) {
     return fail(Code::usage, choice.error().message + ", and movement for that of the markers themselves");
   }
-  const auto ending = ending_of(write_events);
-  if (!write_events.empty() && ending != ".csv" && ending != ".c3d")
-    return fail(Code::usage, fmt::format("{}: events are written as .csv or .c3d", write_events.string()));
+  if (!write_events.empty() && ending_of(write_events) != ".csv" && !into_recording())
+    return fail(Code::usage,
+                fmt::format("{}: events are written as .csv, .c3d or .nwb", write_events.string()));
   if (!write_cycles.empty() && ending_of(write_cycles) != ".csv")
     return fail(Code::usage, fmt::format("{}: cycles are written as .csv", write_cycles.string()));
   if (!angles.empty() && write_cycles.empty() && !drawn)

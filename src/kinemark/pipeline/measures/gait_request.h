@@ -20,7 +20,7 @@ struct GaitRequest {
   std::string events =
       "best";  ///< whose: "best", "plates", "kinematics", "file"; "movement": the markers' own
   std::vector<std::string> markers;    ///< ROLE=NAME, or a .toml of lines like role = "NAME"
-  std::filesystem::path write_events;  ///< .csv, or .c3d: the recording with these events
+  std::filesystem::path write_events;  ///< .csv, or .c3d or .nwb: the recording with these events
   std::filesystem::path angles;        ///< .mot or .sto of coordinates, whose cycles are written and drawn
   std::filesystem::path write_cycles;  ///< .csv: curves over the cycle
   GaitReportRequest sheet;             ///< norms and pairs of a gait report
@@ -34,6 +34,8 @@ struct GaitRequest {
   [[nodiscard]] bool of_movement() const { return events == "movement"; }
   /// Whether events or cycles are written.
   [[nodiscard]] bool writes() const { return !write_events.empty() || !write_cycles.empty(); }
+  /// Whether events are written into a recording.
+  [[nodiscard]] bool into_recording() const;
   /// Names and endings: Code::usage.
   /// @param drawn  whether figures or a page are made: else norms and pairs have no use
   [[nodiscard]] Status check(bool drawn = false) const;

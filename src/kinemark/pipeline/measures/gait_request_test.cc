@@ -28,7 +28,7 @@ TEST(GaitRequest, RefusesWhatIsNone) {
   EXPECT_FALSE(GaitRequest{}.wanted());
   EXPECT_EQ(GaitRequest{.events = "plate"}.check().error().code, Code::usage);
   EXPECT_EQ(GaitRequest{.write_events = "a.xlsx"}.check().error().message,
-            "a.xlsx: events are written as .csv or .c3d");
+            "a.xlsx: events are written as .csv, .c3d or .nwb");
   EXPECT_FALSE(GaitRequest{.write_cycles = "a.c3d"}.check());
   EXPECT_FALSE(GaitRequest{.angles = "Q.mot"}.check());
   EXPECT_FALSE(GaitRequest{.write_events = "a.csv"}.wanted());

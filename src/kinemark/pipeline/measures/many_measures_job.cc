@@ -43,7 +43,7 @@ Status check_many(const ManyMeasuresJob& job) {
   if (!job.emg.write_cycles.empty())
     return alone(own ? "--write-cycles" : "--write-emg-cycles", job.emg.write_cycles);
   if (!job.gait.angles.empty()) return alone("--angles", job.gait.angles);
-  if (ending_of(job.gait.write_events) == ".c3d") return alone("--write-events", job.gait.write_events);
+  if (job.gait.into_recording()) return alone("--write-events", job.gait.write_events);
   if (auto s = check_for_several(job); !s) return s;
   return check_measures_output(job.output);
 }
@@ -114,7 +114,7 @@ Status write_tables(const ManyMeasuresJob& job, Staging& staging, ManyMeasuresOu
     std::vector<NamedMeasures> named;
     std::vector<data::InputFile> inputs;
     for (const auto& one : recordings) {
-      named.push_back({one.name, one.outcome.measures});
+      named.push_back({one.name, one.outcome.measures, one.events});
       std::ranges::move(inputs_of(one.outcome), std::back_inserter(inputs));
     }
     files.push_back(nwb_file(job.output, std::move(named), inputs, job));

@@ -137,7 +137,7 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
                                            job.participants->table.name,
                                            out.name.participant.empty() ? "it" : out.name.participant));
   const std::string name = job.input.string();
-  if (ending_of(job.gait.write_events) == ".c3d") out.recorded = trial;
+  if (job.gait.into_recording()) out.recorded = trial;
   if (auto s = prepare_recording(source, job, out.recording); !s) return std::unexpected(s.error());
   if (out.recording.journal.file) outcome.beside.push_back(*out.recording.journal.file);
   std::ranges::move(out.recording.forces, std::back_inserter(outcome.beside));

@@ -13,6 +13,7 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
@@ -98,8 +99,11 @@ Status write_all(const MeasuresJob& job, const std::vector<std::string>& formats
   else if (ending == ".json")
     files.push_back(json_file(job.output, [&] { return measures_outcome_json(outcome); }));
   else if (!job.output.empty())
-    files.push_back(nwb_file(job.output, {{.name = measured.name, .measures = outcome.measures}},
-                             inputs_of(outcome), job));
+    files.push_back(nwb_file(
+        job.output, {{.name = measured.name, .measures = outcome.measures, .events = measured.events}},
+        inputs_of(outcome), job, measured.recording.trial.beside));
+  if (auto lost = io::lost_beside(ending, measured.recording.trial.beside); !lost.empty() && !ending.empty())
+    outcome.warnings.push_back(std::move(lost));
   if (auto s = add_figures(job, formats, figures, gait, staging, files); !s) return s;
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] { return page_text(job, measured, figures, gait); }));

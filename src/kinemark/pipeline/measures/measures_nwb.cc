@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -219,6 +220,37 @@ io::NwbTable definitions_table(const std::vector<std::string>& ids) {
   return out;
 }
 
+// Events with their deviations; no columns where there are none.
+io::NwbTable events_table(const std::vector<NamedMeasures>& recordings) {
+  io::NwbTable out{.name = "movement_events",
+                   .description = "events of feet, or of the markers' own movements, with their deviations",
+                   .columns = {}};
+  const auto column = [&](const char* name, const char* what, auto value) {
+    auto made = column_called(name, what);
+    for (const auto& recording : recordings)
+      for (const auto& event : recording.events) {
+        if constexpr (std::is_convertible_v<decltype(value(recording, event)), double>)
+          made.numbers.push_back(value(recording, event));
+        else
+          made.texts.push_back(value(recording, event));
+      }
+    if (!made.texts.empty() || !made.numbers.empty()) out.columns.push_back(std::move(made));
+  };
+  using Of = const NamedMeasures&;
+  using Event = const EventRow&;
+  column("file", "name of the recording", [](Of of, Event) { return of.name.file; });
+  column("subject", "marker that moves; empty: a foot", [](Of, Event e) { return e.subject; });
+  column("context", "Left, Right, or empty", [](Of, Event e) { return e.context; });
+  column("region", "name of the span; empty: the whole recording", [](Of, Event e) { return e.region; });
+  column("label", "what happens", [](Of, Event e) { return e.label; });
+  column("time_s", "when, s, on the clock of the recording", [](Of, Event e) { return e.time_s; });
+  column("frame", "number of the nearest frame", [](Of, Event e) { return static_cast<double>(e.frame); });
+  column("sd_s", "one standard deviation of the time, s; NaN: not known", [](Of, Event e) { return e.sd_s; });
+  column("source", "plate, kinematics or file", [](Of, Event e) { return e.source; });
+  column("method", "how it was found", [](Of, Event e) { return e.method; });
+  return out;
+}
+
 }  // namespace
 
 std::vector<io::NwbTable> measure_tables(const std::vector<NamedMeasures>& recordings) {
@@ -227,12 +259,15 @@ std::vector<io::NwbTable> measure_tables(const std::vector<NamedMeasures>& recor
     for (const auto& measure : recording.measures)
       if (std::ranges::find(ids, measure.id) == ids.end()) ids.push_back(measure.id);
   if (ids.empty()) return {};
-  return {wide_table(rows_of(recordings, false), ids), tidy_table(rows_of(recordings, true)),
-          definitions_table(ids)};
+  std::vector out{wide_table(rows_of(recordings, false), ids), tidy_table(rows_of(recordings, true)),
+                  definitions_table(ids)};
+  if (auto events = events_table(recordings); !events.columns.empty()) out.push_back(std::move(events));
+  return out;
 }
 
 ResultFile nwb_file(std::filesystem::path target, std::vector<NamedMeasures> recordings,
-                    const std::vector<data::InputFile>& inputs, const JobSettings& settings) {
+                    const std::vector<data::InputFile>& inputs, const JobSettings& settings,
+                    data::Beside beside) {
   io::NwbMetadata metadata{.session_description = "measures of movement"};
   std::set<std::string> participants;
   for (const auto& recording : recordings) participants.insert(recording.name.participant);
@@ -242,11 +277,11 @@ ResultFile nwb_file(std::filesystem::path target, std::vector<NamedMeasures> rec
   metadata.seed = settings.seed;
   for (const auto& input : inputs) metadata.sources.push_back({input.path, input.bytes, input.hash});
   return {.target = std::move(target),
-          .write = [recordings = std::move(recordings), metadata](const std::filesystem::path& staged,
-                                                                  const std::string& set) -> Status {
+          .write = [recordings = std::move(recordings), metadata, beside = std::move(beside)](
+                       const std::filesystem::path& staged, const std::string& set) -> Status {
             auto named = metadata;
             named.set = set;
-            return io::write_nwb_tables(staged, measure_tables(recordings), named, false);
+            return io::write_nwb_tables(staged, measure_tables(recordings), named, false, &beside);
           }};
 }
 

@@ -80,6 +80,19 @@ TEST(MeasureTables, ColumnsOfEveryMeasureHaveNamesOfTheirOwn) {
   EXPECT_EQ(measure_tables({all})[2].columns[0].texts.size(), all.measures.size());
 }
 
+TEST(MeasureTables, EventsStandBesideThemWithTheirDeviations) {
+  auto measured = recordings();
+  measured[1].events = {
+      {.context = "Left", .label = "Foot Strike", .time_s = 1.25, .frame = 126, .sd_s = 0.004},
+      {.context = "Left", .label = "Foot Off", .time_s = 1.9, .frame = 191}};
+  const auto tables = measure_tables(measured);
+  ASSERT_THAT(tables, SizeIs(4));
+  EXPECT_EQ(tables[3].name, "movement_events");
+  EXPECT_THAT(find(tables[3], "file").texts, ElementsAre("b.c3d", "b.c3d"));
+  EXPECT_THAT(find(tables[3], "time_s").numbers, ElementsAre(1.25, 1.9));
+  EXPECT_THAT(find(tables[3], "sd_s").numbers, ElementsAre(0.004, ::testing::IsNan()));
+}
+
 TEST(MeasureTables, TheTidyOneLosesNothing) {
   const auto tidy = measure_tables(recordings())[1];
   EXPECT_THAT(find(tidy, "measure").texts,

@@ -272,6 +272,7 @@ Result<IkOutcome> run_ik(IkJob job) {
     files.push_back(table_file(beside(job.output, kOrientationErrors), [&] {
       return internal::orientation_errors_table(motion.time, *sensor_fit, solved->sensor_error_rad);
     }));
+  internal::add_nwb_file(job, motion, outcome.summary, inputs->recording.trial.beside, files);
   if (job.marker_locations)
     files.push_back(table_file(beside(job.output, "_marker_locations.sto"),
                                [&model, &motion] { return marker_locations_table(model, motion); }));

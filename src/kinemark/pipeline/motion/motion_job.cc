@@ -15,6 +15,7 @@
 #include "kinemark/data/filtering.h"
 #include "kinemark/io/input/file_hash.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
+#include "kinemark/io/markers/lost_parts.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/files/motion_tables.h"
@@ -118,6 +119,10 @@ report::IkRun begin_run(const MotionJob& job, const MotionInputs& inputs) {
   if (auto note = data::note_on_noise(inputs.recording.trial.markers); !note.empty())
     run.warnings.push_back(std::move(note));
   run.warnings.insert(run.warnings.end(), inputs.recording.notes.begin(), inputs.recording.notes.end());
+  if (auto lost =
+          io::lost_beside(job.into_nwb ? ".nwb" : ending_of(job.output), inputs.recording.trial.beside);
+      !lost.empty() && !job.output.empty())
+    run.warnings.push_back(std::move(lost));
   run.warnings.insert(run.warnings.end(), model.warnings.begin(), model.warnings.end());
   for (const auto& coordinate : model.coordinates)
     if (coordinate.locked)
@@ -158,6 +163,7 @@ Result<Staging> stage(const MotionJob& job, const std::vector<std::string>& suff
                       const std::vector<fs::path>& further, const std::vector<fs::path>& also_read) {
   std::vector<fs::path> targets{job.output};
   for (const auto& suffix : suffixes) targets.push_back(beside(job.output, suffix));
+  if (job.into_nwb) targets.push_back(beside(job.output, kAnglesFile));
   targets.insert(targets.end(), further.begin(), further.end());
   auto inputs = files_of(job.markers, job);
   inputs.insert(inputs.end(), {job.model, job.forces, job.images.rig});

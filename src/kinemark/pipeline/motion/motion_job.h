@@ -23,6 +23,8 @@ struct MotionJob : JobSettings, RecordingOptions, workflow::MarkerBounds {
   std::filesystem::path forces;  ///< external forces on the body, for torques: .c3d, or ExternalLoads .xml
   std::vector<std::filesystem::path> geometry;  ///< further folders of the model's meshes, for the page
   ImageFiles images;                            ///< seen besides the markers; none: nothing
+  bool into_nwb =
+      false;  ///< also Q_angles.nwb: a copy of the recording's file, if it is an NWB, with the angles
 };
 
 /// What `kinemark ik` and `track` answer alike.

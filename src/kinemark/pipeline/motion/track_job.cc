@@ -112,6 +112,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
     return std::unexpected(s.error());
   // Write.
   auto files = internal::motion_files(job, motion, outcome.summary);
+  internal::add_nwb_file(job, motion, outcome.summary, inputs->recording.trial.beside, files);
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {

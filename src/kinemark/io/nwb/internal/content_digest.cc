@@ -6,16 +6,21 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <string_view>
 
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/set_mark.h"
 
 namespace kinemark::io::internal {
 namespace {
 
 constexpr int kMostDepth = 12;
+// Attributes of the root that are ours: others may add theirs.
+constexpr std::array kOfRoot = {std::string_view("kinemark_content"), std::string_view("kinemark_module"),
+                                kSetKey};
 constexpr std::int64_t kBlockNumbers = 1 << 17;
 
 struct FreeState {
@@ -50,6 +55,21 @@ class Walk {
       default:
         return false;
     }
+  }
+  /// What a list names, and what our attributes of the root say.
+  bool listed(const std::vector<std::string>& content) {
+    for (const auto name : kOfRoot) {
+      const auto texts = in_.text_attributes(in_.file(), std::string(name).c_str());
+      add(texts ? texts->size() : 0);
+      if (texts)
+        for (const auto& text : *texts) add(text);
+    }
+    for (const auto& path : content) {
+      add(path);
+      const Handle alone = in_.object(in_.file(), path);
+      if (path.ends_with('/') ? !attributes(alone.id(), false) : !object(path, 0)) return false;
+    }
+    return true;
   }
   [[nodiscard]] std::string digest() const {
     return fmt::format("xxh3:{:016x}", XXH3_64bits_digest(state_.get()));
@@ -137,17 +157,21 @@ class Walk {
 
 std::optional<std::string> content_digest(Input& in) {
   Walk walk(in);
-  if (!walk.object("", 0)) return std::nullopt;
+  const auto content = listed_content(in);
+  if (content ? !walk.listed(*content) : !walk.object("", 0)) return std::nullopt;
   return walk.digest();
 }
 
-void seal(Output& out, const std::string& set) {
+void seal(Output& out, const std::string& set, const std::vector<std::string>& content) {
   if (!set.empty()) out.attribute(out.file(), std::string(kSetKey).c_str(), set_mark(set));
+  out.attribute(out.file(), kContentAttribute, content);
   if (out.failed()) return;
   auto written = Input::of(out.file());
   const auto digest = content_digest(written);
   out.require(digest.has_value());
   if (digest) out.attribute(out.file(), kDigestAttribute, *digest);
 }
+
+void seal_whole(Output& out, const std::string& set) { seal(out, set, all_content(Input::of(out.file()))); }
 
 }  // namespace kinemark::io::internal

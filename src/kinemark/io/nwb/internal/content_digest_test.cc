@@ -7,6 +7,7 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/io/file.h"
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/testing/sample.h"
 #include "support/scratch.h"
@@ -70,8 +71,36 @@ TEST(ContentDigest, AnyChangeIsRefused) {
     const double thousandth = 0.001;
     ASSERT_GE(H5Awrite(unit.id(), H5T_NATIVE_DOUBLE, &thousandth), 0);
   });
-  expect_refused(
-      [](hid_t file) { H5Gclose(H5Gcreate2(file, "/new", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)); });
+  expect_refused([](hid_t file) { H5Adelete(file, kContentAttribute); });
+}
+
+TEST(ContentDigest, WhatOthersAddIsNoneOfOurs) {
+  const auto file = changed([](hid_t hdf5) {
+    H5Gclose(H5Gcreate2(hdf5, "/units", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Gclose(H5Gcreate2(hdf5, "/processing/behavior/pupil", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Ldelete(hdf5, "/analysis", H5P_DEFAULT);  // which is empty, and of NWB's
+  });
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_THAT(file->warnings, ElementsAre());
+}
+
+TEST(ContentDigest, OfAnOlderFileIsOfEverything) {
+  const testing_support::ScratchFolder scratch;
+  const Quiet quiet;
+  ASSERT_TRUE(write_nwb(scratch / "a.nwb", testing::sample_trajectories(12)));
+  const auto with_digest = [&](const auto& change) {
+    {
+      Output out(Handle(H5Fopen((scratch / "a.nwb").c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose), "");
+      for (const char* name : {kContentAttribute, kDigestAttribute})
+        if (H5Aexists(out.file(), name) > 0) H5Adelete(out.file(), name);
+      auto whole = Input::of(out.file());
+      out.attribute(out.file(), kDigestAttribute, *content_digest(whole));
+      change(out);
+    }
+    return read_nwb_here(scratch / "a.nwb");
+  };
+  EXPECT_TRUE(with_digest([](const Output&) {}));
+  EXPECT_FALSE(with_digest([](Output& out) { out.group(out.file(), "new"); }));
 }
 
 TEST(ContentDigest, AFileOfOursWithoutOneIsReadWithAWarning) {

@@ -154,8 +154,12 @@ std::optional<std::vector<std::string>> Input::children(hid_t group) const {
 
 bool Input::broken(hid_t from, const std::string& name) const {
   H5L_info_t info{};
-  return H5Lget_info(from, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD &&
-         !object(from, name);
+  if (H5Lget_info(from, name.c_str(), &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD ||
+      object(from, name))
+    return false;
+  H5O_info_t what{};
+  return H5Oget_info_by_name2(from, name.c_str(), &what, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
+         what.type != H5O_TYPE_DATASET;
 }
 
 std::optional<std::vector<std::int64_t>> Input::shape(hid_t dataset, bool (*fits)(hid_t type)) const {

@@ -32,7 +32,8 @@ class Input {
   /// Names of the links in a group in alphabetical order, 100,000 at most; nothing when they cannot be read.
   [[nodiscard]] std::optional<std::vector<std::string>> children(hid_t group) const;
 
-  /// True when a link leads to an object of this file that cannot be opened: damage, not a dangling link.
+  /// True when a link leads to a group of this file, or what may be one, that cannot be opened: damage, not a
+  /// dangling link. Datasets can be of types that only a newer HDF5 knows.
   [[nodiscard]] bool broken(hid_t from, const std::string& name) const;
 
   /// Dimensions of a dataset of numbers, or of texts, whose bytes lie in this file; nothing for others.

@@ -20,6 +20,7 @@ inline constexpr const char* kUnknownAge = "P0D/";  ///< no younger than 0 days
 inline constexpr const char* kModule = "/processing/behavior";
 inline constexpr const char* kPosition = "Position";
 inline constexpr const char* kPose = "PoseEstimation";
+inline constexpr const char* kSkeletons = "Skeletons";
 inline constexpr const char* kMethod = "Method";
 inline constexpr const char* kCovariance = "Covariance";
 inline constexpr const char* kOffset = "SampleOffset";

@@ -50,6 +50,15 @@ Output::Output(const std::string& path, std::string_view identity) : identity_(h
   note(H5Pset_obj_track_times(create.id(), false));
   note(H5Pset_link_phase_change(create.id(), 65535, 0));
   file_ = keep(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, create.id(), access.id()), H5Fclose);
+  make_types();
+}
+
+Output::Output(Handle file, std::string_view identity)
+    : file_(std::move(file)), identity_(hash_of(identity)), failed_(!file_) {
+  make_types();
+}
+
+void Output::make_types() {
   text_type_ = keep(H5Tcopy(H5T_C_S1), H5Tclose);
   note(H5Tset_size(text_type_.id(), H5T_VARIABLE));
   note(H5Tset_cset(text_type_.id(), H5T_CSET_UTF8));

@@ -31,6 +31,8 @@ class Output {
   /// A new file in place of an empty one. Names of objects are made from `identity`, so that the same input
   /// gives the same bytes.
   Output(const std::string& path, std::string_view identity);
+  /// A file that is open for writing. What is in it stays.
+  Output(Handle file, std::string_view identity);
 
   /// A group of a neurodata type, or a plain one when `type` is empty.
   Handle group(hid_t parent, const char* name, const char* type = "");
@@ -64,6 +66,7 @@ class Output {
 
  private:
   Handle keep(hid_t id, Handle::Closer close);
+  void make_types();
   void note(herr_t status) { failed_ = failed_ || status < 0; }
   /// How to store numbers, or a few texts, so that they have a checksum: in the header of their object, or in
   /// a chunk.

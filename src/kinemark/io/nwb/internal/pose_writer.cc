@@ -12,7 +12,6 @@ namespace kinemark::io::internal {
 namespace {
 
 constexpr const char* kNamespace = "ndx-pose";
-constexpr const char* kSkeletons = "Skeletons";
 constexpr const char* kSkeleton = "skeleton";
 
 Handle typed_group(Output& out, hid_t parent, const char* name, const char* type) {
@@ -35,9 +34,9 @@ std::vector<std::string> pose_names(const std::vector<std::string>& series_names
 
 }  // namespace
 
-std::vector<PoseSeries> write_pose(Output& out, hid_t module, const NwbMetadata& metadata,
-                                   const std::vector<std::string>& series_names, std::int64_t frames,
-                                   int compression) {
+std::vector<PoseSeries> write_pose(Output& out, hid_t module, const std::string& room,
+                                   const NwbMetadata& metadata, const std::vector<std::string>& series_names,
+                                   std::int64_t frames, int compression) {
   const Handle skeletons = typed_group(out, module, kSkeletons, "Skeletons");
   const Handle skeleton = typed_group(out, skeletons.id(), kSkeleton, "Skeleton");
   const std::vector<std::string> names = pose_names(series_names);
@@ -47,14 +46,14 @@ std::vector<PoseSeries> write_pose(Output& out, hid_t module, const NwbMetadata&
   out.text(pose.id(), "description", "positions of markers; their data are those of Position");
   const Handle software = out.text(pose.id(), "source_software", metadata.software);
   out.attribute(software.id(), "version", metadata.version.empty() ? "unknown" : metadata.version);
-  out.soft_link(pose.id(), kSkeleton, fmt::format("{}/{}/{}", kModule, kSkeletons, kSkeleton));
+  out.soft_link(pose.id(), kSkeleton, fmt::format("{}/{}/{}", room, kSkeletons, kSkeleton));
   std::vector<PoseSeries> made;
   for (std::size_t m = 0; m < names.size(); ++m) {
     Handle series = typed_group(out, pose.id(), names[m].c_str(), "PoseEstimationSeries");
     out.attribute(series.id(), "description", fmt::format("position (x, y, z) of marker {}", names[m]));
     out.attribute(series.id(), "comments", "no comments");
     out.text(series.id(), "reference_frame", metadata.reference_frame);
-    out.soft_link(series.id(), "data", fmt::format("{}/{}/{}/data", kModule, kPosition, series_names[m]));
+    out.soft_link(series.id(), "data", fmt::format("{}/{}/{}/data", room, kPosition, series_names[m]));
     Handle confidence = out.samples(series.id(), "confidence", H5T_IEEE_F32LE, frames, 1, 0.0, compression);
     out.attribute(confidence.id(), "definition",
                   "1: measured; 0.5: made from measured samples (interpolated, model_filled or upsampled, as "

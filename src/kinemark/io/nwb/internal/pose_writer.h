@@ -19,8 +19,10 @@ struct PoseSeries {
 };
 
 /// Write a skeleton of the markers and a PoseEstimation of them, the data linked to those of Position.
+/// @param room          path of the module
 /// @param series_names  of the markers, as Position has them
-[[nodiscard]] std::vector<PoseSeries> write_pose(Output& out, hid_t module, const NwbMetadata& metadata,
+[[nodiscard]] std::vector<PoseSeries> write_pose(Output& out, hid_t module, const std::string& room,
+                                                 const NwbMetadata& metadata,
                                                  const std::vector<std::string>& series_names,
                                                  std::int64_t frames, int compression);
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/set_mark.h"
@@ -21,7 +22,7 @@ std::string text_at(Input& in, const char* path) {
 /// Columns of a table in the module, all of one length; empty when there is no such table.
 std::vector<std::vector<std::string>> text_columns(Input& in, const char* table,
                                                    std::initializer_list<const char*> names) {
-  const Handle group = in.object(in.file(), fmt::format("{}/{}", kModule, table));
+  const Handle group = in.object(in.file(), fmt::format("{}/{}", module_of(in), table));
   std::vector<std::vector<std::string>> out;
   for (const char* name : names) {
     const Handle column = in.object(group.id(), name);
@@ -57,7 +58,7 @@ void read_provenance(Input& in, NwbMetadata& out) {
 void read_sources(Input& in, NwbMetadata& out) {
   const auto columns = text_columns(in, kSourcesTable, {"file", "xxh3"});
   if (columns.empty()) return;
-  const Handle bytes = in.object(in.file(), fmt::format("{}/{}/bytes", kModule, kSourcesTable));
+  const Handle bytes = in.object(in.file(), fmt::format("{}/{}/bytes", module_of(in), kSourcesTable));
   const auto sizes = in.numbers<double>(bytes.id());
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
     const double size = sizes && i < sizes->size() ? (*sizes)[i] : 0.0;

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "kinemark/core/counted.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/data/calibration_error.h"
+#include "kinemark/io/nwb/internal/beside.h"
 #include "kinemark/io/nwb/internal/content_digest.h"
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/series.h"
@@ -94,7 +96,7 @@ Status read_marker(Input& in, const PositionSeries& from, std::int64_t marker, T
 template <class T>
 Status read_container(Input& in, const PositionGroup& group, const char* container, std::size_t width,
                       std::size_t frames, Array<T>& out) {
-  const std::string path = fmt::format("{}/{}", kModule, container);
+  const std::string path = fmt::format("{}/{}", module_of(in), container);
   if (!in.object(in.file(), path)) return {};
   const std::size_t markers = group.series.size();
   if (!in.afford(frames * markers * width, sizeof(T))) return too_large(path);
@@ -113,7 +115,7 @@ Status read_container(Input& in, const PositionGroup& group, const char* contain
 }
 
 Result<std::vector<data::FilterUsed>> read_filters(Input& in, std::size_t markers) {
-  const Handle table = in.object(in.file(), fmt::format("{}/{}", kModule, kMarkersTable));
+  const Handle table = in.object(in.file(), fmt::format("{}/{}", module_of(in), kMarkersTable));
   const auto numbers = [&](const char* name) {
     const Handle column = in.object(table.id(), name);
     return in.numbers<double>(column.id());
@@ -140,7 +142,7 @@ Result<std::vector<data::FilterUsed>> read_filters(Input& in, std::size_t marker
 Status read_first_frame(Input& in, data::Trial& trial) {
   const double from_time = trial.markers.time.t0_s * trial.markers.time.rate_hz;
   if (from_time > 0.0 && from_time < 1e15) trial.first_frame = std::llround(from_time) + 1;
-  const std::string path = fmt::format("{}/{}/first_frame", kModule, kMarkersTable);
+  const std::string path = fmt::format("{}/{}/first_frame", module_of(in), kMarkersTable);
   const Handle column = in.object(in.file(), path);
   if (!column) return {};
   const auto numbers = in.numbers<double>(column.id());
@@ -172,10 +174,11 @@ Status read_extras(Input& in, const PositionGroup& group, NwbFile& out) {
   if (auto status = read_container(in, group, kUnfiltered, 3, frames, t.unfiltered_in_world); !status)
     return status;
   if (auto status = read_container(in, group, kMethod, 1, frames, t.method); !status) return status;
-  const Handle methods = in.object(in.file(), fmt::format("{}/{}/method", kModule, kMethodsTable));
+  const Handle methods = in.object(in.file(), fmt::format("{}/{}/method", module_of(in), kMethodsTable));
   if (auto names = in.texts(methods.id()); names && names->size() <= 255) t.methods = std::move(*names);
 
-  const Handle calibration = in.object(in.file(), fmt::format("{}/{}/error", kModule, kCalibrationTable));
+  const Handle calibration =
+      in.object(in.file(), fmt::format("{}/{}/error", module_of(in), kCalibrationTable));
   if (const auto texts = in.texts(calibration.id()); texts && !texts->empty()) {
     auto error = data::calibration_error_of(texts->front());
     if (!error)
@@ -228,9 +231,10 @@ Result<NwbFile> read(Input& in) {
       return std::unexpected(status.error());
   if (std::ranges::any_of(group->series, [](const auto& s) { return s.width == 2; }))
     out.warnings.emplace_back("positions have two coordinates; the third is set to 0");
-  if (group->no_positions > 0)
-    out.trial.unread.push_back(counted(static_cast<std::int64_t>(group->no_positions),
-                                       "series that is no position", "series that are no positions"));
+  std::set<std::string> movement;
+  if (!group->ours())
+    for (const PositionSeries& s : group->series) movement.insert(s.path);
+  out.trial.beside = find_beside(in, movement);
   if (group->ours()) {
     if (auto status = read_extras(in, *group, out); !status) return std::unexpected(status.error());
   } else if (!first.stamps_s.empty()) {

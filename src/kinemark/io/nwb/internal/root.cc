@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "kinemark/core/random.h"
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/names.h"
 
 namespace kinemark::io::internal {
@@ -86,7 +87,7 @@ Status check_metadata(const NwbMetadata& m) {
   return {};
 }
 
-Handle write_root(Output& out, const NwbMetadata& m, const NwbOutline& outline) {
+Handle write_root(Output& out, const NwbMetadata& m, const NwbOutline& outline, const std::string& room) {
   const hid_t file = out.file();
   out.declare(file, "NWBFile");
   out.attribute(file, "nwb_version", "2.9.0");
@@ -110,8 +111,9 @@ Handle write_root(Output& out, const NwbMetadata& m, const NwbOutline& outline) 
                                     {"sex", fallback(m.sex, "U")},
                                     {"age", fallback(m.age, kUnknownAge)}})
     if (!value.empty()) out.text(subject.id(), name, value);
-  const Handle processing = out.group(file, "processing");
-  Handle module = out.group(processing.id(), "behavior", "ProcessingModule");
+  out.group(file, "processing");
+  Handle module = out.group(file, room.c_str(), "ProcessingModule");
+  if (room != kModule) out.attribute(file, kModuleAttribute, room);
   out.attribute(module.id(), "description", "marker positions, their quality and what was made of them");
   write_provenance(out, module.id(), m);
   return module;

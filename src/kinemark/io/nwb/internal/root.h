@@ -16,6 +16,8 @@ namespace kinemark::io::internal {
 [[nodiscard]] Status check_metadata(const NwbMetadata& metadata);
 
 /// Write everything of a file but its samples and their tables; returns the processing module for those.
-Handle write_root(Output& out, const NwbMetadata& metadata, const NwbOutline& outline);
+/// @param room  its path
+Handle write_root(Output& out, const NwbMetadata& metadata, const NwbOutline& outline,
+                  const std::string& room);
 
 }  // namespace kinemark::io::internal

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "kinemark/core/length_unit.h"
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/nwb/metadata.h"
 #include "kinemark/io/rate.h"
@@ -96,12 +97,15 @@ struct Found {
 /// What a walk over the groups of a file came by.
 struct Walked {
   std::map<std::string, std::vector<Found>> found;  ///< of a positional type, by the group that holds them
-  std::size_t no_positions = 0;                     ///< series of other types
   int groups_left = kMaxGroups;
 };
 
 /// A series of anything, as TimeSeries and ElectricalSeries; the containers of behaviour are none.
 bool is_series(const std::string& type) { return type.ends_with("Series") && type != "BehavioralTimeSeries"; }
+
+/// A DynamicTable, or what is derived from it (Units, TimeIntervals): it holds columns, which may be of types
+/// that only a newer HDF5 knows.
+bool is_table(hid_t group) { return H5Aexists(group, "colnames") > 0; }
 
 /// Every group of a positional type under `path`. Fails where something is there that cannot be opened:
 /// leaving it out would lose markers silently.
@@ -122,9 +126,7 @@ Status walk(Input& in, const std::string& path, int depth, Walked& walked) {
     const std::string type = in.text_attribute(child.id(), "neurodata_type").value_or("");
     if (type == "SpatialSeries" || type == "PoseEstimationSeries") {
       walked.found[path].push_back({child_path, name, type == "PoseEstimationSeries"});
-    } else if (is_series(type)) {
-      ++walked.no_positions;
-    } else if (depth < kMaxDepth && type != "DynamicTable") {
+    } else if (!is_series(type) && depth < kMaxDepth && !is_table(child.id())) {
       if (auto status = walk(in, child_path, depth + 1, walked); !status) return status;
     }
   }
@@ -186,7 +188,6 @@ Result<PositionGroup> find_foreign(Input& in) {
     if (why_not) return std::unexpected(*why_not);
     return fail(Code::bad_input, "holds no positions (SpatialSeries or PoseEstimationSeries)");
   }
-  best.no_positions = walked.no_positions;
   if (others > 0) best.warnings.push_back(fmt::format("{} other series of positions are left out", others));
   return best;
 }
@@ -211,7 +212,7 @@ Result<PositionGroup> find_ours(Input& in, hid_t table, std::vector<std::string>
   PositionGroup out;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     auto series =
-        describe(in, fmt::format("{}/{}/{}", kModule, kPosition, names[m]), markers[m], false, false);
+        describe(in, fmt::format("{}/{}/{}", module_of(in), kPosition, names[m]), markers[m], false, false);
     if (!series) return std::unexpected(series.error());
     const std::int64_t frames = m == 0 ? series->time.frames : out.series.front().time.frames;
     if (series->time.frames != frames)
@@ -228,7 +229,7 @@ Result<PositionGroup> find_ours(Input& in, hid_t table, std::vector<std::string>
 }  // namespace
 
 Result<PositionGroup> find_positions(Input& in) {
-  const Handle table = in.object(in.file(), fmt::format("{}/{}", kModule, kMarkersTable));
+  const Handle table = in.object(in.file(), fmt::format("{}/{}", module_of(in), kMarkersTable));
   auto markers = text_column(in, table.id(), "marker");
   auto names = text_column(in, table.id(), "series");
   if (markers && names) return find_ours(in, table.id(), std::move(*markers), std::move(*names));
@@ -236,7 +237,10 @@ Result<PositionGroup> find_positions(Input& in) {
   // links without an error, so the writer's name is also read from another place.
   const Handle generated = in.object(in.file(), "/general/was_generated_by");
   const auto software = in.texts(generated.id());
-  const bool says_ours = software && !software->empty() && software->front() == NwbMetadata{}.software;
+  const auto content = listed_content(in);
+  const bool no_markers_said = content && !covers(*content, module_of(in) + "/" + kMarkersTable);
+  const bool says_ours =
+      !no_markers_said && software && !software->empty() && software->front() == NwbMetadata{}.software;
   // H5Lexists() is negative where the links themselves are damaged.
   if (says_ours || (table && H5Lexists(table.id(), "series", H5P_DEFAULT) != 0))
     return fail(Code::bad_input,

@@ -26,9 +26,8 @@ struct PositionSeries {
 struct PositionGroup {
   std::vector<PositionSeries> series;  ///< one or more
   std::vector<std::string>
-      series_names;              ///< of files that we wrote: how a series is called in every container
-  Array<double> offset_s;        ///< of files that we wrote, where every marker has its own
-  std::size_t no_positions = 0;  ///< of files of others: series of anything else (TimeSeries, ...)
+      series_names;        ///< of files that we wrote: how a series is called in every container
+  Array<double> offset_s;  ///< of files that we wrote, where every marker has its own
   std::vector<std::string> warnings;
 
   [[nodiscard]] bool ours() const { return !series_names.empty(); }

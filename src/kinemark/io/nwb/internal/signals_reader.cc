@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/names.h"
 #include "kinemark/io/rate.h"
 
@@ -81,7 +82,7 @@ class TableIn {
   Handle group_;
 };
 
-TableIn module_table(Input& in, const char* name) { return {in, fmt::format("{}/{}", kModule, name)}; }
+TableIn module_table(Input& in, const char* name) { return {in, fmt::format("{}/{}", module_of(in), name)}; }
 
 std::unexpected<Error> beyond_file(const std::string& what) {
   return fail(Code::bad_input, what + ": holds more samples than the size of the file allows");
@@ -144,7 +145,7 @@ Status read_channels(Input& in, data::Trial& trial) {
   c.frames = trial.markers.frames();
   c.values.resize(3 * frames * count);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::string path = fmt::format("{}/{}/{}", kModule, kChannels, (*series)[k]);
+    const std::string path = fmt::format("{}/{}/{}", module_of(in), kChannels, (*series)[k]);
     const auto one = read_series(in, path);
     if (!one) return std::unexpected(one.error());
     if (one->rows != frames || one->width != 3)

@@ -16,7 +16,7 @@
 namespace kinemark::io::internal {
 namespace {
 
-constexpr std::uint64_t kBegin = 0x325042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
+constexpr std::uint64_t kBegin = 0x335042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
 constexpr std::size_t kBuffer = 1 << 16;
 
 /// Bytes out, gathered into large pieces.
@@ -228,6 +228,17 @@ void pass_calibration(Pipe& pipe, Error& error) {
   });
 }
 
+template <class Pipe, class Beside>
+void pass_beside(Pipe& pipe, Beside& beside) {
+  pass(pipe, beside.file);
+  pass(pipe, beside.room);
+  pass_each(pipe, beside.objects, [&](auto& object) {
+    for (auto* text : {&object.path, &object.type, &object.unit, &object.lost}) pass(pipe, *text);
+    pass_each(pipe, object.shape, [&](auto& size) { pass(pipe, size); });
+    pass(pipe, object.rate_hz);
+  });
+}
+
 /// All of a trial but what names its file.
 template <class Pipe, class Trial>
 void pass_trial(Pipe& pipe, Trial& trial) {
@@ -246,6 +257,7 @@ void pass_trial(Pipe& pipe, Trial& trial) {
   pass_each(pipe, trial.force_plates, [&](auto& plate) { pass_plate(pipe, plate); });
   for (auto& time : trial.unloaded_s) pass(pipe, time);
   pass_texts(pipe, trial.unread);
+  pass_beside(pipe, trial.beside);
 }
 
 template <class Pipe, class Derivatives>
@@ -307,6 +319,12 @@ bool pass_all(Source& in, PoseTable& table) {
   return true;
 }
 
+void pass_all(Sink& out, const Carried& carried) { pass_texts(out, carried.content); }
+bool pass_all(Source& in, Carried& carried) {
+  pass_texts(in, carried.content);
+  return true;
+}
+
 /// Arrays of the sizes that names and clock promise, as every file of read_nwb() has them.
 bool is_sound(const NwbFile& file) {
   const auto& t = file.trial.markers;
@@ -314,6 +332,7 @@ bool is_sound(const NwbFile& file) {
   return file.trial.validate() && (!file.derivatives || file.derivatives->validate(t));
 }
 bool is_sound(const PoseTable& table) { return table.validate().has_value(); }
+bool is_sound(const Carried& /*carried*/) { return true; }
 
 template <class T>
 bool send_any(int fd, const Result<T>& content) {
@@ -357,12 +376,16 @@ std::optional<Result<T>> receive_any(int fd, std::size_t most_bytes) {
 
 bool send(int fd, const Result<NwbFile>& file) { return send_any(fd, file); }
 bool send(int fd, const Result<PoseTable>& table) { return send_any(fd, table); }
+bool send(int fd, const Result<Carried>& carried) { return send_any(fd, carried); }
 
 std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
   return receive_any<NwbFile>(fd, most_bytes);
 }
 std::optional<Result<PoseTable>> receive_poses(int fd, std::size_t most_bytes) {
   return receive_any<PoseTable>(fd, most_bytes);
+}
+std::optional<Result<Carried>> receive_carried(int fd, std::size_t most_bytes) {
+  return receive_any<Carried>(fd, most_bytes);
 }
 
 }  // namespace kinemark::io::internal

@@ -72,7 +72,16 @@ TEST(Transfer, EverythingArrives) {
   for (const std::int64_t frames : {2, 50, 3000}) {  // short of the buffer, and beyond
     NwbFile file = sample();
     file.trial = testing::sample_trial(frames);
-    file.trial.unread = {"2 series that are no positions"};
+    file.trial.unread = {"derivatives of markers"};
+    file.trial.beside = {.file = "a.nwb",
+                         .room = "/processing/kinemark",
+                         .objects = {{.path = "/lfp",
+                                      .type = "ElectricalSeries",
+                                      .shape = {6000, 4},
+                                      .unit = "volts",
+                                      .rate_hz = 1000.0,
+                                      .lost = "why"},
+                                     {.path = "/units", .type = "Units"}}};
     file.derivatives = testing::sample_derivatives(file.trial.markers);
     const auto back = receive_bytes(bytes_of(file));
     ASSERT_TRUE(back && *back);
@@ -97,6 +106,13 @@ TEST(Transfer, EverythingArrives) {
     EXPECT_EQ(got.trial.unloaded_s, file.trial.unloaded_s);
     EXPECT_EQ(got.trial.calibration_error.fields, file.trial.calibration_error.fields);
     EXPECT_EQ(got.trial.unread, file.trial.unread);
+    EXPECT_EQ(got.trial.beside.file, "a.nwb");
+    EXPECT_EQ(got.trial.beside.room, "/processing/kinemark");
+    ASSERT_EQ(got.trial.beside.objects.size(), 2U);
+    const auto& lfp = got.trial.beside.objects.front();
+    EXPECT_EQ(lfp.path + lfp.type + lfp.unit + lfp.lost, "/lfpElectricalSeriesvoltswhy");
+    EXPECT_EQ(lfp.shape, (std::vector<std::int64_t>{6000, 4}));
+    EXPECT_EQ(lfp.rate_hz, 1000.0);
     for (const Rate& rate : kRates)
       EXPECT_TRUE(testing::same_bits((*got.derivatives).*rate.values, (*file.derivatives).*rate.values));
     EXPECT_EQ(got.derivatives->filters.size(), file.derivatives->filters.size());

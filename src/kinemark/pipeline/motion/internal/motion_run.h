@@ -24,6 +24,8 @@
 
 namespace kinemark::pipeline::internal {
 
+inline constexpr const char* kAnglesFile = "_angles.nwb";  ///< its suffix
+
 struct MotionInputs {
   model::Model model;
   Recording recording;                      ///< in the model's axes, with forces where the job names some
@@ -74,6 +76,10 @@ void add_found(report::IkRun& run, const data::MarkerFit& fit, const workflow::T
 [[nodiscard]] std::vector<ResultFile> motion_files(const MotionJob& job, const data::JointMotion& motion,
                                                    const report::IkSummary& summary,
                                                    const nlohmann::ordered_json& more = {});
+/// Q_angles.nwb, where the job asks for it: angles with their standard deviations in a copy of the
+/// recording's file. All of them must live until it is written.
+void add_nwb_file(const MotionJob& job, const data::JointMotion& motion, const report::IkSummary& summary,
+                  const data::Beside& beside, std::vector<ResultFile>& files);
 /// Name of the set of files of a motion.
 [[nodiscard]] std::string name_set(const data::JointMotion& motion, const report::IkRun& run);
 /// Write the files and let them appear, unless the caller stops `what` in the last moment. Refused where one
