@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// read_nwb() and read_pose_table(): start the program that reads, waits for what it sends, and says how it
+// read_nwb(), read_neural() and read_pose_table(): start the program that reads, waits for what it sends, and says how it
 // ended where it sends nothing.
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -18,6 +18,7 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/nwb/internal/transfer.h"
+#include "kinemark/io/nwb/neural_file.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/nwb/pose_table.h"
 
@@ -161,6 +162,10 @@ Result<T> read_apart(const fs::path& path, const char* what, Receive<T> receive)
 
 Result<NwbFile> read_nwb(const fs::path& path) {
   return read_apart<NwbFile>(path, nullptr, internal::receive);
+}
+
+Result<data::Neural> read_neural(const fs::path& path) {
+  return read_apart<data::Neural>(path, "neural", internal::receive_neural);
 }
 
 Result<PoseTable> read_pose_table(const fs::path& path) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [poses]: reads an NWB file for read_nwb(), or points in images for
-// read_pose_table(), which is at the other end of standard output. A process of its own, because HDF5 crashes
+// kinemark-nwb FILE SECONDS BYTES [neural|poses]: reads an NWB file for read_nwb() or read_neural(), or points
+// in images for read_pose_table(), which is at the other end of standard output. A process of its own, because HDF5 crashes
 // on some damaged files and never returns from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "kinemark/io/nwb/internal/neural_reader.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/internal/transfer.h"
@@ -67,12 +68,14 @@ bool send_read(Result<T> (*read)(const std::filesystem::path&), const char* path
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool poses = argc == 5 && std::string_view(argv[4]) == "poses";
-  const auto seconds = argc == 4 || poses ? number(argv[2]) : std::nullopt;
-  const auto bytes = argc == 4 || poses ? number(argv[3]) : std::nullopt;
+  const std::string_view what = argc == 5 ? argv[4] : "";
+  const bool known = argc == 4 || what == "neural" || what == "poses";
+  const auto seconds = known ? number(argv[2]) : std::nullopt;
+  const auto bytes = known ? number(argv[3]) : std::nullopt;
   if (!seconds || !bytes) return 2;
   set_limits(*seconds, *bytes);
-  const bool sent = poses ? send_read(io::internal::read_pose_table_here, argv[1])
-                          : send_read(io::internal::read_nwb_here, argv[1]);
+  const bool sent = what == "poses"    ? send_read(io::internal::read_pose_table_here, argv[1])
+                    : what == "neural" ? send_read(io::internal::read_neural_here, argv[1])
+                                       : send_read(io::internal::read_nwb_here, argv[1]);
   _exit(sent ? 0 : 4);  // HDF5 has nothing left to do
 }
