@@ -18,6 +18,8 @@ enum class AnalysisKind : std::uint8_t {
   segments,  ///< joint centres and angles of a recording by a definition
   motion,    ///< measures of a motion
   tables,    ///< tables of a motion, into a folder
+  around,    ///< averages around events of a recording of markers
+  around_motion,  ///< the same of a motion
 };
 
 /// Every option that was given is heeded by this kind of analysis: Code::usage names the first that is not,

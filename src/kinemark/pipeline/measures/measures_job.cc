@@ -247,6 +247,11 @@ nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {
                   {"bytes", outcome.input.bytes},
                   {outcome.input.hash_kind, outcome.input.hash}};
   out["measures"] = measures_json(outcome.measures);
+  for (const auto& [region, cells] : outcome.spans.cells) {
+    nlohmann::ordered_json trial{{"region", region}};
+    for (std::size_t k = 0; k < cells.size(); ++k) trial["conditions"][outcome.spans.columns[k]] = cells[k];
+    out["trials"].push_back(std::move(trial));
+  }
   if (outcome.gait) out["gait"] = gait_json(*outcome.gait);
   if (!outcome.rhythms.empty()) out["rhythms"] = rhythms_json(outcome.rhythms);
   if (!outcome.noises.empty()) out["noise"] = noises_json(outcome.noises);

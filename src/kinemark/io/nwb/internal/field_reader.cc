@@ -170,6 +170,8 @@ Status read_field(Input& in, const std::string& path, data::Neural& to) {
                           .bins = std::min(series->samples(), kFieldBins)};
   const double end_s = series->time_s(series->samples() - 1) + 1.0 / series->rate_hz;
   out.bin_s = (end_s - out.start_s) / static_cast<double>(out.bins);
+  if (!(out.bin_s > 0.0) || !std::isfinite(end_s))
+    return bad_field(path, fmt::format("goes from {} to {} s, which no clock tells apart", out.start_s, end_s));
   const std::int64_t most = std::max<std::int64_t>(1, kFieldBlock / static_cast<std::int64_t>(series->width));
   const std::int64_t rows = std::min(most, series->samples());
   const auto size = static_cast<std::size_t>(out.bins) * channels;
