@@ -21,8 +21,9 @@ namespace {
 Status take_window(const std::string& text, workflow::AroundChoice& choice) {
   if (text.empty()) return {};
   const auto comma = text.find(',');
-  const auto wrong = fail(
-      Code::usage, fmt::format("--window '{}': need FROM,TO in seconds after the event, such as -0.5,1", text));
+  const auto wrong =
+      fail(Code::usage,
+           fmt::format("--window '{}': need FROM,TO in seconds after the event, such as -0.5,1", text));
   if (comma == std::string::npos) return wrong;
   const auto from = parse_number(std::string_view(text).substr(0, comma)),
              to = parse_number(std::string_view(text).substr(comma + 1));
@@ -39,10 +40,11 @@ void add_around_options(CLI::App& command, AroundArguments& arguments) {
   const char* group = "Around events";
   auto* around =
       command
-          .add_option("--around", job.what,
-                      "Averages around events instead of measures: units (spikes of each; unit:3 of one) of the "
-                      "movement; movement (starts of the markers' own), trials (trials:COLUMN by condition) or a "
-                      "label of events of the rate of each unit")
+          .add_option(
+              "--around", job.what,
+              "Averages around events instead of measures: units (spikes of each; unit:3 of one) of the "
+              "movement; movement (starts of the markers' own), trials (trials:COLUMN by condition) or a "
+              "label of events of the rate of each unit")
           ->type_name("WHAT")
           ->group(group);
   command.add_option("--window", arguments.window, "Seconds after the event, before it with a minus: -0.5,1")
@@ -76,10 +78,11 @@ void add_around_options(CLI::App& command, AroundArguments& arguments) {
       ->group(group);
 }
 
-int run_around_command(const CommonOptions& common, const CLI::App& command, const MeasuresArguments& measures,
-                       AroundArguments& arguments) {
+int run_around_command(const CommonOptions& common, const CLI::App& command,
+                       const MeasuresArguments& measures, AroundArguments& arguments) {
   if (measures.inputs.empty())
-    return report_error({.code = Code::usage, .message = "IN is required: a recording of markers, or a motion"});
+    return report_error(
+        {.code = Code::usage, .message = "IN is required: a recording of markers, or a motion"});
   if (are_many(measures.inputs))
     return report_error({.code = Code::usage, .message = "--around takes one recording"});
   auto& job = arguments.job;

@@ -17,7 +17,8 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
       "of a\n"
       "folder of them, in one table (docs/stages/many-recordings.md). Spans, events and cycles are those of "
       "the\n"
-      "markers' own movements, trials of an .nwb, or those that --region and --between name. --around: averages "
+      "markers' own movements, trials of an .nwb, or those that --region and --between name. --around: "
+      "averages "
       "of\n"
       "movement and spikes around each other (docs/stages/around.md).");
   const auto arguments = std::make_shared<MeasuresArguments>();

@@ -17,6 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import h5py
 import numpy
 import pynwb
 import scipy.stats
@@ -165,14 +166,12 @@ def movements(folder, seed):
     # Times of the table of events have nine digits: a spike that near an edge may fall to the other side.
     differ = [worst(got["f7 Movement Start", str(u), "rate"], statistics(rates(spikes[u], within(starts, (0.0, time[-1]))))) for u in range(6)]
     row(len(starts) >= 5 and max(differ) <= 1e-9, "rates around movement starts", "NumPy within 1e-9 Hz, by the starts that --write-events writes", f"{len(starts)} starts, {max(differ):.1e} Hz")
-    output("clean", path, folder / "clean.csv", "--derivatives", "--gaps", "none", "--select", "f7")
-    with open(folder / "clean.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    velocity = numpy.array([[float(r[f"v{a}_m_s"]) if f"v{a}_m_s" in r and r[f"v{a}_m_s"] else numpy.nan for a in "xyz"] for r in rows])
-    speed = numpy.linalg.norm(velocity, axis=1)
+    output("clean", path, folder / "clean.nwb", "--derivatives", "--gaps", "none", "--select", "f7")
+    with h5py.File(folder / "clean.nwb") as file:
+        speed = numpy.linalg.norm(file["processing/behavior/Velocity/f7/data"][:], axis=1)
     got = table(path, "--around", "unit:2", "--select", "f7")
     differ = worst(got["unit 2", "f7", "speed"], statistics(mean_in_bins(time, speed, within(spikes[2], (0.0, time[-1])))), 1e3)
-    row(differ <= 1e-5, "speeds around spikes", "those of clean --derivatives by NumPy within 1e-5 mm/s (its table has 9 digits)", f"{differ:.1e} mm/s")
+    row(differ <= 1e-9, "speeds around spikes", "those of clean --derivatives by NumPy within 1e-9 mm/s", f"{differ:.1e} mm/s")
 
 
 def motion(folder, random):

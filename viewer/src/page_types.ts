@@ -1005,6 +1005,7 @@ export interface MeasuresResult {
   /** Largest share of samples that were not measured, 0 to 1. */ most_not_measured: number;
   /** One per value. */ measures: Measure[];
   /** Figures. */ figures: DrawnFigure[];
+  /** Of the page alone: spikes, trials and field potentials on the recording's clock; absent: the file has none. */ neural?: NeuralLanes;
 }
 
 /** A value. Those that do not apply are absent. */

@@ -42,8 +42,8 @@ Status check_field(const FieldEnvelope& field) {
   const auto size = static_cast<std::size_t>(std::max<std::int64_t>(0, field.bins)) * field.channels.size();
   if (field.bins < 0 || field.low.size() != size || field.high.size() != size || !(field.rate_hz > 0.0) ||
       !(field.bin_s > 0.0) || !std::isfinite(field.start_s))
-    return fail(Code::bad_input, fmt::format("field potential '{}': has no clock, or not {} numbers",
-                                             field.name, size));
+    return fail(Code::bad_input,
+                fmt::format("field potential '{}': has no clock, or not {} numbers", field.name, size));
   for (std::size_t i = 0; i < size; ++i)
     if (std::isnan(field.low[i]) != std::isnan(field.high[i]) || field.low[i] > field.high[i])
       return fail(Code::bad_input,

@@ -197,12 +197,17 @@ export class LanePlot {
       if (u % every === 0) this.#name(pen, unit.id, y + Math.max(row, 11) / 2);
       pen.fillStyle = palette().line;
       const [first, last] = binsIn(from, to, startS, binS, unit.counts.length);
-      for (let b = first; b < last; ++b) {
-        if (unit.counts[b] === 0) continue;
+      // Where several bins share a pixel, a mark is as strong as the share of them that hold spikes.
+      const together = Math.max(1, Math.round(binS > 0 ? (1.5 * (to - from)) / (this.#width - this.#gutter) / binS : 1));
+      for (let b = first; b < last; b += together) {
+        const firing = unit.counts.subarray(b, Math.min(last, b + together)).reduce((n, c) => n + (c > 0 ? 1 : 0), 0);
+        if (firing === 0) continue;
         const x = Math.max(this.#gutter, this.#xOf(startS + b * binS));
-        const width = Math.max(1, Math.min(3, this.#xOf(startS + (b + 1) * binS) - x));
+        const width = Math.max(1, Math.min(3, this.#xOf(startS + (b + together) * binS) - x));
+        pen.globalAlpha = together === 1 ? 1 : 0.25 + (0.75 * firing) / together;
         pen.fillRect(x, y + (row > 4 ? 1 : 0), width, Math.max(1, row - (row > 4 ? 2 : 0)));
       }
+      pen.globalAlpha = 1;
     });
   }
 

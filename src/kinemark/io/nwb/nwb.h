@@ -119,8 +119,8 @@ class NwbWriter {
   /// Write what `trial` holds besides positions, once, before commit(). Its markers are those of the outline
   /// (else ContractError); its positions are not looked at.
   [[nodiscard]] Status write_signals(const data::Trial& trial);
-  /// Write what a session holds beside movement, once, before commit(): units, intervals, and field potentials
-  /// as samples; the envelopes of `neural` are not looked at.
+  /// Write what a session holds beside movement, once, before commit(): units, intervals, and field
+  /// potentials as samples; the envelopes of `neural` are not looked at.
   [[nodiscard]] Status write_neural(const data::Neural& neural,
                                     const std::vector<data::FieldSamples>& fields);
   /// Write names of methods and filters and the digest of all that is there, close, sync, and put the file

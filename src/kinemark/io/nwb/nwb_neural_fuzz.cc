@@ -23,7 +23,8 @@ namespace {
 using namespace kinemark;
 
 bool is_neural(std::string_view path) {
-  for (const std::string_view name : {"/units", "/intervals", "/general/extracellular_ephys", "/processing/ecephys"})
+  for (const std::string_view name :
+       {"/units", "/intervals", "/general/extracellular_ephys", "/processing/ecephys"})
     if (path.starts_with(name)) return true;
   return false;
 }
@@ -35,7 +36,8 @@ io::testing::Start make_start() {
   if (!io::testing::write_session(scratch / "start.nwb", io::testing::sample_neural(), {field})) std::abort();
   {
     // Without the digest, which no edit would fit.
-    const io::internal::Handle file(H5Fopen((scratch / "start.nwb").c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    const io::internal::Handle file(H5Fopen((scratch / "start.nwb").c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                                    H5Fclose);
     if (H5Adelete(file.id(), io::internal::kDigestAttribute) < 0) std::abort();
   }
   auto out = io::testing::start_of(io::read_text(scratch / "start.nwb").value());

@@ -96,8 +96,9 @@ std::string fault_with(const std::function<void(Output&)>& fill) {
     EXPECT_TRUE(out.close());
   }
   const auto back = read_neural(scratch / "f.nwb");
-  if (!back) EXPECT_EQ(back.error().code, Code::bad_input);
-  return back ? "" : back.error().message;
+  if (back) return "";
+  EXPECT_EQ(back.error().code, Code::bad_input);
+  return back.error().message;
 }
 
 void put_units(Output& out, std::vector<double> times, std::vector<std::int64_t> ends) {
@@ -110,13 +111,15 @@ TEST(NwbNeural, SpikesThatDoNotAscendAreRefused) {
   EXPECT_EQ(fault_with([](Output& out) { put_units(out, {0.1, 0.2, 0.1}, {2, 3}); }), "");
   EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.2, 0.1}, {2}); }),
               HasSubstr("unit 0: spike times must be numbers that ascend; 0.1 s comes after 0.2 s"));
-  EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.2, kNaN}, {2}); }), HasSubstr("must be numbers"));
+  EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.2, kNaN}, {2}); }),
+              HasSubstr("must be numbers"));
 }
 
 TEST(NwbNeural, AnIndexThatDoesNotFitIsRefused) {
   EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.1, 0.2}, {1, 5}); }),
               HasSubstr("/units/spike_times_index: holds 5 after 1; expected ends that ascend to 2"));
-  EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.1, 0.2}, {2, 1}); }), HasSubstr("holds 1 after 2"));
+  EXPECT_THAT(fault_with([](Output& out) { put_units(out, {0.1, 0.2}, {2, 1}); }),
+              HasSubstr("holds 1 after 2"));
 }
 
 TEST(NwbNeural, IntervalsEndAfterTheyBegin) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// read_nwb(), read_neural() and read_pose_table(): start the program that reads, waits for what it sends, and says how it
-// ended where it sends nothing.
+// read_nwb(), read_neural() and read_pose_table(): start the program that reads, waits for what it sends, and
+// says how it ended where it sends nothing.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <spawn.h>

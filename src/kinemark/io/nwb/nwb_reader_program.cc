@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [neural|poses]: reads an NWB file for read_nwb() or read_neural(), or points
-// in images for read_pose_table(), which is at the other end of standard output. A process of its own, because HDF5 crashes
-// on some damaged files and never returns from others.
+// kinemark-nwb FILE SECONDS BYTES [neural|poses]: reads an NWB file for read_nwb() or read_neural(), or
+// points in images for read_pose_table(), which is at the other end of standard output. A process of its own,
+// because HDF5 crashes on some damaged files and never returns from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>

@@ -121,7 +121,8 @@ Result<workflow::MovementSession> read_markers(const AroundJob& job, AroundOutco
 ResultFile table_of(const AroundJob& job, const AroundOutcome& out) {
   const auto name = name_of_recording(job.input);
   const auto ending = ending_of(job.output);
-  if (ending == ".csv") return text_file(job.output, [&out, &job, name] { return around_csv(out.curves, job, name); });
+  if (ending == ".csv")
+    return text_file(job.output, [&out, &job, name] { return around_csv(out.curves, job, name); });
   if (ending == ".json") return json_file(job.output, [&out, &job] { return around_outcome_json(out, job); });
   io::NwbMetadata metadata{.session_description = "averages of a movement and spikes around events",
                            .version = std::string(kVersion),

@@ -27,16 +27,16 @@ struct AroundJob : JobSettings, RecordingOptions, workflow::AroundChoice {
 
 /// Averages; warnings are what is left out.
 struct AroundOutcome : JobOutcome {
-  std::vector<data::InputFile> inputs;         ///< that were read
-  std::vector<analysis::AroundCurve> curves;   ///< as workflow::AroundFound
+  std::vector<data::InputFile> inputs;        ///< that were read
+  std::vector<analysis::AroundCurve> curves;  ///< as workflow::AroundFound
 };
 
 /// The files that the job reads, as far as it names them.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const AroundJob& job);
 
-/// Read, average, write. Speeds are those of the smoother that `kinemark clean` uses by itself. Code::usage as
-/// workflow::around(), for another ending of the output, and for movement starts of a motion; Code::bad_input as
-/// the readers and workflow::around(). Progress counts nothing.
+/// Read, average, write. Speeds are those of the smoother that `kinemark clean` uses by itself. Code::usage
+/// as workflow::around(), for another ending of the output, and for movement starts of a motion;
+/// Code::bad_input as the readers and workflow::around(). Progress counts nothing.
 [[nodiscard]] Result<AroundOutcome> run_around(const AroundJob& job);
 
 /// "inputs", "around" (around_json()), "written", "warnings".

@@ -35,18 +35,20 @@ void over_bins(const std::vector<AroundCurve>& curves, const Add& add) {
 
 std::string around_csv(const std::vector<AroundCurve>& curves, const AroundOptions& options,
                        const RecordingName& recording) {
-  std::string out = name_columns() +
-                    ",events,subject,curve,from_s,to_s,mean,sd,low,high,level,unit,count,missing,used,outside" +
-                    more_columns(recording) + "\n";
+  std::string out =
+      name_columns() +
+      ",events,subject,curve,from_s,to_s,mean,sd,low,high,level,unit,count,missing,used,outside" +
+      more_columns(recording) + "\n";
   const auto first = name_cells(recording), last = more_cells(recording);
-  over_bins(curves, [&](const AroundCurve& curve, const AroundBin& bin, std::int64_t k, const data::Unit& unit) {
-    const auto shown = [&unit](double si) { return exact(unit.per_si * si); };
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", first, table_cell(curve.events),
-                       table_cell(curve.subject), curve.id, edge(options.edge_s(k)),
-                       edge(options.edge_s(k + 1)), shown(bin.mean), shown(bin.sd), shown(bin.low),
-                       shown(bin.high), exact(options.level), unit.name, bin.count, bin.missing, curve.used,
-                       curve.outside, last);
-  });
+  over_bins(curves,
+            [&](const AroundCurve& curve, const AroundBin& bin, std::int64_t k, const data::Unit& unit) {
+              const auto shown = [&unit](double si) { return exact(unit.per_si * si); };
+              out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", first,
+                                 table_cell(curve.events), table_cell(curve.subject), curve.id,
+                                 edge(options.edge_s(k)), edge(options.edge_s(k + 1)), shown(bin.mean),
+                                 shown(bin.sd), shown(bin.low), shown(bin.high), exact(options.level),
+                                 unit.name, bin.count, bin.missing, curve.used, curve.outside, last);
+            });
   return out;
 }
 
@@ -102,14 +104,16 @@ io::NwbTable around_nwb(const std::vector<AroundCurve>& curves, const AroundOpti
   text("events", "events that are averaged over", [](const Curve& c, const Unit&) { return c.events; });
   text("subject", "marker, coordinate or unit", [](const Curve& c, const Unit&) { return c.subject; });
   text("curve", "what of it", [](const Curve& c, const Unit&) { return c.id; });
-  text("unit", "unit of mean, sd, low and high", [](const Curve&, const Unit& u) { return std::string(u.name); });
+  text("unit", "unit of mean, sd, low and high",
+       [](const Curve&, const Unit& u) { return std::string(u.name); });
   number("from_s", "start of the bin after the event, s",
          [&](const Curve&, const Bin&, std::int64_t k, const Unit&) { return options.edge_s(k); });
   number("to_s", "end of the bin after the event, s",
          [&](const Curve&, const Bin&, std::int64_t k, const Unit&) { return options.edge_s(k + 1); });
   const auto member = [&](const char* name, const char* what, double AroundBin::* of) {
-    number(name, what,
-           [of](const Curve&, const Bin& bin, std::int64_t, const Unit& unit) { return unit.per_si * (bin.*of); });
+    number(name, what, [of](const Curve&, const Bin& bin, std::int64_t, const Unit& unit) {
+      return unit.per_si * (bin.*of);
+    });
   };
   member("mean", "mean over the events", &AroundBin::mean);
   member("sd", "standard deviation between events, N - 1", &AroundBin::sd);
@@ -133,8 +137,8 @@ std::string around_text(const std::vector<AroundCurve>& curves, const AroundOpti
   std::string out, last;
   for (const auto& curve : curves) {
     if (curve.events != last)
-      out += fmt::format("{}Around {}: {} used, {} outside\n", out.empty() ? "" : "\n", curve.events, curve.used,
-                         curve.outside);
+      out += fmt::format("{}Around {}: {} used, {} outside\n", out.empty() ? "" : "\n", curve.events,
+                         curve.used, curve.outside);
     last = curve.events;
     const AroundBin *least = nullptr, *most = nullptr;
     for (const auto& bin : curve.bins) {

@@ -14,9 +14,9 @@
 
 namespace kinemark::pipeline {
 
-/// A tidy table, one bin a row: file, participant, session, trial, events, subject, curve, from_s, to_s (after
-/// the event), mean, sd, low, high, level, unit, count, missing, used, outside. Numbers in their shortest
-/// form, to the last bit; empty where not determined. RFC 4180.
+/// A tidy table, one bin a row: file, participant, session, trial, events, subject, curve, from_s, to_s
+/// (after the event), mean, sd, low, high, level, unit, count, missing, used, outside. Numbers in their
+/// shortest form, to the last bit; empty where not determined. RFC 4180.
 [[nodiscard]] std::string around_csv(const std::vector<analysis::AroundCurve>& curves,
                                      const analysis::AroundOptions& options, const RecordingName& recording);
 

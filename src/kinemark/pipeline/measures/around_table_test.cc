@@ -28,9 +28,11 @@ std::vector<analysis::AroundCurve> example_curves() {
 
 TEST(AroundTable, HoldsEveryBinToTheLastDigit) {
   const auto csv = around_csv(example_curves(), kOptions, {.file = "s.nwb"});
-  EXPECT_THAT(csv, StartsWith("file,participant,session,trial,events,subject,curve,from_s,to_s,mean,sd,low,high,"
-                              "level,unit,count,missing,used,outside\n"));
-  EXPECT_THAT(csv, HasSubstr("s.nwb,,,,unit 3,f7,speed,-0.1,0,123.4567890123,10,100,150,0.95,mm/s,2,0,2,1\n"));
+  EXPECT_THAT(csv,
+              StartsWith("file,participant,session,trial,events,subject,curve,from_s,to_s,mean,sd,low,high,"
+                         "level,unit,count,missing,used,outside\n"));
+  EXPECT_THAT(csv,
+              HasSubstr("s.nwb,,,,unit 3,f7,speed,-0.1,0,123.4567890123,10,100,150,0.95,mm/s,2,0,2,1\n"));
   EXPECT_THAT(csv, HasSubstr("unit 3,f7,speed,0,0.1,,,,,0.95,mm/s,0,2,2,1\n"));
 }
 

@@ -163,8 +163,8 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
   std::ranges::move(std::exchange(trial.warnings, {}), std::back_inserter(outcome.warnings));
   auto spanned = asked;
   if (auto s = take_trials(job, out, spanned.options.spans); !s) return std::unexpected(s.error());
-  auto found =
-      workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)), std::move(spanned));
+  auto found = workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)),
+                                           std::move(spanned));
   if (!found) return fail_at(name, found.error());
   take_measured(std::move(*found), out);
   const auto& time = trial.markers.time;

@@ -130,14 +130,14 @@ std::string measures_csv_rows(std::span<const data::Measure> measures, const Rec
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return table_cell(unit.per_si * si); };
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}{}{}\n", first,
-                       table_cell(m.subject), table_cell(m.context), table_cell(m.region),
-                       m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
-                       m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
-                       m.interval.level, data::to_string(m.interval.kind),
-                       m.interval.approximate ? "yes" : "no", shown(m.sd), shown(m.uncorrected),
-                       table_cell(m.share_not_measured), table_cell(m.method), table_cell(m.remark), last,
-                       span_cells(recording, m.region));
+    out +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}{}{}\n", first,
+                    table_cell(m.subject), table_cell(m.context), table_cell(m.region),
+                    m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
+                    m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+                    m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
+                    shown(m.sd), shown(m.uncorrected), table_cell(m.share_not_measured), table_cell(m.method),
+                    table_cell(m.remark), last, span_cells(recording, m.region));
   }
   return out;
 }

@@ -270,7 +270,8 @@ std::string span_cell(const RecordingName& name, const std::string& span, std::s
 
 std::string span_cells(const RecordingName& name, const std::string& span) {
   std::string out;
-  for (std::size_t k = 0; k < name.spans.columns.size(); ++k) out += "," + table_cell(span_cell(name, span, k));
+  for (std::size_t k = 0; k < name.spans.columns.size(); ++k)
+    out += "," + table_cell(span_cell(name, span, k));
   return out;
 }
 

@@ -49,8 +49,7 @@ TrialSpans spans_of(const data::IntervalTable& table, const TimeBase& time) {
       continue;
     }
     const std::string name = fmt::format("{} {}", one, i + 1);
-    out.regions.push_back(
-        {.name = name, .first_frame = time.number(first), .last_frame = time.number(last)});
+    out.regions.push_back({.name = name, .first_frame = time.number(first), .last_frame = time.number(last)});
     auto& cells = out.labels.cells[name];
     for (const auto& label : row.labels) cells.push_back(label.value);
   }
@@ -82,8 +81,8 @@ Result<TrialSpans> trial_spans(const std::filesystem::path& file, const std::str
   if (table == nullptr) return name.empty() ? Result<TrialSpans>(TrialSpans{}) : no_table(*neural, name);
   auto out = spans_of(*table, time);
   if (out.regions.empty() && !name.empty())
-    return fail(Code::bad_input, fmt::format("{}: no interval of '{}' is wholly in the recording", file.string(),
-                                             table->name));
+    return fail(Code::bad_input, fmt::format("{}: no interval of '{}' is wholly in the recording",
+                                             file.string(), table->name));
   return out;
 }
 

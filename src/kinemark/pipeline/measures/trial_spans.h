@@ -22,8 +22,8 @@ struct TrialSpans {
   std::vector<std::string> notes;     ///< how many there are, and which are left out
 };
 
-/// The intervals of a table as spans, frames nearest to their ends; those that are not wholly in the recording
-/// are left out with a note.
+/// The intervals of a table as spans, frames nearest to their ends; those that are not wholly in the
+/// recording are left out with a note.
 [[nodiscard]] TrialSpans spans_of(const data::IntervalTable& table, const TimeBase& time);
 
 /// Spans of a recording's file. No other file than .nwb has intervals.

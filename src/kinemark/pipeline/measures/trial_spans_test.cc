@@ -6,14 +6,17 @@
 #include <gtest/gtest.h>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/nwb/nwb.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr TimeBase kTime{.rate_hz = 100.0, .t0_s = 2.0, .frames = 1001, .first_number = 1};
 
@@ -37,20 +40,24 @@ TEST(TrialSpans, AreFramesNearestToTheTimes) {
   EXPECT_THAT(spans.labels.cells.at("trial 2"), ElementsAre("right", "2"));
   EXPECT_THAT(spans.notes,
               ElementsAre("each of 2 trials of the file is measured (--trials none: the whole recording)"));
+  EXPECT_THAT(spans.notes, Not(Contains(HasSubstr("are not wholly in the recording and not measured"))));
 }
 
 TEST(TrialSpans, ThoseThatLeaveTheRecordingAreCounted) {
   const auto spans = spans_of(table_of({{1.0, 3.0}, {4.0, 5.0}, {11.0, 13.0}}), kTime);
   ASSERT_EQ(spans.regions.size(), 1U);
   EXPECT_EQ(spans.regions[0].name, "trial 2") << "its number is that of the file";
-  EXPECT_THAT(spans.notes.back(), HasSubstr("2 of 3 trials are not wholly in the recording and not measured"));
-  EXPECT_THAT(spans_of(table_of({}), kTime).notes, IsEmpty());
+  EXPECT_THAT(spans.notes.back(),
+              HasSubstr("2 of 3 trials are not wholly in the recording and not measured"));
+  EXPECT_THAT(spans_of(table_of({}), kTime).notes,
+              Not(Contains(HasSubstr("of the file is measured (--trials none: the whole recording)"))));
 }
 
 TEST(TrialSpans, OnlyAnNwbHasThem) {
   const auto none = trial_spans("walk.c3d", "", kTime);
   ASSERT_TRUE(none);
   EXPECT_THAT(none->regions, IsEmpty());
+  EXPECT_THAT(none->notes, Not(Contains(HasSubstr("trials are not looked for: "))));
   const auto named = trial_spans("walk.c3d", "trials", kTime);
   ASSERT_FALSE(named);
   EXPECT_EQ(named.error().code, Code::usage);
@@ -67,6 +74,28 @@ TEST(TrialSpans, AFaultOfTheFileIsANoteUnlessTrialsAreAskedFor) {
   const auto asked = trial_spans(scratch / "no.nwb", "trials", kTime);
   ASSERT_FALSE(asked);
   EXPECT_EQ(asked.error().code, Code::bad_input);
+}
+
+TEST(TrialSpans, ATableThatIsNotThereIsNamed) {
+  const testing_support::ScratchFolder scratch;
+  const auto markers = data::Trajectories::all_missing({"a"}, {.rate_hz = 100.0, .frames = 10});
+  const auto write = [&](const char* name, const data::Neural& neural) {
+    auto writer = io::NwbWriter::create(scratch / name, io::NwbOutline::of(markers, nullptr));
+    ASSERT_TRUE(writer && writer->write(markers) && writer->write_neural(neural, {}) && writer->commit());
+  };
+  data::Neural with;
+  with.intervals = {table_of({{2.0, 3.0}})};
+  write("with.nwb", with);
+  write("without.nwb", {});
+  const auto fault = [&](const char* file, const char* name) {
+    const auto spans = trial_spans(scratch / file, name, kTime);
+    return spans ? "" : spans.error().message;
+  };
+  EXPECT_THAT(fault("with.nwb", "trails"), HasSubstr("there are no intervals 'trails'; nearest: trials"));
+  EXPECT_THAT(fault("with.nwb", "trails"), Not(HasSubstr("the file has none")));
+  EXPECT_THAT(fault("without.nwb", "trials"), HasSubstr("the file has none"));
+  EXPECT_EQ(fault("with.nwb", "trials"), "");
+  EXPECT_EQ(fault("without.nwb", ""), "");
 }
 
 TEST(SpanColumns, AreThoseOfAllRecordingsOfATable) {

@@ -34,7 +34,8 @@ struct SimulateLimbOutcome : JobOutcome {};
 
 /// Write markers.c3d and markers.trc (what the recorder hands on), truth.csv (joint centres and then all
 /// markers without noise, every frame of the cameras) and segments.toml (segment_layout_toml()); with neurons
-/// also session.nwb, the markers with units, trials and field potentials on their clock. Either all files appear or none, nor the folder. Progress counts files.
+/// also session.nwb, the markers with units, trials and field potentials on their clock. Either all files
+/// appear or none, nor the folder. Progress counts files.
 [[nodiscard]] Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job);
 
 /// The layout as `kinemark joints --segments` reads it: [[segment]] with name and markers, [[joint]] with

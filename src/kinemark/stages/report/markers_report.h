@@ -31,8 +31,8 @@ struct MarkersReport {
   const data::Trajectories* before = nullptr;     ///< as it was recorded, on the same markers and frames;
                                                   ///< nullptr: as it is
   std::vector<CycleSpan> cycles;                  ///< that the recording's events mark; may be none
-  const data::Neural* neural = nullptr;  ///< what lies beside the movement; nullptr: nothing
-  nlohmann::ordered_json editing;        ///< state of the edits, where the page can change them; null
+  const data::Neural* neural = nullptr;           ///< what lies beside the movement; nullptr: nothing
+  nlohmann::ordered_json editing;  ///< state of the edits, where the page can change them; null
 };
 
 /// What stands out in a recording, the serious first: markers never seen, markers partly missing, samples

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t kSpikeBins = 3000;
 constexpr double kFinestBin_s = 0.001;
 constexpr std::size_t kMostUnits = 500, kMostTrials = 2000;
-constexpr int kLevels = 254;              // of a value's byte
+constexpr int kLevels = 254;  // of a value's byte
 constexpr std::uint8_t kNoSample = 255;
 
 Json codes(std::span<const std::uint8_t> bytes) {
@@ -75,7 +75,11 @@ Json channel_json(const data::FieldEnvelope& field, std::size_t channel) {
     low[b] = static_cast<std::uint8_t>(std::clamp(std::floor((from - least) / step), 0.0, 1.0 * kLevels));
     high[b] = static_cast<std::uint8_t>(std::clamp(std::ceil((to - least) / step), 0.0, 1.0 * kLevels));
   }
-  return {{"name", field.channels[channel]}, {"least", least}, {"step", step}, {"low", codes(low)}, {"high", codes(high)}};
+  return {{"name", field.channels[channel]},
+          {"least", least},
+          {"step", step},
+          {"low", codes(low)},
+          {"high", codes(high)}};
 }
 
 Json fields_json(const data::Neural& neural, double start_s, double end_s) {

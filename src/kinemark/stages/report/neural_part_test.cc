@@ -13,9 +13,10 @@ namespace {
 data::Neural lanes_example() {
   data::Neural out;
   out.units = {{.id = "1", .labels = {}, .times_s = {-1.0, 0.0, 0.5, 9.999, 11.0}}, {.id = "2"}};
-  out.intervals = {{.name = "trials",
-                    .rows = {{.start_s = 1.0, .stop_s = 2.0, .labels = {{"side", "left"}, {"load", "2"}}},
-                             {.start_s = 20.0, .stop_s = 21.0, .labels = {{"side", "left"}, {"load", "2"}}}}}};
+  out.intervals = {
+      {.name = "trials",
+       .rows = {{.start_s = 1.0, .stop_s = 2.0, .labels = {{"side", "left"}, {"load", "2"}}},
+                {.start_s = 20.0, .stop_s = 21.0, .labels = {{"side", "left"}, {"load", "2"}}}}}};
   out.fields = {{.name = "lfp",
                  .unit = "volts",
                  .channels = {"a"},

@@ -35,7 +35,8 @@ struct NeuralSession {
 
 /// Spikes of units whose rate follows the velocity v of the hand,
 ///
-///   rate(t) = max(0, baseline + depth cos(angle between v(t + lead) and the preferred direction) |v| / RMS |v|),
+///   rate(t) = max(0, baseline + depth cos(angle between v(t + lead) and the preferred direction) |v| / RMS
+///   |v|),
 ///
 /// by an inhomogeneous Poisson process: cosine tuning of Georgopoulos et al. (1982), J. Neurosci. 2:1527,
 /// scaled by the speed (Moran & Schwartz 1999, J. Neurophysiol. 82:2676). Preferred directions are uniform

@@ -44,7 +44,8 @@ Result<std::vector<NamedEvents>> spikes_of(const data::Neural& neural, const std
   const std::string id = what.substr(kOneUnit.size());
   const auto* unit = neural.find_unit(id);
   if (unit == nullptr)
-    return fail(Code::usage, fmt::format("there is no unit '{}'; {}", id, instead(id, ids_of(neural), "units")));
+    return fail(Code::usage,
+                fmt::format("there is no unit '{}'; {}", id, instead(id, ids_of(neural), "units")));
   out.push_back({.name = fmt::format("unit {}", id), .times_s = unit->times_s});
   return out;
 }
@@ -101,7 +102,8 @@ Result<std::vector<NamedEvents>> events_of(const MovementSession& session, const
                                            const std::string& what) {
   if (what == kMovement) {
     if (session.movements.empty())
-      return fail(Code::bad_input, "no movement starts in the recording, around which spikes could be counted");
+      return fail(Code::bad_input,
+                  "no movement starts in the recording, around which spikes could be counted");
     return session.movements;
   }
   const auto colon = what.find(':');
@@ -140,15 +142,17 @@ Status check_clock(const data::Neural& neural, const analysis::ObservedSpan& spa
     }
   if (all == 0) return fail(Code::bad_input, "no unit has a spike");
   if (inside == 0)
-    return fail(Code::bad_input,
-                fmt::format("all {} lie outside the recording: they go from {:.3f} to {:.3f} s, the recording "
-                            "from {:.3f} to {:.3f} s; of two clocks, --clock-offset S brings spikes onto the "
-                            "recording's",
-                            counted(all, "spike"), first, last, span.start_s, span.end_s));
+    return fail(
+        Code::bad_input,
+        fmt::format("all {} lie outside the recording: they go from {:.3f} to {:.3f} s, the recording "
+                    "from {:.3f} to {:.3f} s; of two clocks, --clock-offset S brings spikes onto the "
+                    "recording's",
+                    counted(all, "spike"), first, last, span.start_s, span.end_s));
   if (inside < all)
-    warnings.push_back(fmt::format("{} of {} lie outside the recording ({:.3f} to {:.3f} s) and have no "
-                                   "movement",
-                                   all - inside, counted(all, "spike"), span.start_s, span.end_s));
+    warnings.push_back(
+        fmt::format("{} of {} lie outside the recording ({:.3f} to {:.3f} s) and have no "
+                    "movement",
+                    all - inside, counted(all, "spike"), span.start_s, span.end_s));
   return {};
 }
 
@@ -174,7 +178,8 @@ bool wants_movements(const AroundChoice& choice) { return choice.what == kMoveme
 Result<AroundFound> around(const MovementSession& session, data::Neural neural, const AroundChoice& choice) {
   if (auto s = choice.check(); !s) return std::unexpected(s.error());
   if (neural.units.empty())
-    return fail(Code::bad_input, "there are no units with spikes; --spikes FILE.nwb names a file that has them");
+    return fail(Code::bad_input,
+                "there are no units with spikes; --spikes FILE.nwb names a file that has them");
   shift(neural, choice.clock_offset_s);
   AroundFound out;
   const bool spikes = is_spikes(choice.what);

@@ -84,7 +84,8 @@ analysis::ObservedSpan span_of(const std::vector<SampledCurve>& curves) {
   analysis::ObservedSpan out;
   for (const auto& curve : curves) {
     if (curve.time_s.empty()) continue;
-    out.start_s = std::isfinite(out.start_s) ? std::min(out.start_s, curve.time_s.front()) : curve.time_s.front();
+    out.start_s =
+        std::isfinite(out.start_s) ? std::min(out.start_s, curve.time_s.front()) : curve.time_s.front();
     out.end_s = std::isfinite(out.end_s) ? std::max(out.end_s, curve.time_s.back()) : curve.time_s.back();
   }
   return out;

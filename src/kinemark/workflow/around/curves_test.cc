@@ -54,7 +54,8 @@ TEST(AroundCurves, SpeedIsTheLengthOfTheVelocity) {
 }
 
 TEST(AroundCurves, ColumnsOfAMotionAreAnglesOrLengths) {
-  data::Table table{.columns = {"elbow_flexion", "pelvis_tx"}, .time_s = {0.0, 0.1}, .values = {90.0, 0.5, 45.0, 0.6}};
+  data::Table table{
+      .columns = {"elbow_flexion", "pelvis_tx"}, .time_s = {0.0, 0.1}, .values = {90.0, 0.5, 45.0, 0.6}};
   const auto degrees = curves_of(table, true);
   ASSERT_EQ(degrees.size(), 2U);
   EXPECT_NEAR(degrees[0].value[0], std::numbers::pi / 2.0, 1e-12);

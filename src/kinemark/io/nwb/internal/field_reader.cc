@@ -53,9 +53,9 @@ struct FieldSeries {
   std::vector<std::int64_t> shape;  ///< S, or S x K
   std::size_t width = 1;
   double t0_s = 0.0, rate_hz = 0.0;
-  Array<double> stamps_s;          ///< S; empty: even
+  Array<double> stamps_s;  ///< S; empty: even
   double scale = 1.0, offset = 0.0;
-  Array<double> channel_scale;     ///< K; empty: 1 for each
+  Array<double> channel_scale;  ///< K; empty: 1 for each
 
   [[nodiscard]] std::int64_t samples() const { return shape.front(); }
   [[nodiscard]] double time_s(std::int64_t sample) const {
@@ -69,11 +69,13 @@ Status read_stamps(Input& in, FieldSeries& out) {
   const Handle stamps = in.object(out.group.id(), "timestamps");
   auto times = in.numbers<double>(stamps.id());
   if (!times || std::cmp_not_equal(times->size(), out.samples()))
-    return bad_field(out.path, fmt::format("has neither a starting_time nor {} timestamps, one for each sample",
-                                     out.samples()));
+    return bad_field(
+        out.path,
+        fmt::format("has neither a starting_time nor {} timestamps, one for each sample", out.samples()));
   for (std::size_t i = 0; i < times->size(); ++i)
     if (!std::isfinite((*times)[i]) || (i > 0 && (*times)[i] <= (*times)[i - 1]))
-      return bad_field(out.path, fmt::format("has a timestamp {} after sample {}; they must increase", (*times)[i], i));
+      return bad_field(out.path,
+                       fmt::format("has a timestamp {} after sample {}; they must increase", (*times)[i], i));
   out.t0_s = times->front();
   const double length_s = times->back() - times->front();
   out.rate_hz = times->size() > 1 ? static_cast<double>(times->size() - 1) / length_s : 1.0;
@@ -93,8 +95,8 @@ Status read_field_clock(Input& in, FieldSeries& out) {
     return s;
   }
   if (is_rate(out.rate_hz) && std::isfinite(out.t0_s)) return {};
-  return bad_field(out.path, fmt::format("runs at {} Hz from {} s; need a rate of {} to {:.0f} Hz", out.rate_hz,
-                                   out.t0_s, kSlowest_hz, kFastest_hz));
+  return bad_field(out.path, fmt::format("runs at {} Hz from {} s; need a rate of {} to {:.0f} Hz",
+                                         out.rate_hz, out.t0_s, kSlowest_hz, kFastest_hz));
 }
 
 Result<FieldSeries> describe_field(Input& in, const std::string& path) {
@@ -106,7 +108,8 @@ Result<FieldSeries> describe_field(Input& in, const std::string& path) {
   if (static_cast<std::size_t>(shape->front()) * static_cast<std::size_t>(shape->back()) >
       in.bytes_explained())
     return bad_field(path, "holds more samples than the size of the file allows");
-  if (in.holds_bytes(out.data.id())) return bad_field(path, "its samples are bytes; expected numbers of a potential");
+  if (in.holds_bytes(out.data.id()))
+    return bad_field(path, "its samples are bytes; expected numbers of a potential");
   out.shape = *shape;
   out.width = shape->size() == 2 ? static_cast<std::size_t>(shape->back()) : 1;
   out.scale = in.number_attribute(out.data.id(), "conversion").value_or(1.0);
@@ -137,8 +140,8 @@ std::vector<std::string> channel_names(Input& in, const FieldSeries& series, std
 }
 
 /// Least and largest values of samples [first, first + count), which are in `block`, into their bins.
-void add_block(const FieldSeries& series, std::int64_t first, std::int64_t count, const std::vector<double>& block,
-               data::FieldEnvelope& out) {
+void add_block(const FieldSeries& series, std::int64_t first, std::int64_t count,
+               const std::vector<double>& block, data::FieldEnvelope& out) {
   const std::size_t channels = out.channels.size();
   for (std::int64_t s = 0; s < count; ++s) {
     const auto at = static_cast<std::int64_t>((series.time_s(first + s) - out.start_s) / out.bin_s);
@@ -161,7 +164,8 @@ Status read_field(Input& in, const std::string& path, data::Neural& to) {
   if (!series) return std::unexpected(series.error());
   const std::size_t channels = std::min(series->width, kMostFieldChannels);
   if (series->width > channels)
-    to.warnings.push_back(fmt::format("{}: the first {} of {} channels are shown", path, channels, series->width));
+    to.warnings.push_back(
+        fmt::format("{}: the first {} of {} channels are shown", path, channels, series->width));
   data::FieldEnvelope out{.name = path.substr(path.rfind('/') + 1),
                           .unit = in.text_attribute(series->data.id(), "unit").value_or("volts"),
                           .channels = channel_names(in, *series, channels),
@@ -171,7 +175,8 @@ Status read_field(Input& in, const std::string& path, data::Neural& to) {
   const double end_s = series->time_s(series->samples() - 1) + 1.0 / series->rate_hz;
   out.bin_s = (end_s - out.start_s) / static_cast<double>(out.bins);
   if (!(out.bin_s > 0.0) || !std::isfinite(end_s))
-    return bad_field(path, fmt::format("goes from {} to {} s, which no clock tells apart", out.start_s, end_s));
+    return bad_field(path,
+                     fmt::format("goes from {} to {} s, which no clock tells apart", out.start_s, end_s));
   const std::int64_t most = std::max<std::int64_t>(1, kFieldBlock / static_cast<std::int64_t>(series->width));
   const std::int64_t rows = std::min(most, series->samples());
   const auto size = static_cast<std::size_t>(out.bins) * channels;

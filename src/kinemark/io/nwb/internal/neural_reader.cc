@@ -37,7 +37,7 @@ Result<Array<double>> numbers_of(Input& in, const std::string& path) {
 /// LabelColumns of `rows` texts or numbers, one a row: those that say something of it. `except` are read by
 /// themselves. Lists, references and images are passed over.
 LabelColumns labels_of(Input& in, const std::string& table, std::size_t rows,
-                  const std::vector<std::string>& except) {
+                       const std::vector<std::string>& except) {
   LabelColumns out;
   const Handle group = in.object(in.file(), table);
   const auto names = in.text_attributes(group.id(), "colnames");
@@ -74,8 +74,9 @@ Result<std::vector<std::size_t>> spike_ends(Input& in, std::size_t spikes) {
   double last = 0.0;
   for (const double end : *numbers) {
     if (!(end >= last && end <= static_cast<double>(spikes)) || end != std::floor(end))
-      return bad_table(path, fmt::format("holds {} after {}; expected ends that ascend to {}, the number of spikes",
-                                   end, last, spikes));
+      return bad_table(
+          path, fmt::format("holds {} after {}; expected ends that ascend to {}, the number of spikes", end,
+                            last, spikes));
     out.push_back(static_cast<std::size_t>(last = end));
   }
   return out;
@@ -127,8 +128,7 @@ Status read_intervals(Input& in, data::Neural& out) {
     auto& made = out.intervals.emplace_back();
     made.name = name;
     for (std::size_t i = 0; i < start->size(); ++i)
-      made.rows.push_back(
-          {.start_s = (*start)[i], .stop_s = (*stop)[i], .labels = row_of(columns, i)});
+      made.rows.push_back({.start_s = (*start)[i], .stop_s = (*stop)[i], .labels = row_of(columns, i)});
   }
   return {};
 }

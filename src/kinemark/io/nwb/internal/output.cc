@@ -247,9 +247,9 @@ void Output::index_rows(hid_t table, const Column& column) {
   const Handle space = simple_space(dims);
   const Handle create = small_data(ends.size() * sizeof(std::uint64_t), dims);
   const std::string name = column.name + "_index";
-  const Handle made = keep(
-      H5Dcreate2(table, name.c_str(), H5T_STD_U64LE, space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT),
-      H5Dclose);
+  const Handle made =
+      keep(H5Dcreate2(table, name.c_str(), H5T_STD_U64LE, space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT),
+           H5Dclose);
   note(H5Dwrite(made.id(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, ends.data()));
   declare(made.id(), "VectorIndex", "hdmf-common");
   attribute(made.id(), "description", "where the rows of " + column.name + " end");

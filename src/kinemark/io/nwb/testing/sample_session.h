@@ -14,9 +14,10 @@ namespace kinemark::io::testing {
 /// Three units, one of them silent, and two trials.
 inline data::Neural sample_neural() {
   data::Neural out;
-  out.units = {{.id = "0", .labels = {{"quality", "good"}, {"depth", "1.5"}}, .times_s = {0.1, 0.4, 0.4, 7.25}},
-               {.id = "1", .labels = {{"quality", "mua"}, {"depth", "2"}}, .times_s = {}},
-               {.id = "2", .labels = {{"quality", "good"}, {"depth", "3"}}, .times_s = {1.0 / 3.0}}};
+  out.units = {
+      {.id = "0", .labels = {{"quality", "good"}, {"depth", "1.5"}}, .times_s = {0.1, 0.4, 0.4, 7.25}},
+      {.id = "1", .labels = {{"quality", "mua"}, {"depth", "2"}}, .times_s = {}},
+      {.id = "2", .labels = {{"quality", "good"}, {"depth", "3"}}, .times_s = {1.0 / 3.0}}};
   out.intervals = {{.name = "trials",
                     .rows = {{.start_s = 0.0, .stop_s = 1.5, .labels = {{"side", "left"}}},
                              {.start_s = 2.0, .stop_s = 3.0, .labels = {{"side", "right"}}}}}};
@@ -25,7 +26,8 @@ inline data::Neural sample_neural() {
 
 /// 5,000 samples of two channels at 1 kHz: a sine of 100 uV and a ramp.
 inline data::FieldSamples sample_field() {
-  data::FieldSamples out{.name = "lfp", .channels = {"electrode 0", "electrode 1"}, .rate_hz = 1000.0, .t0_s = 0.25};
+  data::FieldSamples out{
+      .name = "lfp", .channels = {"electrode 0", "electrode 1"}, .rate_hz = 1000.0, .t0_s = 0.25};
   for (int i = 0; i < 5000; ++i) {
     out.values.push_back(1e-4 * std::sin(0.05 * i));
     out.values.push_back(1e-6 * i);

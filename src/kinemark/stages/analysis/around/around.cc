@@ -140,8 +140,8 @@ Status AroundOptions::check() const {
   if (!(bin_s > 0.0) || !std::isfinite(bin_s))
     return fail(Code::usage, fmt::format("a bin of {} s; need a length above 0", bin_s));
   if (!(from_s < to_s) || !std::isfinite(from_s) || !std::isfinite(to_s))
-    return fail(Code::usage, fmt::format("a window from {} to {} s; need FROM,TO with FROM below TO", from_s,
-                                         to_s));
+    return fail(Code::usage,
+                fmt::format("a window from {} to {} s; need FROM,TO with FROM below TO", from_s, to_s));
   const double exact = (to_s - from_s) / bin_s;
   if (exact > static_cast<double>(kMostBins))
     return fail(Code::usage, fmt::format("a window of {:.0f} bins; need {} at most", exact, kMostBins));

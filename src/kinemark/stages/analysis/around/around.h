@@ -16,17 +16,18 @@ namespace kinemark::analysis {
 
 /// Window, bins and interval of an average around events.
 struct AroundOptions {
-  double from_s = -0.5;      ///< start of the window, after the event
-  double to_s = 1.0;         ///< its end, above the start by a whole number of bins
-  double bin_s = 0.02;       ///< > 0
-  double level = 0.95;       ///< of the intervals, above 0.5 and below 1
-  double clock_sd_s = 0.0;   ///< one standard deviation of the events' clock against the curves', >= 0
+  double from_s = -0.5;     ///< start of the window, after the event
+  double to_s = 1.0;        ///< its end, above the start by a whole number of bins
+  double bin_s = 0.02;      ///< > 0
+  double level = 0.95;      ///< of the intervals, above 0.5 and below 1
+  double clock_sd_s = 0.0;  ///< one standard deviation of the events' clock against the curves', >= 0
 
   /// Bins in the window.
   [[nodiscard]] std::int64_t bins() const;
   /// Where a bin begins, after the event; `bins()`: where the last one ends.
   [[nodiscard]] double edge_s(std::int64_t bin) const { return from_s + static_cast<double>(bin) * bin_s; }
-  /// Code::usage: numbers out of their range, a window that is not made of whole bins, more than 100,000 bins.
+  /// Code::usage: numbers out of their range, a window that is not made of whole bins, more than 100,000
+  /// bins.
   [[nodiscard]] Status check() const;
 };
 
@@ -38,11 +39,11 @@ struct ObservedSpan {
 
 /// A movement over time: N samples that straight lines join.
 struct SampledCurve {
-  std::string subject;                                   ///< marker or coordinate
-  std::string id;                                        ///< "x", "speed", "angle"
-  data::Quantity quantity = data::Quantity::length;      ///< decides the unit
-  std::vector<double> time_s;                            ///< N, ascending
-  std::vector<double> value;                             ///< N, SI; NaN where missing
+  std::string subject;                               ///< marker or coordinate
+  std::string id;                                    ///< "x", "speed", "angle"
+  data::Quantity quantity = data::Quantity::length;  ///< decides the unit
+  std::vector<double> time_s;                        ///< N, ascending
+  std::vector<double> value;                         ///< N, SI; NaN where missing
 };
 
 /// One bin of an average.

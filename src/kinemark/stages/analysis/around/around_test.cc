@@ -54,8 +54,8 @@ TEST(Around, ALineIsItselfInTheMiddleOfABin) {
 
 TEST(Around, BinsNarrowerThanAFrameLieOnTheLines) {
   const auto curve = sampled(2.0, [](double t) { return t * t; });
-  const auto out = mean_around("e", std::vector{1.0}, curve, {0.0, 2.0},
-                               {.from_s = 0.0, .to_s = 0.02, .bin_s = 0.005});
+  const auto out =
+      mean_around("e", std::vector{1.0}, curve, {0.0, 2.0}, {.from_s = 0.0, .to_s = 0.02, .bin_s = 0.005});
   ASSERT_EQ(out.bins.size(), 4U);
   EXPECT_NEAR(out.bins[1].mean, 1.0 + (1.02 * 1.02 - 1.0) * 0.0075 / 0.02, 1e-12);
   EXPECT_TRUE(std::isnan(out.bins[1].sd)) << "one event has no deviation";
@@ -111,8 +111,8 @@ TEST(Around, ADeviationOfTheClockWidensWhereTheMeanIsSteep) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(sure.bins[k].mean, unsure.bins[k].mean);
   const double slope = (sure.bins[3].mean - sure.bins[1].mean) / 0.2;
   const double half = sure.bins[2].high - sure.bins[2].mean;
-  EXPECT_NEAR(unsure.bins[2].high - unsure.bins[2].mean,
-              std::hypot(half, 1.959963984540054 * 0.05 * slope), 1e-9);
+  EXPECT_NEAR(unsure.bins[2].high - unsure.bins[2].mean, std::hypot(half, 1.959963984540054 * 0.05 * slope),
+              1e-9);
 }
 
 TEST(Around, IntervalsHoldTheRateOfAPoissonProcess) {
@@ -125,8 +125,8 @@ TEST(Around, IntervalsHoldTheRateOfAPoissonProcess) {
       spikes.push_back(t);
     for (int i = 0; i < 40; ++i) events.push_back(random.uniform(0.5, 59.0));
     std::ranges::sort(events);
-    const auto out = rate_around("e", events, "1", spikes, {0.0, 60.0},
-                                 {.from_s = 0.0, .to_s = 0.2, .bin_s = 0.2});
+    const auto out =
+        rate_around("e", events, "1", spikes, {0.0, 60.0}, {.from_s = 0.0, .to_s = 0.2, .bin_s = 0.2});
     ++all;
     held += out.bins[0].low <= 20.0 && 20.0 <= out.bins[0].high ? 1 : 0;
   }
