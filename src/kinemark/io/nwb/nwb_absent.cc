@@ -31,6 +31,8 @@ Result<NwbFile> read_nwb(const std::filesystem::path& path) { return absent(path
 
 Result<data::Neural> read_neural(const std::filesystem::path& path) { return absent(path); }
 
+Result<data::Neural> read_neural_lanes(const std::filesystem::path& path) { return absent(path); }
+
 Result<PoseTable> read_pose_table(const std::filesystem::path& path) { return absent(path); }
 
 Status write_nwb(const std::filesystem::path& path, const data::Trajectories& /*trajectories*/,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// As nwb_fuzz.cc, of what read_neural() reads: objects of units, intervals, electrodes and field potentials
-// alone are edited.
+// As nwb_fuzz.cc, of what read_neural_lanes() reads: objects of units, intervals, electrodes and field
+// potentials alone are edited.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const testing_support::ScratchFolder scratch;
   FuzzedDataProvider bytes(data, size);
   io::testing::write_edited(scratch / "edited.nwb", start, bytes);
-  const auto neural = io::internal::read_neural_here(scratch / "edited.nwb");
+  const auto neural = io::internal::read_lanes_here(scratch / "edited.nwb");
   if (neural) {
     if (!neural->validate()) std::abort();
     return 0;

@@ -32,7 +32,7 @@ TEST(NwbNeural, ComesBackAsItWasWritten) {
   const testing_support::ScratchFolder scratch;
   const auto neural = testing::sample_neural();
   ASSERT_TRUE(testing::write_session(scratch / "s.nwb", neural, {testing::sample_field()}));
-  const auto back = read_neural(scratch / "s.nwb");
+  const auto back = read_neural_lanes(scratch / "s.nwb");
   ASSERT_TRUE(back) << back.error().message;
   ASSERT_EQ(back->units.size(), 3U);
   for (std::size_t u = 0; u < 3; ++u) {
@@ -44,6 +44,11 @@ TEST(NwbNeural, ComesBackAsItWasWritten) {
   ASSERT_EQ(back->intervals.size(), 1U) << "the time without loads on plates is none";
   EXPECT_EQ(back->intervals[0].rows[1].start_s, 2.0);
   EXPECT_EQ(back->intervals[0].rows[1].labels[0].value, "right");
+  const auto without = read_neural(scratch / "s.nwb");
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_EQ(without->units.size(), 3U);
+  EXPECT_THAT(without->fields, IsEmpty()) << "potentials are read where they are drawn";
+  EXPECT_EQ(back->fields.size(), 1U);
   const auto recording = read_nwb(scratch / "s.nwb");
   ASSERT_TRUE(recording) << recording.error().message;
   EXPECT_THAT(recording->warnings, IsEmpty()) << "the digest holds units, references and potentials";
@@ -53,7 +58,7 @@ TEST(NwbNeural, PotentialsComeAsEnvelopes) {
   const testing_support::ScratchFolder scratch;
   const auto field = testing::sample_field();
   ASSERT_TRUE(testing::write_session(scratch / "s.nwb", {}, {field}));
-  const auto back = read_neural(scratch / "s.nwb");
+  const auto back = read_neural_lanes(scratch / "s.nwb");
   ASSERT_TRUE(back) << back.error().message;
   ASSERT_EQ(back->fields.size(), 1U);
   const auto& envelope = back->fields[0];
@@ -77,7 +82,7 @@ TEST(NwbNeural, PotentialsComeAsEnvelopes) {
 TEST(NwbNeural, AFileWithoutAnyIsEmpty) {
   const testing_support::ScratchFolder scratch;
   ASSERT_TRUE(write_nwb(scratch / "s.nwb", testing::sample_trial(4)));
-  const auto back = read_neural(scratch / "s.nwb");
+  const auto back = read_neural_lanes(scratch / "s.nwb");
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_THAT(back->units, IsEmpty());
   EXPECT_THAT(back->intervals, IsEmpty());
@@ -95,7 +100,7 @@ std::string fault_with(const std::function<void(Output&)>& fill) {
     fill(out);
     EXPECT_TRUE(out.close());
   }
-  const auto back = read_neural(scratch / "f.nwb");
+  const auto back = read_neural_lanes(scratch / "f.nwb");
   if (back) return "";
   EXPECT_EQ(back.error().code, Code::bad_input);
   return back.error().message;
@@ -158,7 +163,7 @@ TEST(NwbNeural, RawPotentialsAreReadWhereThereIsNoLfp) {
     put_series(out, true, 2.0);
     ASSERT_TRUE(out.close());
   }
-  const auto back = read_neural(scratch / "f.nwb");
+  const auto back = read_neural_lanes(scratch / "f.nwb");
   ASSERT_TRUE(back) << back.error().message;
   ASSERT_EQ(back->fields.size(), 1U);
   EXPECT_THAT(back->fields[0].channels, ElementsAre("channel 1", "channel 2"));

@@ -168,6 +168,10 @@ Result<data::Neural> read_neural(const fs::path& path) {
   return read_apart<data::Neural>(path, "neural", internal::receive_neural);
 }
 
+Result<data::Neural> read_neural_lanes(const fs::path& path) {
+  return read_apart<data::Neural>(path, "lanes", internal::receive_neural);
+}
+
 Result<PoseTable> read_pose_table(const fs::path& path) {
   return read_apart<PoseTable>(path, "poses", internal::receive_poses);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [neural|poses]: reads an NWB file for read_nwb() or read_neural(), or
+// kinemark-nwb FILE SECONDS BYTES [neural|lanes|poses]: reads an NWB file for read_nwb() or read_neural(), or
 // points in images for read_pose_table(), which is at the other end of standard output. A process of its own,
 // because HDF5 crashes on some damaged files and never returns from others.
 #include <sys/prctl.h>
@@ -69,13 +69,14 @@ bool send_read(Result<T> (*read)(const std::filesystem::path&), const char* path
 
 int main(int argc, char** argv) {
   const std::string_view what = argc == 5 ? argv[4] : "";
-  const bool known = argc == 4 || what == "neural" || what == "poses";
+  const bool known = argc == 4 || what == "neural" || what == "lanes" || what == "poses";
   const auto seconds = known ? number(argv[2]) : std::nullopt;
   const auto bytes = known ? number(argv[3]) : std::nullopt;
   if (!seconds || !bytes) return 2;
   set_limits(*seconds, *bytes);
   const bool sent = what == "poses"    ? send_read(io::internal::read_pose_table_here, argv[1])
                     : what == "neural" ? send_read(io::internal::read_neural_here, argv[1])
+                    : what == "lanes"  ? send_read(io::internal::read_lanes_here, argv[1])
                                        : send_read(io::internal::read_nwb_here, argv[1]);
   _exit(sent ? 0 : 4);  // HDF5 has nothing left to do
 }

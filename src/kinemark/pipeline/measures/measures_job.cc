@@ -80,7 +80,7 @@ GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome)
 nlohmann::ordered_json lanes_of(const MeasuresJob& job, const TimeBase& time) {
   if (job.of != workflow::MeasuresOf::paths || ending_of(job.input) != ".nwb" || time.frames < 2)
     return nullptr;
-  const auto neural = io::read_neural(job.input);
+  const auto neural = io::read_neural_lanes(job.input);
   return neural ? report::neural_json(*neural, time.t0_s, time.time_s(time.frames - 1)) : nullptr;
 }
 

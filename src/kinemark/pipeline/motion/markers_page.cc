@@ -111,7 +111,7 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
   }
   data::Neural neural;
   if (ending_of(path) == ".nwb") {
-    if (auto read = io::read_neural(path)) {
+    if (auto read = io::read_neural_lanes(path)) {
       neural = std::move(*read);
       report.neural = &neural;
       std::ranges::copy(neural.warnings, std::back_inserter(report.warnings));

@@ -195,6 +195,11 @@ Result<AroundFound> around(const MovementSession& session, data::Neural neural, 
         out.curves.push_back(
             analysis::rate_around(name, times_s, unit.id, unit.times_s, session.span, choice));
   }
+  if (std::ranges::all_of(out.curves, [](const auto& curve) { return curve.used == 0; }))
+    return fail(Code::bad_input,
+                fmt::format("no event of '{}' has its whole window in the recording, which lasts "
+                            "from {:.3f} to {:.3f} s",
+                            choice.what, session.span.start_s, session.span.end_s));
   note_outside(out.curves, out.remarks.warnings);
   return out;
 }

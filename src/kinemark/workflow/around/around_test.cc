@@ -133,6 +133,11 @@ TEST(AroundVerb, TwoClocksAreRefusedAndAnOffsetBringsThemTogether) {
   const auto found = around(ten_seconds(), neural, choice);
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->curves[0].used, 3);
+  auto far = two_units();
+  for (auto& row : far.intervals[0].rows) row.start_s += 100.0, row.stop_s += 100.0;
+  EXPECT_THAT(
+      fault_of(ten_seconds(), far, of("trials")),
+      HasSubstr("no event of 'trials' has its whole window in the recording, which lasts from 0.000 to"));
   for (auto& unit : neural.units) unit.times_s.clear();
   EXPECT_EQ(fault_of(ten_seconds(), neural, of("units")), "no unit has a spike");
 }

@@ -162,6 +162,12 @@ void add_block(const FieldSeries& series, std::int64_t first, std::int64_t count
 Status read_field(Input& in, const std::string& path, data::Neural& to) {
   const auto series = describe_field(in, path);
   if (!series) return std::unexpected(series.error());
+  if (series->samples() > kMostFieldNumbers / static_cast<std::int64_t>(series->width)) {
+    to.warnings.push_back(
+        fmt::format("{}: {} samples of {} are too many to be drawn; an LFP of a lower rate is", path,
+                    series->samples(), counted(static_cast<std::int64_t>(series->width), "channel")));
+    return {};
+  }
   const std::size_t channels = std::min(series->width, kMostFieldChannels);
   if (series->width > channels)
     to.warnings.push_back(

@@ -9,7 +9,8 @@
 
 namespace kinemark::io::internal {
 
-inline constexpr std::int64_t kFieldBins = 1500;       ///< of an envelope, at most
+inline constexpr std::int64_t kFieldBins = 1500;                ///< of an envelope, at most
+inline constexpr std::int64_t kMostFieldNumbers = 500'000'000;  ///< of a series that is read
 inline constexpr std::size_t kMostFieldChannels = 16;  ///< of a series; others are left out with a warning
 
 /// Add the envelope of each ElectricalSeries of an LFP, or, where there is none, of each in `acquisition`.

@@ -133,25 +133,23 @@ Status read_intervals(Input& in, data::Neural& out) {
   return {};
 }
 
-Result<data::Neural> read_all(Input& in) {
+Result<data::Neural> read_parts(Input& in, bool fields) {
   if (in.text_attribute(in.file(), "neurodata_type") != "NWBFile")
     return fail(Code::bad_input,
                 "is HDF5 but not an NWB file: it has no neurodata_type NWBFile. Nothing was read.");
   data::Neural out;
   if (auto s = read_units(in, out); !s) return std::unexpected(s.error());
   if (auto s = read_intervals(in, out); !s) return std::unexpected(s.error());
-  if (auto s = read_fields(in, out); !s) return std::unexpected(s.error());
+  if (auto s = fields ? read_fields(in, out) : Status(); !s) return std::unexpected(s.error());
   if (auto s = out.validate(); !s) return std::unexpected(s.error());
   return out;
 }
 
-}  // namespace
-
-Result<data::Neural> read_neural_here(const std::filesystem::path& path) {
+Result<data::Neural> read_file(const std::filesystem::path& path, bool fields) {
   const Quiet quiet;
   auto in = Input::open(path);
   if (!in) return std::unexpected(in.error());
-  auto out = read_all(*in);
+  auto out = read_parts(*in, fields);
   if (!out) return fail_at(in->name(), out.error());
   const auto written = in->text_attribute(in->file(), kDigestAttribute);
   if (!written || content_digest(*in) == *written) return out;
@@ -159,5 +157,11 @@ Result<data::Neural> read_neural_here(const std::filesystem::path& path) {
                               .message = "its content is not what was written: the digest does not fit; the "
                                          "file is damaged. Nothing was read."});
 }
+
+}  // namespace
+
+Result<data::Neural> read_neural_here(const std::filesystem::path& path) { return read_file(path, false); }
+
+Result<data::Neural> read_lanes_here(const std::filesystem::path& path) { return read_file(path, true); }
 
 }  // namespace kinemark::io::internal

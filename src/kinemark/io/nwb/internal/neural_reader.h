@@ -11,5 +11,7 @@ namespace kinemark::io::internal {
 
 /// read_neural() in this process.
 [[nodiscard]] Result<data::Neural> read_neural_here(const std::filesystem::path& path);
+/// read_neural_lanes() in this process.
+[[nodiscard]] Result<data::Neural> read_lanes_here(const std::filesystem::path& path);
 
 }  // namespace kinemark::io::internal
