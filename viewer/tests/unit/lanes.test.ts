@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { fake, FakeElement, install, nextFrame, type Drawn } from "../fake_dom.ts";
+import { problemsOf } from "../../schema/problems.ts";
 import { deflated } from "../packed.ts";
+import { simulatedMarkers } from "../simulated_markers.ts";
 
 install();
 const { binsIn, LanePlot, rowHeight, trialAt } = await import("../../src/plots/lanes.ts");
@@ -62,6 +64,10 @@ describe("lanes", () => {
     expect(lanes.fields[0]!.high[0]).toBe(200);
     expect(lanesInWords(lanes, 2)).toBe("2 units with 4 spikes, 1 trial, 1 channel of field potentials");
     expect(lanesInWords({ ...lanes, trials: [], fields: [] }, 900)).toContain("900 units with 4 spikes, the first 2 shown");
+  });
+  it("follow the schema of pages", () => {
+    expect(problemsOf({ ...simulatedMarkers(), neural: packed() })).toEqual([]);
+    expect(problemsOf({ ...simulatedMarkers(), neural: { ...packed(), bins: 0 } })).not.toEqual([]);
   });
   it("draw a mark where a unit fires, and an envelope where there are samples", async () => {
     const { rects } = await make();
