@@ -224,7 +224,7 @@ class Bench:
             "measure to JSON": ["measure", "in/elbow.trc", "-o", "out/x.json", *quick],
             "measure to NWB": ["measure", "in/elbow.trc", "-o", "out/x.nwb", *quick],
             "measure several": ["measure", "in/reach.trc", "in/again.trc", "-o", "out/x.csv", *tables, *people, *quick],
-            "measure around spikes": ["measure", "in/q.mot", "--spikes", "in/monkey/session.nwb", "--around", "units", "-o", "out/x.csv"],
+            "measure around spikes": ["measure", "in/q.mot", "--spikes", "in/monkey/session.nwb", "--around", "units", "--window", "0,0.1", "-o", "out/x.csv"],
             "measure around movements": ["measure", "in/monkey/session.nwb", "--around", "movement", "-o", "out/x.nwb", *quick],
             "measure trials": ["measure", "in/monkey/session.nwb", "-o", "out/x.csv", *quick],
             "gait": ["gait", "in/walk.trc", "-o", "out/x.csv", *feet, *norm, *drawn, *tables, *quick, "--angles", "in/angles.mot"],

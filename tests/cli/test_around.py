@@ -86,9 +86,11 @@ class AroundTest(CommandTest):
 
     def test_the_page_shows_what_lies_beside(self):
         self.good("report", self.session, "-o", "page.html")
-        lanes = report_data((self.folder / "page.html").read_text(encoding="utf-8"))["neural"]
+        lanes = json.loads(report_data((self.folder / "page.html").read_text(encoding="utf-8")))["neural"]
         self.assertEqual([u["id"] for u in lanes["units"]], [str(u) for u in range(6)])
         self.assertEqual(len(lanes["trials"]), 4)
         self.assertEqual([c["name"] for c in lanes["fields"][0]["channels"]], [f"electrode {k}" for k in range(4)])
         self.good("report", "monkey/markers.c3d", "-o", "other.html")
-        self.assertNotIn("neural", report_data((self.folder / "other.html").read_text(encoding="utf-8")))
+        self.assertNotIn("neural", json.loads(report_data((self.folder / "other.html").read_text(encoding="utf-8"))))
+        self.good("measure", self.session, *SELECT, "--measures", "path_length", "--report", "m.html")
+        self.assertEqual(len(json.loads(report_data((self.folder / "m.html").read_text(encoding="utf-8")))["result"]["neural"]["units"]), 6)
