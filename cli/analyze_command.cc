@@ -97,6 +97,9 @@ int run_command(const CommonOptions& common, const CLI::App& command, AnalyzeArg
     case AnalysisKind::tables:
       return said(common, "This is 'kinemark dynamics'.",
                   run_dynamics_command(common, arguments.dynamics, arguments.measures.job));
+    case AnalysisKind::around:  // of measure alone
+    case AnalysisKind::around_motion:
+      break;
   }
   return report_error({.code = Code::usage, .message = "nothing to analyse"});
 }

@@ -21,7 +21,9 @@ constexpr Kinds one(AnalysisKind kind) { return 1U << static_cast<unsigned>(kind
 
 constexpr Kinds kList = one(AnalysisKind::list), kMarkers = one(AnalysisKind::markers),
                 kSeveral = one(AnalysisKind::several), kSegments = one(AnalysisKind::segments),
-                kMotion = one(AnalysisKind::motion), kTables = one(AnalysisKind::tables);
+                kMotion = one(AnalysisKind::motion), kTables = one(AnalysisKind::tables),
+                kMarkersAround = one(AnalysisKind::around), kMotionAround = one(AnalysisKind::around_motion),
+                kAround = kMarkersAround | kMotionAround;
 constexpr Kinds kRecordings = kMarkers | kSeveral | kSegments, kMotions = kMotion | kTables,
                 kMeasures = kMarkers | kSeveral | kMotion, kDrawn = kMarkers | kSegments | kMotion;
 
@@ -32,10 +34,14 @@ struct Heeded {
 };
 
 constexpr std::array kHeeded = {
-    Heeded{"IN MOTION start end output", kRecordings | kMotions},
+    Heeded{"IN MOTION output", kRecordings | kMotions | kAround},
+    Heeded{"start end", kRecordings | kMotions | kMarkersAround},
     Heeded{"list", kList},
-    Heeded{"rate unit edits drop rename frames up rotate doubtful noise", kRecordings},
-    Heeded{"select refits level", kRecordings | kMotion},
+    Heeded{"rate unit edits drop rename frames up rotate doubtful noise", kRecordings | kMarkersAround},
+    Heeded{"select refits", kRecordings | kMotion | kMarkersAround},
+    Heeded{"level", kRecordings | kMotion | kAround},
+    Heeded{"around window bin spikes clock-offset clock-sd", kAround},
+    Heeded{"trials", kMarkers | kSeveral},
     Heeded{"measures region between", kMeasures},
     Heeded{"model setup no-error-bars torques cutoff", kMotions},
     Heeded{"forces", kDrawn | kTables},
@@ -66,6 +72,10 @@ const char* what_is(AnalysisKind kind) {
       return "a motion that is measured";
     case AnalysisKind::tables:
       return "a motion whose tables go into a folder";
+    case AnalysisKind::around:
+      return "a recording that is averaged around events";
+    case AnalysisKind::around_motion:
+      return "a motion that is averaged around events";
   }
   return "";
 }
@@ -93,6 +103,7 @@ std::string names_of(Kinds kinds) {
     add(kMotion, "measures of a motion");
     add(kTables, "tables of a motion");
   }
+  add(kAround, "averages around events");
   return join(of, " and ");
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "cli/around_options.h"
 #include "cli/command.h"
 #include "cli/measures_options.h"
 #include "cli/recording_options.h"
@@ -16,7 +17,10 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
       "of a\n"
       "folder of them, in one table (docs/stages/many-recordings.md). Spans, events and cycles are those of "
       "the\n"
-      "markers' own movements, or those that --region and --between name.");
+      "markers' own movements, trials of an .nwb, or those that --region and --between name. --around: "
+      "averages "
+      "of\n"
+      "movement and spikes around each other (docs/stages/around.md).");
   const auto arguments = std::make_shared<MeasuresArguments>();
   auto& job = arguments->job;
   job.of = workflow::MeasuresOf::paths;
@@ -29,6 +33,12 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
       ->type_name("movement")
       ->check(CLI::IsMember({"movement"}))
       ->group("Measures");
+  command
+      ->add_option("--trials", job.trials,
+                   "Intervals of an .nwb whose spans are measured, or none; its trials when absent, where no "
+                   "other span is asked for")
+      ->type_name("NAME")
+      ->group("Measures");
   add_noise_option(*command, arguments->noise_mm);
   command
       ->add_option("-o,--output", job.output,
@@ -39,8 +49,13 @@ void add_measure(CLI::App& app, const CommonOptions& common, Run& run) {
   add_drawing_options(*command, job, "each path in its plane, its speed and acceleration, its cycles",
                       "figures and tables");
   add_several_options(*command, *arguments);
-  command->callback([&common, command, arguments, &run] {
-    run = [&common, command, arguments] { return run_measures_command(common, *command, *arguments); };
+  const auto around = std::make_shared<AroundArguments>();
+  add_around_options(*command, *around);
+  command->callback([&common, command, arguments, around, &run] {
+    run = [&common, command, arguments, around] {
+      if (!around->job.what.empty()) return run_around_command(common, *command, *arguments, *around);
+      return run_measures_command(common, *command, *arguments);
+    };
   });
 }
 

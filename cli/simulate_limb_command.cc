@@ -100,6 +100,18 @@ void add_simulate_limb(CLI::App& simulate, const CommonOptions& common, Run& run
       ->excludes(all_seen);
   macaque->add_flag("--obstacles", worn.obstacles, "Head, trunk and cage bars stand in the way as well")
       ->excludes(all_seen);
+  auto& neurons = sleeve->job.neurons;
+  const char* beside = "Beside the movement: session.nwb";
+  macaque->add_option("--units", neurons.units, "Neurons tuned to the velocity of the hand; 0: none")
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(beside);
+  macaque->add_option("--trials", neurons.trials, "Parts of the session, with the side of the hand; 0: none")
+      ->type_name("N")
+      ->capture_default_str()
+      ->group(beside);
+  macaque->add_flag("--lfp", neurons.field_potentials, "Field potentials of four channels, 500 Hz")
+      ->group(beside);
   macaque->callback([&common, macaque, sleeve, &run] {
     sleeve->missing_given = macaque->count("--missing") > 0;
     run = [&common, sleeve] { return run_limb(common, *sleeve); };

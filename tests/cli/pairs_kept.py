@@ -87,6 +87,7 @@ class Bench:
         (place / "options.toml").write_text("threads = 1\n")
         self._make("simulate", "subject", "-o", "body", "--duration", 0.4)
         self._make("simulate", "arm", "-o", "arm", "--frames", 40, "--markers", 4, "--stagger", 15)
+        self._make("simulate", "macaque", "-o", "monkey", "--duration", 5, "--units", 2, "--trials", 2, "--all-seen")
         self._make("simulate", "rig", "sign", "-o", "lab", "--duration", 0.1, "--grid")
         self._make("edit", "body/markers.c3d", "--region", "all", "--from", 1, "--to", 2)
         self._make("edit", "arm/markers.c3d", "--edits", "other.jsonl", "--region", "all", "--from", 1, "--to", 2)
@@ -223,6 +224,9 @@ class Bench:
             "measure to JSON": ["measure", "in/elbow.trc", "-o", "out/x.json", *quick],
             "measure to NWB": ["measure", "in/elbow.trc", "-o", "out/x.nwb", *quick],
             "measure several": ["measure", "in/reach.trc", "in/again.trc", "-o", "out/x.csv", *tables, *people, *quick],
+            "measure around spikes": ["measure", "in/q.mot", "--spikes", "in/monkey/session.nwb", "--around", "units", "--window", "0,0.1", "-o", "out/x.csv"],
+            "measure around movements": ["measure", "in/monkey/session.nwb", "--around", "movement", "-o", "out/x.nwb", *quick],
+            "measure trials": ["measure", "in/monkey/session.nwb", "-o", "out/x.csv", *quick],
             "gait": ["gait", "in/walk.trc", "-o", "out/x.csv", *feet, *norm, *drawn, *tables, *quick, "--angles", "in/angles.mot"],
             "gait with forces": ["gait", "in/walk.trc", "--forces", "in/grf.mot", "-o", "out/x.json", *feet, *quick, *people],
             "gait into a C3D": ["gait", "in/walk.trc", "--write-events", "out/x.c3d", *feet, *quick],
@@ -247,6 +251,7 @@ class Bench:
             "recover": ["recover", "in/lab/recording.mcap", "out/x.mcap"],
             "simulate subject": ["simulate", "subject", "-m", "in/body/model.osim", "-o", "out", "--duration", 0.1],
             "simulate arm": ["simulate", "arm", "-o", "out", "--frames", 20],
+            "simulate macaque": ["simulate", "macaque", "-o", "out", "--duration", 2, "--units", 2, "--lfp"],
             "simulate rig": ["simulate", "rig", "markers", "-t", "in/elbow.trc", "--marker", "A1", "-o", "out", "--duration", 0.1],
             "manual pages": ["help", "--man-pages", "out"],
         }

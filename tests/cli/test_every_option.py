@@ -28,7 +28,9 @@ OF_WALK = {"--select": "?ASI,?PSI,?HEE", "--drop": "RTOE", "--rename": "RTOE=OTH
            "--gait-marker": "left_heel=LTOE", "--up": "x", "--doubtful": "perhaps"}
 COMMANDS = {
     "measure": (["walk.trc", "--refits", 0], {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, "--doubtful": "perhaps",
-                                              "--measures": "path_length", "--noise": 3, "--output": "m.csv", "--events": "movement"}),
+                                              "--measures": "path_length", "--noise": 3, "--output": "m.csv", "--events": "movement", "--trials": "absent",
+                                              "--around": "units", "--window": "-0.2,0.2", "--bin": 0.05, "--spikes": "absent.nwb", "--clock-offset": 0.1,
+                                              "--clock-sd": 0.05}),
     "gait": (WALK, {**RECORDING, **SPANS, **INTERVALS, **DRAWN, **CYCLES, **SEVERAL, **FEET, **SHEET, **OF_WALK, "--region": "part=8.4s-9.9s",
                     "--measures": "cadence", "--noise": 3, "--output": "m.csv", "--forces": "absent.mot", "--angles": "absent.mot"}),
     "emg": (WALK, {**RECORDING, **SPANS, **INTERVALS, **SEVERAL, **FEET, **OF_WALK, "--region": "part=8.4s-9.9s", "--measures": "emg_rms", "--select": "NOSE", "--drop": "NOSE",
@@ -44,13 +46,16 @@ COMMANDS = {
                   "--region": "part=0.2s-0.5s", "--output": "m.csv"}),
 }
 # What changes nothing by itself, as it should, and with what it does.
+AROUND = ["--around", "units", "--spikes", "session.nwb"]
 WITH = {
+    **{("measure", option): AROUND for option in ("--window", "--bin", "--clock-offset", "--clock-sd")},
     ("measure", "--level"): ["--refits=39"], ("gait", "--level"): ["--refits=39"], ("emg", "--level"): ["--refits=39"],
     ("gait", "--noise"): ["--refits=39"], ("dynamics", "--level"): ["--refits=39"], ("dynamics", "--no-error-bars"): ["--refits=39"],
     ("dynamics", "--normalize"): ["--torques"], ("dynamics", "--cutoff"): ["--torques"],
 }
 TABLES = ["q.mot", "--model", "model.osim", "--output", "tables"]
-INSTEAD = {("dynamics", option): TABLES for option in ("--setup", "--bodies", "--point")}  # of tables, not of measures
+INSTEAD = {**{("dynamics", option): TABLES for option in ("--setup", "--bodies", "--point")},  # of tables, not of measures
+           ("measure", "--spikes"): ["session.nwb", "--around", "units"]}
 SAME = {("measure", "--jobs"), ("gait", "--jobs"), ("emg", "--jobs"),  # the bits are the same, whatever it is
         ("measure", "--up"), ("emg", "--up")}  # nothing that they measure has an up; a .c3d that is written has it
 
@@ -111,6 +116,8 @@ class EveryOptionTest(CommandTest):
         shutil.copy(real_file("btk-others/PiG_Motion3_FF.c3d"), self.inputs / "walk.c3d")
 
     def test_measure(self):
+        self.good("simulate", "macaque", "-o", "monkey", "--duration", 4, "--units", 2)
+        shutil.copy(self.folder / "monkey" / "session.nwb", self.inputs / "session.nwb")
         self.try_all("measure")
 
     def test_gait(self):

@@ -338,7 +338,52 @@ export interface EncodedMarker {
 export interface MarkersPage {
   /** The recording. */ summary: MarkersSummary;
   /** Space. */ scene: PackedScene;
+  /** Spikes, trials and field potentials on the recording's clock; absent: the file has none. */ neural?: NeuralLanes;
   /** Edits, of a page of `kinemark serve` alone. */ editing?: Editing;
+}
+
+/** What lies beside the movement. */
+export interface NeuralLanes {
+  /** Where the first bin of spikes begins, s. */ start_s: number;
+  /** Length of a bin, s. */ bin_s: number;
+  /** Bins, 3,001 at most. */ bins: number;
+  /** Units in the file. */ unit_count: number;
+  /** The first 500 of them. */ units: UnitLane[];
+  /** Those that touch the recording, 2,000 at most. */ trials: TrialLane[];
+  /** Series of field potentials. */ fields: FieldLane[];
+}
+
+/** Spikes of a unit. */
+export interface UnitLane {
+  /** Of the unit. */ id: string;
+  /** In the recording. */ spikes: number;
+  /** Spikes in each bin, 255 at most. */ counts: PackedCodes;
+}
+
+/** A trial. */
+export interface TrialLane {
+  /** Its conditions; may be empty. */ label: string;
+  /** Its start, s. */ start_s: number;
+  /** Its end, s. */ stop_s: number;
+}
+
+/** The least and the largest values of field potentials in bins. */
+export interface FieldLane {
+  /** Of the series. */ name: string;
+  /** Of the values. */ unit: string;
+  /** Where its first bin begins, s. */ start_s: number;
+  /** Length of a bin, s. */ bin_s: number;
+  /** Bins, 1,500 at most. */ bins: number;
+  /** Its channels, 16 at most. */ channels: FieldChannel[];
+}
+
+/** A channel: code c is the value `least + step * c`; 255: no sample. */
+export interface FieldChannel {
+  /** Its name. */ name: string;
+  /** Its least value, in the unit of the series. */ least: number;
+  /** What codes are multiples of. */ step: number;
+  /** Least values of the bins, rounded down. */ low: PackedCodes;
+  /** Largest values, rounded up. */ high: PackedCodes;
 }
 
 /** A recording in numbers. */
@@ -960,6 +1005,7 @@ export interface MeasuresResult {
   /** Largest share of samples that were not measured, 0 to 1. */ most_not_measured: number;
   /** One per value. */ measures: Measure[];
   /** Figures. */ figures: DrawnFigure[];
+  /** Of the page alone: spikes, trials and field potentials on the recording's clock; absent: the file has none. */ neural?: NeuralLanes;
 }
 
 /** A value. Those that do not apply are absent. */

@@ -7,6 +7,7 @@ import { markerCycles } from "../sections/marker_cycles.ts";
 import { findingGroups } from "../sections/finding_groups.ts";
 import { markersHeader } from "../sections/markers_header.ts";
 import { recordedCurves, recordedGaps, recordedRest, recordedTable } from "../sections/recorded.ts";
+import { neuralLanes, unpackLanes } from "../sections/neural.ts";
 import { plain } from "../sections/settings.ts";
 import { ground } from "../sections/ground.ts";
 import { space } from "../sections/space.ts";
@@ -48,7 +49,7 @@ function resume(view: View, kept: Kept, names: readonly string[]): void {
 }
 
 /** A recording as it is: in space, its gaps, the curves of a marker, and what else the file holds. */
-export async function markersPage({ summary, scene: packed, editing }: MarkersPage, editor: Editor | null = null): Promise<Content> {
+export async function markersPage({ summary, scene: packed, neural, editing }: MarkersPage, editor: Editor | null = null): Promise<Content> {
   if (summary.schema_version !== 1) throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   if (packed.names.length !== summary.markers.length) throw new Error("markers of the summary and of the space view differ");
   const scene = await unpackScene(packed, summary, (m) => summary.markers[m]!.labelled);
@@ -62,7 +63,9 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
   const refused = editing !== undefined && "refused" in editing ? [section("edit", "Edit", `This recording cannot be edited here: ${editing.refused}.`)] : [];
   const bar = editor === null ? refused : [editor.node, ...editor.further];
   editor?.show(summary, view);
+  const lanes = neural === undefined ? null : await unpackLanes(neural);
   const parts = [
+    ...(lanes === null ? [] : [neuralLanes(lanes, neural!.unit_count, view)]),
     ...(scene.forces.length > 0 ? [ground(scene, view)] : []),
     recordedCurves(scene, view),
     ...(summary.cycles ? [markerCycles(scene, view, summary.cycles)] : []),
@@ -76,6 +79,7 @@ export async function markersPage({ summary, scene: packed, editing }: MarkersPa
       ["space", "Space"],
       ...(bar.length > 0 ? ([["edit", "Edit"]] as const) : []),
       ...(editor === null ? [] : ([["solved", "Angles"]] as const)),
+      ...(lanes === null ? [] : ([["neural", "Spikes"]] as const)),
       ["marker", "One marker"],
       ...(summary.cycles ? ([["cycles", "Cycles"]] as const) : []),
       ["gaps", "Gaps"],

@@ -89,10 +89,15 @@ async function select(page: Page, label: string, value: string): Promise<void> {
 export const alwaysOfMarkers: Record<string, Check> = {
   "all sections are there, and nothing is broken": async ({ page }) => {
     assert.deepEqual(
-      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "ground" && id !== "cycles")),
+      await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id).filter((id) => id !== "ground" && id !== "cycles" && id !== "neural")),
       ["attention", "space", "marker", "gaps", "markers", "rest", "settings"],
     );
     assert.equal(await page.locator(".broken").count(), 0);
+  },
+  "spikes, trials and potentials are drawn under space, where the file has them": async ({ page }) => {
+    if ((await page.locator("#neural").count()) === 0) return;
+    assert.ok((await ink(page, "#lanes canvas")).drawn > 500, "the raster is blank");
+    assert.match((await page.locator("#neural .lead").textContent())!, /on the clock of the recording/);
   },
   "space, curves and the map of gaps are drawn": async ({ page }) => {
     for (const selector of [".space-canvas", "#plot-x canvas", "#gap-map canvas"]) {

@@ -17,6 +17,11 @@
 // times, derivatives with standard deviations, filters and provenance, analog channels, events and force
 // plates. docs/formats/nwb.md says where each one is. A build without HDF5 (KINEMARK_NWB=OFF) answers every
 // call with Code::not_supported.
+namespace kinemark::data {
+struct FieldSamples;
+struct Neural;
+}  // namespace kinemark::data
+
 namespace kinemark::io {
 
 /// What one NWB file holds.
@@ -118,6 +123,10 @@ class NwbWriter {
   /// Write what `trial` holds besides positions, once, before commit(). Its markers are those of the outline
   /// (else ContractError); its positions are not looked at.
   [[nodiscard]] Status write_signals(const data::Trial& trial);
+  /// Write what a session holds beside movement, once, before commit(): units, intervals, and field
+  /// potentials as samples; the envelopes of `neural` are not looked at.
+  [[nodiscard]] Status write_neural(const data::Neural& neural,
+                                    const std::vector<data::FieldSamples>& fields);
   /// Write names of methods and filters and the digest of all that is there, close, sync, and put the file
   /// into its place. @param set  of files that it belongs to, in place of the metadata's; empty: as there
   [[nodiscard]] Status commit(const std::string& set = {});

@@ -3,6 +3,7 @@
 // Compiled in place of everything else where HDF5 is absent or not wanted.
 #include <fmt/core.h>
 
+#include "kinemark/io/nwb/neural_file.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/nwb/nwb_tables.h"
 #include "kinemark/io/nwb/pose_table.h"
@@ -27,6 +28,10 @@ NwbOutline NwbOutline::of(const data::Trajectories& trajectories, const data::De
 }
 
 Result<NwbFile> read_nwb(const std::filesystem::path& path) { return absent(path); }
+
+Result<data::Neural> read_neural(const std::filesystem::path& path) { return absent(path); }
+
+Result<data::Neural> read_neural_lanes(const std::filesystem::path& path) { return absent(path); }
 
 Result<PoseTable> read_pose_table(const std::filesystem::path& path) { return absent(path); }
 
@@ -64,6 +69,11 @@ Status NwbWriter::write(const data::Trajectories& /*piece*/, const data::Derivat
 }
 
 Status NwbWriter::write_signals(const data::Trial& /*trial*/) { return absent("NWB"); }
+
+Status NwbWriter::write_neural(const data::Neural& /*neural*/,
+                               const std::vector<data::FieldSamples>& /*fields*/) {
+  return absent("NWB");
+}
 
 Status NwbWriter::commit(const std::string& /*set*/) { return absent("NWB"); }
 

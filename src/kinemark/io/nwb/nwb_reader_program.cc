@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// kinemark-nwb FILE SECONDS BYTES [poses | carry FRESH NAME]: reads an NWB file for read_nwb(), or points in
-// images for read_pose_table(), or puts the results of a file into another for carry(), which is at the other
-// end of standard output. A process of its own, because HDF5 crashes on some damaged files and never returns
-// from others.
+// kinemark-nwb FILE SECONDS BYTES [neural | lanes | poses | carry FRESH NAME]: reads an NWB file for
+// read_nwb() or read_neural(), or points in images for read_pose_table(), or puts the results of a file into
+// another for carry(), which is at the other end of standard output. A process of its own, because HDF5
+// crashes on some damaged files and never returns from others.
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "kinemark/io/nwb/internal/carry.h"
+#include "kinemark/io/nwb/internal/neural_reader.h"
 #include "kinemark/io/nwb/internal/pose_reader.h"
 #include "kinemark/io/nwb/internal/reader.h"
 #include "kinemark/io/nwb/internal/transfer.h"
@@ -73,6 +74,8 @@ std::optional<bool> answer(const char* path, std::span<char* const> what) {
     return what.size() == words && what.front() == word;
   };
   if (what.empty()) return send_read(io::internal::read_nwb_here, path);
+  if (asks("neural", 1)) return send_read(io::internal::read_neural_here, path);
+  if (asks("lanes", 1)) return send_read(io::internal::read_lanes_here, path);
   if (asks("poses", 1)) return send_read(io::internal::read_pose_table_here, path);
   const auto carry = [&](const char* copy) -> Result<io::internal::Carried> {
     auto carried = io::internal::carry_here(copy, what[1]);

@@ -13,6 +13,7 @@
 #include "kinemark/io/nwb/internal/content_digest.h"
 #include "kinemark/io/nwb/internal/marker_table.h"
 #include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/internal/neural_writer.h"
 #include "kinemark/io/nwb/internal/output.h"
 #include "kinemark/io/nwb/internal/pose_writer.h"
 #include "kinemark/io/nwb/internal/root.h"
@@ -372,6 +373,16 @@ Status NwbWriter::write_signals(const data::Trial& trial) {
   open.first_frame = trial.first_frame;
   internal::write_signals(open.out, open.module.id(), trial, open.series_names, open.compression);
   if (open.out.failed()) return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open.path));
+  return {};
+}
+
+Status NwbWriter::write_neural(const data::Neural& neural, const std::vector<data::FieldSamples>& fields) {
+  check(open_ != nullptr, "the file is written already");
+  if (auto s = neural.validate(); !s) return fail_at(open_->path, s.error());
+  const internal::Quiet quiet;
+  internal::write_neural(open_->out, neural, fields, open_->compression);
+  if (open_->out.failed())
+    return fail(Code::io, fmt::format("{}: cannot be written (HDF5 failed)", open_->path));
   return {};
 }
 

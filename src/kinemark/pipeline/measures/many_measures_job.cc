@@ -98,6 +98,9 @@ std::optional<RecordingRows> run_trial(const MeasuresJob& job, const workflow::A
 }
 
 Status write_tables(const ManyMeasuresJob& job, Staging& staging, ManyMeasuresOutcome& out) {
+  std::vector<RecordingName*> names;
+  for (auto& one : out.recordings) names.push_back(&one.name);
+  unite_span_columns(names);
   const auto& recordings = out.recordings;
   const auto& any = recordings.front().name;
   std::vector<ResultFile> files;

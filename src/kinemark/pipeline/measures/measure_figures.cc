@@ -267,7 +267,7 @@ Result<std::string> figure_file(const report::Figure& figure, const std::string&
 }
 
 std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome,
-                          const std::vector<NamedFigure>& figures) {
+                          const std::vector<NamedFigure>& figures, const nlohmann::ordered_json& neural) {
   report::ResultReport out{.kind = "measures",
                            .trial = job.input.filename().string(),
                            .version = std::string(kVersion),
@@ -306,6 +306,7 @@ std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome
     out.result["figures"].push_back(
         {{"name", figure.name}, {"caption", caption}, {"body", report::figure_svg(drawn)}});
   }
+  if (!neural.is_null()) out.result["neural"] = neural;
   return report::result_report_html(out);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,10 @@ inline constexpr std::string_view kFigureFormats = "svg and png";
 /// The content of the figure's file in a format. Code::not_supported as figure_png().
 [[nodiscard]] Result<std::string> figure_file(const report::Figure& figure, const std::string& format);
 
-/// The page of a recording's measures: what stands out, figures, the table.
+/// The page of a recording's measures: what stands out, figures, what lies beside the movement, the table.
+/// @param neural  report::neural_json(); null: nothing
 [[nodiscard]] std::string measures_page(const MeasuresJob& job, const MeasuresOutcome& outcome,
-                                        const std::vector<NamedFigure>& figures);
+                                        const std::vector<NamedFigure>& figures,
+                                        const nlohmann::ordered_json& neural = nullptr);
 
 }  // namespace kinemark::pipeline

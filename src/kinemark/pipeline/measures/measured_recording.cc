@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/pipeline/measures/trial_spans.h"
 #include "kinemark/workflow/measures/measure.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 
@@ -66,6 +68,20 @@ Result<std::vector<RegionCurves>> cycles_of(const MeasuresJob& job, const data::
     return fail(Code::bad_input, "there is no movement whose cycles could be written");
   const auto& first = outcome.rhythms.front();
   return fail(Code::bad_input, fmt::format("no movement repeats: {}: {}", first.subject, first.verdict));
+}
+
+// Trials of the file are spans, with their conditions.
+Status take_trials(const MeasuresJob& job, MeasuredRecording& out, std::vector<data::Region>& spans) {
+  const bool others = !job.regions.empty() || !job.between.empty() || !out.recording.edits.regions.empty();
+  if (job.trials.empty() && (others || job.of != workflow::MeasuresOf::paths)) return {};
+  auto trials = trial_spans(job.input, job.trials, out.recording.trial.markers.time);
+  if (!trials) return std::unexpected(trials.error());
+  std::ranges::move(trials->notes, std::back_inserter(out.outcome.warnings));
+  spans = std::move(trials->regions);
+  out.name.spans = std::move(trials->labels);
+  name_span_columns(out.name);
+  out.outcome.spans = out.name.spans;
+  return {};
 }
 
 // Which markers have no cycles, where cycles are asked for.
@@ -145,7 +161,10 @@ Result<MeasuredRecording> measure_recording(const MeasuresJob& job, const workfl
     workflow::set_screen_up(*out.recorded, up->up);
   std::ranges::move(out.recording.notes, std::back_inserter(outcome.warnings));
   std::ranges::move(std::exchange(trial.warnings, {}), std::back_inserter(outcome.warnings));
-  auto found = workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)), asked);
+  auto spanned = asked;
+  if (auto s = take_trials(job, out, spanned.options.spans); !s) return std::unexpected(s.error());
+  auto found = workflow::measure_recording(std::move(static_cast<data::Recording&>(out.recording)),
+                                           std::move(spanned));
   if (!found) return fail_at(name, found.error());
   take_measured(std::move(*found), out);
   const auto& time = trial.markers.time;

@@ -14,6 +14,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/lost_parts.h"
+#include "kinemark/io/nwb/neural_file.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/gait/sheet_inputs.h"
 #include "kinemark/pipeline/measures/gait_drawing.h"
@@ -21,6 +22,7 @@
 #include "kinemark/pipeline/measures/measured_recording.h"
 #include "kinemark/pipeline/measures/measures_nwb.h"
 #include "kinemark/pipeline/measures/measures_table.h"
+#include "kinemark/stages/report/neural_part.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -74,6 +76,15 @@ GaitPageFacts page_facts(const MeasuresJob& job, const MeasuresOutcome& outcome)
           .gates = outcome.gates};
 }
 
+// What lies beside the movements of paths; null: nothing, or what cannot be read, which a note of the trials
+// says.
+nlohmann::ordered_json lanes_of(const MeasuresJob& job, const TimeBase& time) {
+  if (job.of != workflow::MeasuresOf::paths || ending_of(job.input) != ".nwb" || time.frames < 2)
+    return nullptr;
+  const auto neural = io::read_neural_lanes(job.input);
+  return neural ? report::neural_json(*neural, time.t0_s, time.time_s(time.frames - 1)) : nullptr;
+}
+
 // The page of walking alone, or of measures, which shows others too.
 std::string page_text(const MeasuresJob& job, const MeasuredRecording& measured,
                       std::vector<NamedFigure> figures, const GaitReport* gait) {
@@ -82,7 +93,7 @@ std::string page_text(const MeasuresJob& job, const MeasuredRecording& measured,
     return gait_report_page(*gait, page_facts(job, outcome));
   if (gait != nullptr)
     for (const auto& [name, figure] : gait->figures) figures.push_back({.name = name, .figure = figure});
-  return measures_page(job, outcome, figures);
+  return measures_page(job, outcome, figures, lanes_of(job, measured.recording.trial.markers.time));
 }
 
 // The table and `files` with it, the figures, the page: what of them is asked for.
@@ -251,6 +262,11 @@ nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome) {
                   {"bytes", outcome.input.bytes},
                   {outcome.input.hash_kind, outcome.input.hash}};
   out["measures"] = measures_json(outcome.measures);
+  for (const auto& [region, cells] : outcome.spans.cells) {
+    nlohmann::ordered_json trial{{"region", region}};
+    for (std::size_t k = 0; k < cells.size(); ++k) trial["conditions"][outcome.spans.columns[k]] = cells[k];
+    out["trials"].push_back(std::move(trial));
+  }
   if (outcome.gait) out["gait"] = gait_json(*outcome.gait);
   if (!outcome.rhythms.empty()) out["rhythms"] = rhythms_json(outcome.rhythms);
   if (!outcome.noises.empty()) out["noise"] = noises_json(outcome.noises);

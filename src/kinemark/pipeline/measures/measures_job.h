@@ -30,7 +30,8 @@ struct MeasuresJob : JobSettings, RecordingOptions, workflow::MeasureChoice, Gai
   std::filesystem::path input;   ///< marker file
   std::filesystem::path output;  ///< .csv, .json or .nwb
   std::filesystem::path
-      forces;  ///< io::read_external_forces() instead of the recording's plates; empty: these
+      forces;          ///< io::read_external_forces() instead of the recording's plates; empty: these
+  std::string trials;  ///< trial_spans(); empty: those of the file where no other span is asked for of paths
   workflow::MeasuresOf of = workflow::MeasuresOf::everything;  ///< measures of others are refused
   double noise_sd_m = 0.0;                                     ///< per axis; 0: found from the samples
   EmgRequest emg;                                              ///< electromyograms
@@ -42,6 +43,7 @@ struct MeasuresJob : JobSettings, RecordingOptions, workflow::MeasureChoice, Gai
 struct MeasuresOutcome : JobOutcome, workflow::MeasuresFound {
   data::InputFile input;                ///< the recording
   std::vector<data::InputFile> beside;  ///< what was read with it: its journal, forces
+  SpanLabels spans;                     ///< conditions of the trials that are measured
 };
 
 /// The files that the job reads, as far as it names them. Names of no file may be among them.
@@ -67,9 +69,9 @@ struct MeasuresOutcome : JobOutcome, workflow::MeasuresFound {
 /// 'kinemark measure' (paths of markers)". Empty: nothing was.
 [[nodiscard]] std::string commands_for(const MeasuresOutcome& outcome);
 
-/// "input", "measures" (measures_json()), "gait" (gait_json(), where there is walking), "rhythms"
-/// (rhythms_json(), where movements of markers are looked at), "noise" (noises_json(), of markers),
-/// "written", "warnings".
+/// "input", "measures" (measures_json()), "trials" (region and conditions, where trials are measured), "gait"
+/// (gait_json(), where there is walking), "rhythms" (rhythms_json(), where movements of markers are looked
+/// at), "noise" (noises_json(), of markers), "written", "warnings".
 [[nodiscard]] nlohmann::ordered_json measures_outcome_json(const MeasuresOutcome& outcome);
 
 }  // namespace kinemark::pipeline

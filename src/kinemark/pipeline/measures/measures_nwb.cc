@@ -35,7 +35,7 @@ struct Row {
   std::vector<const Measure*> measures;
 };
 
-// Columns that say whose row it is; those of the participants' table behind.
+// Columns that say whose row it is; those of the participants' table and of trials behind.
 struct WhoseColumns {
   std::vector<io::NwbColumn> first, more;
 };
@@ -51,14 +51,19 @@ WhoseColumns whose_columns(const std::vector<Row>& rows) {
       .more = {}};
   for (const auto& [column, value] : rows.front().name->more)
     out.more.push_back(column_called(column, fmt::format("'{}' of the participants' table", column)));
+  const std::size_t people = out.more.size();
+  for (const auto& column : rows.front().name->spans.columns)
+    out.more.push_back(column_called(column, fmt::format("'{}' of the trial", column)));
   for (const auto& row : rows) {
     const auto& one = *row.measures.front();
     std::size_t k = 0;
     for (const auto* text : {&row.name->file, &row.name->participant, &row.name->session, &row.name->trial,
                              &one.subject, &one.context, &one.region})
       out.first[k++].texts.push_back(*text);
-    for (std::size_t m = 0; m < out.more.size(); ++m)
+    for (std::size_t m = 0; m < people; ++m)
       out.more[m].texts.push_back(m < row.name->more.size() ? row.name->more[m].second : std::string());
+    for (std::size_t m = people; m < out.more.size(); ++m)
+      out.more[m].texts.push_back(span_cell(*row.name, one.region, m - people));
   }
   for (auto& column : out.more) {
     const bool numbers = std::ranges::all_of(

@@ -75,6 +75,12 @@ std::string value_text(const data::Measure& measure) {
   return out;
 }
 
+std::string own_columns() {
+  return name_columns() +
+         ",subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,approximate,"
+         "sd,uncorrected,share_not_measured,method,remark";
+}
+
 }  // namespace
 
 Json noises_json(std::span<const analysis::PathNoise> noises) {
@@ -111,11 +117,11 @@ Json noises_json(std::span<const analysis::PathNoise> noises) {
 }
 
 std::string measures_csv_columns(const RecordingName& recording) {
-  return name_columns() +
-         ",subject,context,region,cycle,start_s,end_s,measure,value,unit,low,high,level,interval,approximate,"
-         "sd,"
-         "uncorrected,share_not_measured,method,remark" +
-         more_columns(recording) + "\n";
+  return own_columns() + more_columns(recording) + span_columns(recording) + "\n";
+}
+
+void name_span_columns(RecordingName& recording) {
+  name_apart(recording.spans, own_columns() + more_columns(recording));
 }
 
 std::string measures_csv_rows(std::span<const data::Measure> measures, const RecordingName& recording) {
@@ -124,13 +130,14 @@ std::string measures_csv_rows(std::span<const data::Measure> measures, const Rec
   for (const auto& m : measures) {
     const auto unit = data::shown_unit(m.quantity);
     const auto shown = [&unit](double si) { return table_cell(unit.per_si * si); };
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}{}\n", first,
-                       table_cell(m.subject), table_cell(m.context), table_cell(m.region),
-                       m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
-                       m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
-                       m.interval.level, data::to_string(m.interval.kind),
-                       m.interval.approximate ? "yes" : "no", shown(m.sd), shown(m.uncorrected),
-                       table_cell(m.share_not_measured), table_cell(m.method), table_cell(m.remark), last);
+    out +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:g},{},{},{},{},{},{},{}{}{}\n", first,
+                    table_cell(m.subject), table_cell(m.context), table_cell(m.region),
+                    m.cycle < 0 ? "" : fmt::to_string(m.cycle), table_cell(m.start_s), table_cell(m.end_s),
+                    m.id, shown(m.value), unit.name, shown(m.interval.low), shown(m.interval.high),
+                    m.interval.level, data::to_string(m.interval.kind), m.interval.approximate ? "yes" : "no",
+                    shown(m.sd), shown(m.uncorrected), table_cell(m.share_not_measured), table_cell(m.method),
+                    table_cell(m.remark), last, span_cells(recording, m.region));
   }
   return out;
 }

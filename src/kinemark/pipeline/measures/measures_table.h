@@ -28,10 +28,12 @@ namespace kinemark::pipeline {
 
 /// A tidy table, one measure a row: file, participant, session, trial, subject, context, region, cycle,
 /// start_s, end_s, measure, value, unit, low, high, level, interval, approximate, sd, uncorrected,
-/// share_not_measured, method, remark, and the columns of the participants' table. Values in the unit of the
-/// row, nine digits; empty where not determined. RFC 4180.
+/// share_not_measured, method, remark, the columns of the participants' table and those of trials. Values in
+/// the unit of the row, nine digits; empty where not determined. RFC 4180.
 [[nodiscard]] std::string measures_csv(std::span<const data::Measure> measures,
                                        const RecordingName& recording);
+/// Columns of trials whose name the table has already get the prefix "span_".
+void name_span_columns(RecordingName& recording);
 /// Its first line alone.
 [[nodiscard]] std::string measures_csv_columns(const RecordingName& recording);
 /// Its other lines.

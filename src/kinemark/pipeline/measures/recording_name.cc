@@ -257,4 +257,46 @@ std::string more_cells(const RecordingName& name) {
   return out;
 }
 
+std::string span_columns(const RecordingName& name) {
+  std::string out;
+  for (const auto& column : name.spans.columns) out += "," + table_cell(column);
+  return out;
+}
+
+std::string span_cell(const RecordingName& name, const std::string& span, std::size_t column) {
+  const auto at = name.spans.cells.find(span);
+  return at == name.spans.cells.end() || column >= at->second.size() ? "" : at->second[column];
+}
+
+std::string span_cells(const RecordingName& name, const std::string& span) {
+  std::string out;
+  for (std::size_t k = 0; k < name.spans.columns.size(); ++k)
+    out += "," + table_cell(span_cell(name, span, k));
+  return out;
+}
+
+void unite_span_columns(const std::vector<RecordingName*>& names) {
+  std::vector<std::string> all;
+  for (const auto* name : names)
+    for (const auto& column : name->spans.columns)
+      if (std::ranges::find(all, column) == all.end()) all.push_back(column);
+  for (auto* name : names) {
+    SpanLabels united{.columns = all, .cells = {}};
+    for (const auto& [span, cells] : name->spans.cells) {
+      auto& row = united.cells[span];
+      for (const auto& column : all) {
+        const auto own = std::ranges::find(name->spans.columns, column) - name->spans.columns.begin();
+        row.push_back(span_cell(*name, span, static_cast<std::size_t>(own)));
+      }
+    }
+    name->spans = std::move(united);
+  }
+}
+
+void name_apart(SpanLabels& labels, std::string_view table_columns) {
+  const std::string all = fmt::format(",{},", table_columns);
+  for (auto& column : labels.columns)
+    if (all.find(fmt::format(",{},", column)) != std::string::npos) column = "span_" + column;
+}
+
 }  // namespace kinemark::pipeline

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,12 @@
 
 namespace kinemark::pipeline {
 
+/// What the rows of a span say of it besides: conditions of trials.
+struct SpanLabels {
+  std::vector<std::string> columns;                       ///< names, unique
+  std::map<std::string, std::vector<std::string>> cells;  ///< of each span by its name, one a column
+};
+
 /// What every row of a table says of its recording. Texts are empty where nobody tells them.
 struct RecordingName {
   std::string file;         ///< name of the file
@@ -20,6 +27,7 @@ struct RecordingName {
   std::string session;      ///< "ses-2"
   std::string trial;        ///< "task-walk_run-1"; of other names the file's without its ending
   std::vector<std::pair<std::string, std::string>> more;  ///< column and value, of the participants' table
+  SpanLabels spans;                                       ///< of its trials
 
   /// The three texts that tell recordings apart, with a blank between them.
   [[nodiscard]] std::string key() const { return participant + " " + session + " " + file; }
@@ -68,5 +76,15 @@ struct Recordings {
 [[nodiscard]] std::string more_columns(const RecordingName& name);
 /// Their cells, a comma before each.
 [[nodiscard]] std::string more_cells(const RecordingName& name);
+/// ",side,target": what a table of spans says of each, behind; empty without any.
+[[nodiscard]] std::string span_columns(const RecordingName& name);
+/// The cells of a span, a comma before each; empty ones of a span that nothing is said of.
+[[nodiscard]] std::string span_cells(const RecordingName& name, const std::string& span);
+/// The cell of one column, by its number.
+[[nodiscard]] std::string span_cell(const RecordingName& name, const std::string& span, std::size_t column);
+/// Give all recordings of a table the same columns of spans, in the order in which they come.
+void unite_span_columns(const std::vector<RecordingName*>& names);
+/// Columns that a table has already get the prefix "span_".
+void name_apart(SpanLabels& labels, std::string_view table_columns);
 
 }  // namespace kinemark::pipeline

@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "kinemark/core/version.h"
+#include "kinemark/io/nwb/neural_file.h"
+#include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/report/markers_report.h"
 #include "kinemark/workflow/prepare/marker_screening.h"
 
@@ -106,6 +108,16 @@ Result<std::string> markers_page(const std::filesystem::path& path, const Marker
   if (const auto stated = workflow::stated_vertical(options.recording.axes)) {
     report.up = stated->up;
     report.up_from = stated->from;
+  }
+  data::Neural neural;
+  if (ending_of(path) == ".nwb") {
+    if (auto read = io::read_neural_lanes(path)) {
+      neural = std::move(*read);
+      report.neural = &neural;
+      std::ranges::copy(neural.warnings, std::back_inserter(report.warnings));
+    } else {
+      report.warnings.push_back("spikes and trials are not shown: " + read.error().message);
+    }
   }
   return report::markers_report_html(report);
 }

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "kinemark/core/counted.h"
+#include "kinemark/core/version.h"
+#include "kinemark/io/nwb/nwb.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/result_files.h"
 
@@ -42,6 +45,49 @@ data::Trajectories truth_of(const simulation::LimbRecording& limb) {
     to = std::copy_n(limb.x_true.data() + frame * markers, markers, to);
   }
   return out;
+}
+
+/// What lies beside the markers, where it is asked for.
+Result<simulation::NeuralSession> neurons_of(const SimulateLimbJob& job,
+                                             const simulation::LimbRecording& limb) {
+  if (!job.neurons.any()) return simulation::NeuralSession{};
+  auto options = job.neurons;
+  options.seed = job.seed;
+  return simulation::simulate_neurons(limb.end_in_world, limb.markers.time, options);
+}
+
+/// "20 units with 5,400 spikes, 4 trials, field potentials of 4 channels".
+std::string describe(const simulation::NeuralSession& session) {
+  std::size_t spikes = 0, channels = 0;
+  for (const auto& unit : session.neural.units) spikes += unit.times_s.size();
+  for (const auto& field : session.fields) channels += field.channels.size();
+  const auto* trials = session.neural.find_intervals("trials");
+  return fmt::format("{} with {}, {}, field potentials of {}",
+                     counted(static_cast<std::int64_t>(session.neural.units.size()), "unit"),
+                     counted(static_cast<std::int64_t>(spikes), "spike"),
+                     counted(trials == nullptr ? 0 : static_cast<std::int64_t>(trials->rows.size()), "trial"),
+                     counted(static_cast<std::int64_t>(channels), "channel"));
+}
+
+/// Markers with what was recorded beside them. Both must live until the file is written.
+ResultFile session_file(std::filesystem::path target, const SimulateLimbJob& job, const data::Trial& trial,
+                        const simulation::NeuralSession& session) {
+  const io::NwbMetadata metadata{.session_description = "a simulated arm beside simulated neurons",
+                                 .species = "Macaca mulatta",
+                                 .version = std::string(kVersion),
+                                 .command = job.command_line,
+                                 .seed = job.seed};
+  return {.target = std::move(target),
+          .write = [&trial, &session, metadata](const std::filesystem::path& staged,
+                                                const std::string& set) -> Status {
+            auto writer =
+                io::NwbWriter::create(staged, io::NwbOutline::of(trial.markers, nullptr), metadata, {});
+            if (!writer) return std::unexpected(writer.error());
+            if (auto s = writer->write(trial.markers); !s) return s;
+            if (auto s = writer->write_signals(trial); !s) return s;
+            if (auto s = writer->write_neural(session.neural, session.fields); !s) return s;
+            return writer->commit(set);
+          }};
 }
 
 }  // namespace
@@ -89,8 +135,12 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
     out.warnings.push_back(fmt::format("the recorder makes {} frames at {:.6g} Hz of them",
                                        recorded->frames(), recorded->time.rate_hz));
 
-  auto staging =
-      Staging::create_in(job.folder, {"markers.c3d", "markers.trc", "truth.csv", "segments.toml"}, job, {});
+  const auto session = neurons_of(job, *limb);
+  if (!session) return std::unexpected(session.error());
+  if (job.neurons.any()) out.warnings.push_back(describe(*session));
+  std::vector<std::string> names{"markers.c3d", "markers.trc", "truth.csv", "segments.toml"};
+  if (job.neurons.any()) names.emplace_back("session.nwb");
+  auto staging = Staging::create_in(job.folder, names, job, {});
   if (!staging) return std::unexpected(staging.error());
   data::Trial stream, truth;
   stream.source = truth.source = "simulated";
@@ -100,11 +150,11 @@ Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job) {
   const std::string layout = segment_layout_toml(limb->layout, limb->markers.names);
   const std::string set =
       SetDigest().add("simulate limb").add(layout).add(stream.markers).add(truth.markers).hex();
-  auto written = write_results(
-      *staging,
-      {marker_file(targets[0], stream), marker_file(targets[1], stream), marker_file(targets[2], truth),
-       toml_file(targets[3], [&] { return std::string(layout); })},
-      job.progress, "the simulation", set);
+  std::vector<ResultFile> files{marker_file(targets[0], stream), marker_file(targets[1], stream),
+                                marker_file(targets[2], truth),
+                                toml_file(targets[3], [&] { return std::string(layout); })};
+  if (job.neurons.any()) files.push_back(session_file(targets[4], job, stream, *session));
+  auto written = write_results(*staging, files, job.progress, "the simulation", set);
   if (!written) return std::unexpected(written.error());
   out.written = std::move(*written);
   return out;

@@ -11,6 +11,7 @@
 #include "kinemark/data/skeleton.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stages/simulation/limb.h"
+#include "kinemark/stages/simulation/neurons.h"
 #include "kinemark/stages/simulation/upsample.h"
 
 namespace kinemark::pipeline {
@@ -24,6 +25,7 @@ struct SimulateLimbJob : JobSettings {
   LimbScene scene = LimbScene::arm;                   ///< which limb
   simulation::ChainOptions arm;                       ///< for LimbScene::arm
   simulation::SleeveOptions macaque;                  ///< for LimbScene::macaque
+  simulation::NeuronOptions neurons;                  ///< of the macaque; none by default
   simulation::UpsampleOptions upsample{.factor = 1};  ///< what the recorder makes of it
 };
 
@@ -31,8 +33,9 @@ struct SimulateLimbJob : JobSettings {
 struct SimulateLimbOutcome : JobOutcome {};
 
 /// Write markers.c3d and markers.trc (what the recorder hands on), truth.csv (joint centres and then all
-/// markers without noise, every frame of the cameras) and segments.toml (segment_layout_toml()). Either all
-/// files appear or none, nor the folder. Progress counts files.
+/// markers without noise, every frame of the cameras) and segments.toml (segment_layout_toml()); with neurons
+/// also session.nwb, the markers with units, trials and field potentials on their clock. Either all files
+/// appear or none, nor the folder. Progress counts files.
 [[nodiscard]] Result<SimulateLimbOutcome> run_simulate_limb(const SimulateLimbJob& job);
 
 /// The layout as `kinemark joints --segments` reads it: [[segment]] with name and markers, [[joint]] with

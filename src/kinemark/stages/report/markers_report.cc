@@ -13,6 +13,7 @@
 #include "kinemark/stages/report/internal/clean_text.h"
 #include "kinemark/stages/report/internal/json_parts.h"
 #include "kinemark/stages/report/internal/page.h"
+#include "kinemark/stages/report/neural_part.h"
 
 namespace kinemark::report {
 namespace {
@@ -215,6 +216,10 @@ Json markers_report_json(const MarkersReport& report, const SceneOptions& option
                     .up = report.up,
                     .up_from = report.up_from};
   Json json{{"summary", summary_of(report)}, {"scene", scene_json(scene, options)}};
+  const auto& time = report.recording->markers.time;
+  if (report.neural != nullptr && time.frames > 1)
+    if (auto lanes = neural_json(*report.neural, time.t0_s, time.time_s(time.frames - 1)); !lanes.is_null())
+      json["neural"] = std::move(lanes);
   if (!report.editing.is_null()) json["editing"] = report.editing;
   return json;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/data/neural.h"
 #include "kinemark/data/trial.h"
 #include "kinemark/stages/report/cycle_overlay.h"
 #include "kinemark/stages/report/report_parts.h"
@@ -30,6 +31,7 @@ struct MarkersReport {
   const data::Trajectories* before = nullptr;     ///< as it was recorded, on the same markers and frames;
                                                   ///< nullptr: as it is
   std::vector<CycleSpan> cycles;                  ///< that the recording's events mark; may be none
+  const data::Neural* neural = nullptr;           ///< what lies beside the movement; nullptr: nothing
   nlohmann::ordered_json editing;  ///< state of the edits, where the page can change them; null
 };
 

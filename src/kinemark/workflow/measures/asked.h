@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/data/edit.h"
 #include "kinemark/data/measure.h"
 #include "kinemark/stages/analysis/emg/emg_measures.h"
 #include "kinemark/stages/analysis/forces/force_measures.h"
@@ -54,6 +55,7 @@ struct MeasureNeeds {
 /// What is asked of measure(), gait() and emg().
 struct MeasureOptions : MeasureChoice {
   MeasuresOf of = MeasuresOf::everything;  ///< measures of others are not taken
+  std::vector<data::Region> spans = {};    ///< that are measured besides those of the options
   analysis::GaitOptions gait = {};  ///< whose events, which markers are feet; the rest of it is filled in
   EmgChoice emg = {};               ///< which channels
   double noise_sd_m = 0.0;          ///< of positions, per axis; 0: found from the samples

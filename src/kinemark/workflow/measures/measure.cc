@@ -22,11 +22,12 @@
 namespace kinemark::workflow {
 namespace {
 
-/// Regions of the edits, those that the options name, and spans between events.
+/// Regions of the edits, spans, those that the options name, and spans between events.
 Result<std::vector<data::Region>> regions_of(const MeasureOptions& options,
                                              const data::Recording& recording) {
   const auto& trial = recording.trial;
   auto regions = recording.edits.regions;
+  std::ranges::copy(options.spans, std::back_inserter(regions));
   for (const auto& text : options.regions) {
     auto region = parse_region(text, trial.markers.time);
     if (!region) return std::unexpected(region.error());

@@ -93,6 +93,8 @@ class Walk {
         for (const std::string& text : *texts) add(text);
       } else if (const auto number = in_.number_attribute(object, name.c_str())) {
         add(std::bit_cast<std::uint64_t>(*number));
+      } else if (const auto target = in_.reference_attribute(object, name.c_str())) {
+        add(*target);
       } else {
         return false;
       }
@@ -120,7 +122,8 @@ class Walk {
       return true;
     }
     if (const auto shape = in_.number_shape(dataset)) return numbers(dataset, *shape);
-    const auto texts = in_.texts(dataset);
+    auto texts = in_.texts(dataset);
+    if (!texts) texts = in_.references(dataset);
     if (!texts) return false;
     for (const std::string& text : *texts) add(text);
     return true;

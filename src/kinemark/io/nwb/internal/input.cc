@@ -97,6 +97,18 @@ hid_t native<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
+bool is_reference(hid_t type) { return H5Tequal(type, H5T_STD_REF_OBJ) > 0; }
+
+/// The path of the object that a reference names.
+std::optional<std::string> name_of(hid_t object, const hobj_ref_t& target) {
+  const ssize_t length = H5Rget_name(object, H5R_OBJECT, &target, nullptr, 0);
+  if (length <= 0 || static_cast<std::size_t>(length) > kMaxTextBytes) return std::nullopt;
+  std::string out(static_cast<std::size_t>(length) + 1, '\0');
+  if (H5Rget_name(object, H5R_OBJECT, &target, out.data(), out.size()) < 0) return std::nullopt;
+  out.pop_back();
+  return out;
+}
+
 std::string path_of(hid_t object) {
   std::string path(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(object, nullptr, 0))) + 1, '\0');
   H5Iget_name(object, path.data(), path.size());
@@ -289,6 +301,34 @@ bool Input::read_rows(hid_t dataset, const std::vector<std::int64_t>& shape, std
   return H5Sselect_hyperslab(in_file.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) >=
              0 &&
          H5Dread(dataset, memory_type, in_memory.id(), in_file.id(), H5P_DEFAULT, out) >= 0;
+}
+
+std::optional<std::vector<std::string>> Input::references(hid_t dataset) {
+  const auto dims = shape(dataset, is_reference);
+  if (!dims || dims->size() != 1) return std::nullopt;
+  const auto count = static_cast<std::size_t>(dims->front());
+  if (!afford(count, sizeof(hobj_ref_t) + sizeof(std::string))) return std::nullopt;
+  std::vector<hobj_ref_t> targets(count);
+  if (count > 0 && !read(dataset, H5T_STD_REF_OBJ, targets.data())) return std::nullopt;
+  std::vector<std::string> out;
+  for (const hobj_ref_t& target : targets) {
+    auto path = name_of(dataset, target);
+    if (!path) return std::nullopt;
+    out.push_back(std::move(*path));
+  }
+  return out;
+}
+
+std::optional<std::string> Input::reference_attribute(hid_t object, const char* name) const {
+  const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  if (!attribute) return std::nullopt;
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  hobj_ref_t target{};
+  if (!is_reference(type.id()) || H5Sget_simple_extent_npoints(space.id()) != 1 ||
+      H5Aread(attribute.id(), H5T_STD_REF_OBJ, &target) < 0)
+    return std::nullopt;
+  return name_of(object, target);
 }
 
 std::optional<std::string> Input::soft_link(hid_t group, const std::string& name) const {

@@ -55,6 +55,10 @@ class Input {
 
   /// All texts of an attribute; nothing where it holds none.
   [[nodiscard]] std::optional<std::vector<std::string>> text_attributes(hid_t object, const char* name) const;
+  /// Paths of the objects that a dataset of references names; nothing for other datasets.
+  [[nodiscard]] std::optional<std::vector<std::string>> references(hid_t dataset);
+  /// The path of the object that an attribute refers to; nothing where it does not.
+  [[nodiscard]] std::optional<std::string> reference_attribute(hid_t object, const char* name) const;
   /// Where a soft link of a group leads; nothing for other links.
   [[nodiscard]] std::optional<std::string> soft_link(hid_t group, const std::string& name) const;
   /// XXH3 of all numbers of a dataset, as they lie in memory, where numbers() has read them; else nothing.

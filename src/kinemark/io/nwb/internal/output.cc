@@ -35,6 +35,8 @@ Handle simple_space(const std::vector<hsize_t>& dims) {
 }  // namespace
 
 std::size_t Column::rows() const {
+  if (!ends.empty()) return ends.size();
+  if (!references.empty()) return references.size();
   std::size_t one = 1;
   for (const hsize_t size : across) one *= std::max<hsize_t>(size, 1);
   return std::max({texts.size(), numbers.size() / one, integers.size() / one});
@@ -168,6 +170,10 @@ Handle Output::number(hid_t parent, const char* name, double value) {
   return made;
 }
 
+Handle Output::integers(hid_t parent, const char* name, const std::vector<std::int64_t>& values) {
+  return column(parent, {.name = name, .integers = values});
+}
+
 Handle Output::samples(hid_t parent, const char* name, hid_t file_type, std::int64_t frames, int width,
                        double fill, int compression) {
   std::vector<hsize_t> dims{static_cast<hsize_t>(frames)};
@@ -205,9 +211,10 @@ void Output::write(const Handle& samples, hid_t memory_type, std::int64_t first,
 
 Handle Output::column(hid_t table, const Column& column) {
   if (!column.texts.empty()) return texts(table, column.name.c_str(), column.texts);
+  if (!column.references.empty()) return references(table, column);
   const bool whole = !column.integers.empty();
   const std::size_t count = whole ? column.integers.size() : column.numbers.size();
-  std::vector<hsize_t> dims{column.rows()};
+  std::vector<hsize_t> dims{column.ends.empty() ? column.rows() : count};
   dims.insert(dims.end(), column.across.begin(), column.across.end());
   const Handle space = simple_space(dims);
   const Handle create = small_data(count * sizeof(double), dims);
@@ -219,10 +226,52 @@ Handle Output::column(hid_t table, const Column& column) {
   return made;
 }
 
+Handle Output::references(hid_t table, const Column& column) {
+  std::vector<hobj_ref_t> targets(column.references.size());
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    note(H5Rcreate(&targets[i], file_.id(), column.references[i].c_str(), H5R_OBJECT, -1));
+  const std::vector<hsize_t> dims{targets.size()};
+  const Handle space = simple_space(dims);
+  const Handle create = small_data(targets.size() * sizeof(hobj_ref_t), dims);
+  Handle made = keep(H5Dcreate2(table, column.name.c_str(), H5T_STD_REF_OBJ, space.id(), H5P_DEFAULT,
+                                create.id(), H5P_DEFAULT),
+                     H5Dclose);
+  note(H5Dwrite(made.id(), H5T_STD_REF_OBJ, H5S_ALL, H5S_ALL, H5P_DEFAULT, targets.data()));
+  return made;
+}
+
+void Output::reference(hid_t object, const char* name, const std::string& target) {
+  hobj_ref_t to{};
+  note(H5Rcreate(&to, file_.id(), target.c_str(), H5R_OBJECT, -1));
+  const Handle space = keep(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle made =
+      keep(H5Acreate2(object, name, H5T_STD_REF_OBJ, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  note(H5Awrite(made.id(), H5T_STD_REF_OBJ, &to));
+}
+
+/// The dataset that says where the rows of a column of any length end.
+void Output::index_rows(hid_t table, const Column& column) {
+  const std::vector<std::uint64_t> ends(column.ends.begin(), column.ends.end());
+  const std::vector<hsize_t> dims{ends.size()};
+  const Handle space = simple_space(dims);
+  const Handle create = small_data(ends.size() * sizeof(std::uint64_t), dims);
+  const std::string name = column.name + "_index";
+  const Handle made =
+      keep(H5Dcreate2(table, name.c_str(), H5T_STD_U64LE, space.id(), H5P_DEFAULT, create.id(), H5P_DEFAULT),
+           H5Dclose);
+  note(H5Dwrite(made.id(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, ends.data()));
+  declare(made.id(), "VectorIndex", "hdmf-common");
+  attribute(made.id(), "description", "where the rows of " + column.name + " end");
+  std::string path(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(table, nullptr, 0))) + 1, '\0');
+  H5Iget_name(table, path.data(), path.size());
+  path.pop_back();
+  reference(made.id(), "target", path + "/" + column.name);
+}
+
 void Output::table(hid_t parent, const char* name, const char* description,
-                   const std::vector<Column>& columns, bool intervals) {
+                   const std::vector<Column>& columns, const char* type) {
   const Handle made = group(parent, name);
-  declare(made.id(), intervals ? "TimeIntervals" : "DynamicTable", intervals ? "core" : "hdmf-common");
+  declare(made.id(), type, std::string_view(type) == "DynamicTable" ? "hdmf-common" : "core");
   attribute(made.id(), "description", description);
   std::vector<std::string> names;
   Column id{.name = "id", .integers = {}};
@@ -231,6 +280,7 @@ void Output::table(hid_t parent, const char* name, const char* description,
     const Handle data = column(made.id(), c);
     declare(data.id(), "VectorData", "hdmf-common");
     attribute(data.id(), "description", c.description);
+    if (!c.ends.empty()) index_rows(made.id(), c);
     id.integers.resize(c.rows());
   }
   attribute(made.id(), "colnames", names);

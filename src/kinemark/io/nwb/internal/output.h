@@ -20,6 +20,9 @@ struct Column {
   std::vector<std::int64_t> integers;
   std::vector<hsize_t> across =
       {};  ///< sizes of what one row holds, of numbers and integers; empty: one value
+  std::vector<std::string> references = {};  ///< paths of objects, one a row, in place of values
+  /// Where the numbers of each row end, for rows of any length; empty: they are of one length.
+  std::vector<std::int64_t> ends = {};
 
   [[nodiscard]] std::size_t rows() const;
 };
@@ -46,15 +49,19 @@ class Output {
   Handle texts(hid_t parent, const char* name, const std::vector<std::string>& texts,
                std::size_t columns = 1);
   Handle number(hid_t parent, const char* name, double value);
+  Handle integers(hid_t parent, const char* name, const std::vector<std::int64_t>& values);
   /// Numbers, frames x width (1: a plain list), in checksummed chunks; `fill` where nothing is written.
   Handle samples(hid_t parent, const char* name, hid_t file_type, std::int64_t frames, int width, double fill,
                  int compression);
   /// Rows [first, first + count) of samples().
   void write(const Handle& samples, hid_t memory_type, std::int64_t first, std::int64_t count, int width,
              const void* values);
-  /// A DynamicTable, or TimeIntervals where the columns say from when to when; columns are of equal length.
+  /// A DynamicTable, or another table of NWB (TimeIntervals, Units, ElectrodesTable); columns are of equal
+  /// length.
   void table(hid_t parent, const char* name, const char* description, const std::vector<Column>& columns,
-             bool intervals = false);
+             const char* type = "DynamicTable");
+  /// An attribute that refers to an object by its path.
+  void reference(hid_t object, const char* name, const std::string& target);
   void soft_link(hid_t parent, const char* name, const std::string& target);
 
   [[nodiscard]] hid_t file() const { return file_.id(); }
@@ -72,6 +79,8 @@ class Output {
   /// a chunk.
   Handle small_data(std::size_t bytes, const std::vector<hsize_t>& dims);
   Handle column(hid_t table, const Column& column);
+  Handle references(hid_t table, const Column& column);
+  void index_rows(hid_t table, const Column& column);
 
   Handle file_, text_type_, create_group_;
   std::uint64_t identity_ = 0;

@@ -291,7 +291,7 @@ void write_unloaded(Output& out, const std::array<double, 2>& unloaded_s) {
   out.table(intervals.id(), kUnloaded, "when nobody loads the force plates",
             {{.name = "start_time", .description = "its first frame, s", .numbers = {unloaded_s[0]}},
              {.name = "stop_time", .description = "its last frame, s", .numbers = {unloaded_s[1]}}},
-            true);
+            "TimeIntervals");
 }
 
 void write_calibration(Output& out, hid_t module, const data::CalibrationError& error) {

@@ -2,163 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/io/nwb/internal/transfer.h"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "kinemark/core/array.h"
 #include "kinemark/io/nwb/internal/names.h"
+#include "kinemark/io/nwb/internal/pipe.h"
 
 namespace kinemark::io::internal {
 namespace {
 
 constexpr std::uint64_t kBegin = 0x335042574E4D4BULL, kEnd = 0x444E4542574E4D4BULL;
-constexpr std::size_t kBuffer = 1 << 16;
-
-/// Bytes out, gathered into large pieces.
-class Sink {
- public:
-  explicit Sink(int fd) : fd_(fd) {}
-
-  void bytes(const void* from, std::size_t size) {
-    if (size < kBuffer) {
-      buffer_.append(static_cast<const char*>(from), size);
-      if (buffer_.size() >= kBuffer) flush();
-    } else {
-      flush();
-      put(static_cast<const char*>(from), size);
-    }
-  }
-  bool flush() {
-    put(buffer_.data(), buffer_.size());
-    buffer_.clear();
-    return good_;
-  }
-
- private:
-  void put(const char* from, std::size_t size) {
-    while (good_ && size > 0) {
-      const ssize_t n = ::write(fd_, from, size);
-      if (n < 0 && errno == EINTR) continue;
-      good_ = n > 0;
-      from += n;
-      size -= static_cast<std::size_t>(n);
-    }
-  }
-
-  int fd_;
-  bool good_ = true;
-  std::string buffer_;
-};
-
-/// Bytes in, at most so many. After a failure everything reads as zero.
-class Source {
- public:
-  Source(int fd, std::size_t most_bytes) : fd_(fd), left_(most_bytes), buffer_(kBuffer) {}
-
-  void bytes(void* out, std::size_t size) {
-    auto* to = static_cast<char*>(out);
-    while (good_ && size > 0) {
-      if (at_ < filled_) {
-        const std::size_t n = std::min(size, filled_ - at_);
-        std::copy_n(buffer_.data() + at_, n, to);
-        at_ += n;
-        to += n;
-        size -= n;
-      } else if (size >= kBuffer) {
-        const std::size_t n = get(to, size);
-        to += n;
-        size -= n;
-      } else {
-        filled_ = get(buffer_.data(), kBuffer);
-        at_ = 0;
-      }
-    }
-    std::fill_n(to, size, '\0');
-  }
-  /// A number of elements of that size, no more than may still come.
-  std::size_t count(std::size_t element_bytes) {
-    std::uint64_t n = 0;
-    bytes(&n, sizeof n);
-    if (n > left_ / element_bytes) good_ = false;
-    if (!good_) return 0;
-    left_ -= n * element_bytes;
-    return n;
-  }
-  [[nodiscard]] bool good() const { return good_; }
-
- private:
-  std::size_t get(char* to, std::size_t size) {
-    while (true) {
-      const ssize_t n = ::read(fd_, to, size);
-      if (n < 0 && errno == EINTR) continue;
-      good_ = n > 0;
-      return n > 0 ? static_cast<std::size_t>(n) : 0;
-    }
-  }
-
-  int fd_;
-  std::size_t left_;
-  bool good_ = true;
-  std::vector<char> buffer_;
-  std::size_t at_ = 0, filled_ = 0;
-};
-
-/// The order of everything is written once: `pass` is the same code for both directions.
-void pass(Sink& out, const std::string& text) {
-  const std::uint64_t size = text.size();
-  out.bytes(&size, sizeof size);
-  out.bytes(text.data(), text.size());
-}
-void pass(Source& in, std::string& text) {
-  text.resize(in.count(1));
-  in.bytes(text.data(), text.size());
-}
-
-template <class T>
-concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-
-template <Plain T>
-void pass(Sink& out, const T& value) {
-  out.bytes(&value, sizeof value);
-}
-template <Plain T>
-void pass(Source& in, T& value) {
-  in.bytes(&value, sizeof value);
-}
-
-template <Plain T>
-void pass(Sink& out, const Array<T>& values) {
-  const std::uint64_t size = values.size();
-  out.bytes(&size, sizeof size);
-  out.bytes(values.data(), size * sizeof(T));
-}
-template <Plain T>
-void pass(Source& in, Array<T>& values) {
-  values.resize(in.count(sizeof(T)));
-  in.bytes(values.data(), values.size() * sizeof(T));
-}
-
-template <class Pipe, class List, class Each>
-void pass_each(Pipe& pipe, List& list, const Each& each) {
-  if constexpr (std::is_same_v<Pipe, Sink>) {
-    const std::uint64_t size = list.size();
-    pipe.bytes(&size, sizeof size);
-    for (auto& element : list) each(element);
-  } else {
-    for (std::size_t left = pipe.count(1); left > 0 && pipe.good(); --left) each(list.emplace_back());
-  }
-}
-
-template <class Pipe, class Texts>
-void pass_texts(Pipe& pipe, Texts& texts) {
-  pass_each(pipe, texts, [&](auto& text) { pass(pipe, text); });
-}
-
 template <class Pipe, class Filters>
 void pass_filters(Pipe& pipe, Filters& filters) {
   pass_each(pipe, filters, [&](auto& filter) {
@@ -306,6 +159,51 @@ bool pass_all(Source& in, NwbFile& file) {
   return derivatives <= 1 && seed <= 1;
 }
 
+template <class Pipe, class Labels>
+void pass_labels(Pipe& pipe, Labels& labels) {
+  pass_each(pipe, labels, [&](auto& label) {
+    pass(pipe, label.column);
+    pass(pipe, label.value);
+  });
+}
+
+template <class Pipe, class Field>
+void pass_field(Pipe& pipe, Field& field) {
+  pass(pipe, field.name);
+  pass(pipe, field.unit);
+  pass_texts(pipe, field.channels);
+  pass(pipe, field.rate_hz);
+  pass(pipe, field.start_s);
+  pass(pipe, field.bin_s);
+  pass(pipe, field.bins);
+  pass(pipe, field.low);
+  pass(pipe, field.high);
+}
+
+template <class Pipe, class Neural>
+void pass_neural(Pipe& pipe, Neural& neural) {
+  pass_each(pipe, neural.units, [&](auto& unit) {
+    pass(pipe, unit.id);
+    pass_labels(pipe, unit.labels);
+    pass_each(pipe, unit.times_s, [&](auto& time) { pass(pipe, time); });
+  });
+  pass_each(pipe, neural.intervals, [&](auto& table) {
+    pass(pipe, table.name);
+    pass_each(pipe, table.rows, [&](auto& row) {
+      pass(pipe, row.start_s);
+      pass(pipe, row.stop_s);
+      pass_labels(pipe, row.labels);
+    });
+  });
+  pass_each(pipe, neural.fields, [&](auto& field) { pass_field(pipe, field); });
+  pass_texts(pipe, neural.warnings);
+}
+void pass_all(Sink& out, const data::Neural& neural) { pass_neural(out, neural); }
+bool pass_all(Source& in, data::Neural& neural) {
+  pass_neural(in, neural);
+  return true;
+}
+
 template <class Pipe, class Table>
 void pass_table(Pipe& pipe, Table& table) {
   pass(pipe, table.frames);
@@ -331,6 +229,7 @@ bool is_sound(const NwbFile& file) {
   if (t.time.frames < 0 || static_cast<std::size_t>(t.time.frames) > t.x_in_world.size()) return false;
   return file.trial.validate() && (!file.derivatives || file.derivatives->validate(t));
 }
+bool is_sound(const data::Neural& neural) { return neural.validate().has_value(); }
 bool is_sound(const PoseTable& table) { return table.validate().has_value(); }
 bool is_sound(const Carried& /*carried*/) { return true; }
 
@@ -376,6 +275,7 @@ std::optional<Result<T>> receive_any(int fd, std::size_t most_bytes) {
 
 bool send(int fd, const Result<NwbFile>& file) { return send_any(fd, file); }
 bool send(int fd, const Result<PoseTable>& table) { return send_any(fd, table); }
+bool send(int fd, const Result<data::Neural>& neural) { return send_any(fd, neural); }
 bool send(int fd, const Result<Carried>& carried) { return send_any(fd, carried); }
 
 std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
@@ -383,6 +283,9 @@ std::optional<Result<NwbFile>> receive(int fd, std::size_t most_bytes) {
 }
 std::optional<Result<PoseTable>> receive_poses(int fd, std::size_t most_bytes) {
   return receive_any<PoseTable>(fd, most_bytes);
+}
+std::optional<Result<data::Neural>> receive_neural(int fd, std::size_t most_bytes) {
+  return receive_any<data::Neural>(fd, most_bytes);
 }
 std::optional<Result<Carried>> receive_carried(int fd, std::size_t most_bytes) {
   return receive_any<Carried>(fd, most_bytes);
