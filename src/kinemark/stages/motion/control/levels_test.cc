@@ -181,7 +181,7 @@ TEST(Levels, AStrictLevelThatLeavesItsGoalsIsFoundInItsFramesAndComesBack) {
   const TrackOptions options{
       .levels = trunk_and_rest(), .strict = true, .level_bound_m = 0.012, .judge_samples = false};
   const auto track = track_markers(model, markers, options).value();
-  ASSERT_EQ(track.fit.findings.size(), 1U);
+  ASSERT_FALSE(track.fit.findings.empty());
   const auto& finding = track.fit.findings.front();
   EXPECT_EQ(finding.subject, "level 1");
   EXPECT_THAT(finding.description,
@@ -194,8 +194,8 @@ TEST(Levels, AStrictLevelThatLeavesItsGoalsIsFoundInItsFramesAndComesBack) {
   std::vector<std::int64_t> beyond;
   for (std::int64_t f = 0; f < 200; ++f) {
     const auto i = static_cast<std::size_t>(f);
-    if (track.level_error[2 * i] > 0.012) {
-      beyond.push_back(f);
+    if (track.level_error[2 * i] > 0.012) beyond.push_back(f);
+    if (std::max(track.level_error[2 * i], track.level_error[2 * i + 1]) > 0.012) {
       EXPECT_EQ(track.motion.status[i], data::FrameStatus::not_converged) << f;
     } else {
       EXPECT_EQ(track.motion.status[i], data::FrameStatus::converged) << f;

@@ -295,7 +295,7 @@ void lock_idle(Plan& plan, const IdlePoses& idle_poses) {
         model::marker_jacobian(model, w, J);
         squares = J.colwise().squaredNorm().transpose();
       }
-      for (const auto& level : plan.levels)
+      for (const auto& level : plan.asked)
         for (std::size_t t = 0; t < level.tasks.size(); ++t) {
           most.setZero(model.speed_count());
           for (const double time_s : idle_poses.times_s) {
