@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.h"
@@ -11,6 +13,7 @@
 #include "cli/motion_arguments.h"
 #include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
+#include "kinemark/core/units.h"
 #include "kinemark/pipeline/motion/track_job.h"
 
 namespace kinemark::cli {
@@ -21,7 +24,8 @@ struct TrackArguments {
   MotionArguments motion;
   ManyArguments many;
   std::vector<std::string> levels, rest, posture;
-  double step_ms = 0.0;
+  std::string accuracy;
+  double step_ms = 0.0, level_bound_mm = 0.0;
   bool no_feed_forward = false, no_lock = false;
 };
 
@@ -60,7 +64,17 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
     options.posture_kp = *kp;
     options.posture_kd = *kd;
   }
+  if (!arguments.accuracy.empty()) {
+    const bool has_unit = arguments.accuracy.ends_with("deg");
+    const auto number = parse_number(
+        std::string_view(arguments.accuracy).substr(0, arguments.accuracy.size() - (has_unit ? 3 : 0)));
+    if (!number || !(*number > 0.0))
+      return fail(Code::usage,
+                  fmt::format("accuracy '{}' is no angle above 0, as 0.5deg", arguments.accuracy));
+    options.accuracy_rad = kRadPerDeg * *number;
+  }
   options.step_s = 1e-3 * arguments.step_ms;
+  options.level_bound_m = 1e-3 * arguments.level_bound_mm;
   options.feed_forward = !arguments.no_feed_forward;
   options.lock = arguments.no_lock ? motion::LockMode::off : motion::LockMode::automatic;
   return {};
@@ -79,6 +93,22 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
                   1e3 * result.fit.rms_error_m, 1e3 * result.rms_goal_error_m,
                   *std::min_element(result.rank.begin(), result.rank.end()),
                   *std::max_element(result.rank.begin(), result.rank.end()), result.free_speeds));
+  if (result.accuracy) {
+    const auto& a = *result.accuracy;
+    say(common,
+        fmt::format("Expected error of the angles: {:.2g} deg RMS ({:g} wanted), by a cut-off of {:g} Hz and "
+                    "omega {:.3g} rad/s; from {:.2g} deg in {} to {:.2g} deg in {}.",
+                    kDegPerRad * a.predicted_rad, kDegPerRad * a.wanted_rad, a.cutoff_hz, a.omega_rad_s,
+                    kDegPerRad * a.smallest_rad, a.smallest, kDegPerRad * a.largest_rad, a.largest));
+  }
+  for (std::size_t i = 0; i < result.levels.size(); ++i) {
+    const auto& level = result.levels[i];
+    say(common,
+        fmt::format("Level {}: {}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame.", i + 1,
+                    std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
+                                             : fmt::format("weight {:.3g}", level.weight),
+                    1e3 * level.rms_error_m, 1e3 * level.max_error_m));
+  }
   if (!result.locked_coordinates.empty())
     say(common, fmt::format("note: Held at rest because no tracked marker moves them: {}",
                             join(result.locked_coordinates)));
@@ -136,10 +166,19 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
       ->group("Output");
   add_many_options(*command, a.many);
   command
-      ->add_option(
-          "--level", a.levels,
-          "Markers of one level of priority, A,B,...; '*' takes the rest. Repeat from the highest to the "
-          "lowest. None: one level of all markers")
+      ->add_option("--level", a.levels,
+                   "Markers of one level, A,B,...; '*' takes the rest. Repeat: each level's squared errors "
+                   "are weighted "
+                   "by 1 / variance of its markers. None: one level of all markers")
+      ->group("Tasks");
+  command
+      ->add_flag("--strict", options.strict,
+                 "Levels are strict priorities, the highest first; one beyond its bound is a finding")
+      ->group("Tasks");
+  command
+      ->add_option("--level-bound", a.level_bound_mm,
+                   "Largest RMS distance of a strict level to its goals, mm; 0: from a first run")
+      ->capture_default_str()
       ->group("Tasks");
   command->add_option("--lock", options.locked, "Coordinate to hold at the rest pose. Repeatable.")
       ->group("Tasks");
@@ -147,20 +186,29 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
       ->group("Tasks");
   command->add_flag("--no-lock", a.no_lock, "Leave coordinates that no marker moves to the posture task")
       ->group("Tasks");
-  command->add_option("--omega", options.omega_rad_s, "Stiffness of the tracking, rad/s")
-      ->capture_default_str()
-      ->group("Control");
-  command->add_option("--step", a.step_ms, "Largest step, ms; 0: omega x step = 0.5 or less")
-      ->capture_default_str()
-      ->group("Control");
+  auto* omega = command->add_option("--omega", options.omega_rad_s, "Stiffness of the tracking, rad/s")
+                    ->capture_default_str()
+                    ->group("Control");
+  auto* step = command->add_option("--step", a.step_ms, "Largest step, ms; 0: omega x step = 0.5 or less")
+                   ->capture_default_str()
+                   ->group("Control");
   command->add_option("--damping", options.damping, "Of directions that hardly move the markers, kg^-1/2")
       ->capture_default_str()
       ->group("Control");
   command->add_option("--posture", a.posture, "Gains of the posture task KP,KD, 1/s^2 and 1/s (100,20)")
       ->expected(1)
       ->group("Control");
-  command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
-      ->capture_default_str()
+  auto* cutoff = command->add_option("--cutoff", options.cutoff_hz, "Low-pass of the goals, Hz; 0: none")
+                     ->capture_default_str()
+                     ->group("Control");
+  command
+      ->add_option(
+          "--accuracy", a.accuracy,
+          "RMS error of the angles of joints that is wanted, as 0.5deg: chooses cut-off, step and omega, "
+          "or says what it would take")
+      ->excludes(omega)
+      ->excludes(step)
+      ->excludes(cutoff)
       ->group("Control");
   command
       ->add_flag(

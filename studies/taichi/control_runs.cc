@@ -89,6 +89,7 @@ Result<motion::TrackResult> run_control(const model::Model& model, const data::T
   check(rest.size() == model.coordinate_count(), "the rest pose has a number per coordinate");
   motion::TrackOptions options;
   for (const auto& level : set.levels) options.levels.push_back({.markers = level});
+  options.strict = true;
   options.step_s = setting.step_s;
   options.omega_rad_s = setting.omega_rad_s > 0.0    ? setting.omega_rad_s
                         : setting.step_s > kCoarse_s ? kSlow_rad_s

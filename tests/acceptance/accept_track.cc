@@ -153,7 +153,8 @@ void levels(int seeds) {
     double angle = 0.0, one = 0.0, marker = 0.0;
     for (int seed = 1; seed <= seeds; ++seed) {
       const auto s = subject(model, 1e-3, 60.0, 10.0, static_cast<std::uint64_t>(seed));
-      const auto strict = run(model, s.markers, {.levels = list, .step_s = 2e-3, .error_bars = false});
+      const auto strict =
+          run(model, s.markers, {.levels = list, .strict = true, .step_s = 2e-3, .error_bars = false});
       const auto flat = run(model, s.markers, {.step_s = 2e-3, .error_bars = false});
       flagged += strict.flagged_frames + strict.restarts;
       angle = larger(angle, joint_rms_deg(model, strict.motion, s.truth));
@@ -222,7 +223,7 @@ void bounds(int seeds) {
     double ratio = 0.0;
     for (int seed = 1; seed <= seeds; ++seed) {
       const auto s = subject(model, c.noise, 60.0, 5.0, static_cast<std::uint64_t>(seed));
-      motion::TrackOptions options{.levels = c.levels, .step_s = 2e-3, .lock = c.lock};
+      motion::TrackOptions options{.levels = c.levels, .strict = true, .step_s = 2e-3, .lock = c.lock};
       if (c.noise == 0.0) options.cutoff_hz = 0.0;  // goals are the truth, to the last digit
       const auto track = run(model, s.markers, options);
       const auto held = count_bounds(model, track, s.truth);

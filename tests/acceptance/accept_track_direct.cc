@@ -12,8 +12,6 @@
 #include <vector>
 
 #include "acceptance/track_subject.h"
-#include "kinemark/core/random.h"
-#include "kinemark/core/units.h"
 #include "support/acceptance.h"
 
 namespace {
@@ -23,36 +21,6 @@ using namespace kinemark::track_subject;
 using testing_support::print_note;
 using testing_support::print_row;
 using Clock = std::chrono::steady_clock;
-
-constexpr double kRate_hz = 60.0, kDuration_s = 8.0;
-constexpr std::uint64_t kStream = 0x646972656374;
-
-struct Subject {
-  simulation::SimulatedSubject recording;
-  std::string what;
-};
-
-/// A subject drawn at random. One that moves `speed` times as fast is recorded as much more slowly, and its
-/// recording then played at 60 Hz.
-Subject draw(const model::Model& model, std::uint64_t seed, double soft_tissue) {
-  Random random(seed, kStream);
-  constexpr simulation::MotionKind kKinds[] = {simulation::MotionKind::walk, simulation::MotionKind::reach,
-                                               simulation::MotionKind::tai_chi,
-                                               simulation::MotionKind::mixed};
-  simulation::SubjectOptions options;
-  options.motion = kKinds[std::min(3, static_cast<int>(random.uniform(0.0, 4.0)))];
-  const double speed = std::exp(random.uniform(std::log(0.5), std::log(3.0)));
-  options.noise_sd_m = std::exp(random.uniform(std::log(0.2e-3), std::log(3.1e-3)));
-  options.soft_tissue = soft_tissue;
-  options.rate_hz = kRate_hz / speed;
-  options.duration_s = kDuration_s * speed;
-  options.seed = seed;
-  Subject out{.recording = simulation::simulate_subject(model, options).value()};
-  for (auto* time : {&out.recording.markers.time, &out.recording.truth.time}) time->rate_hz = kRate_hz;
-  out.what = fmt::format("{}, {:.1f} times as fast, {:.2f} mm", simulation::to_string(options.motion), speed,
-                         1e3 * options.noise_sd_m);
-  return out;
-}
 
 /// What is asked of one step, and what came of it.
 struct Step {
@@ -83,7 +51,7 @@ bool is_warned_of_step(const motion::TrackResult& track) {
                      [](const std::string& warning) { return warning.starts_with("steps of "); });
 }
 
-void try_subject(const model::Model& model, const Subject& s, bool skin, std::vector<Step>& steps,
+void try_subject(const model::Model& model, const DrawnSubject& s, bool skin, std::vector<Step>& steps,
                  Sums& sums) {
   const auto& [markers, true_markers, truth] = s.recording;
   const auto goals = motion::control_goals(markers).value();

@@ -3,11 +3,15 @@
 // What the acceptance programs of direct marker control share: a simulated subject and errors against it.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "kinemark/core/random.h"
 #include "kinemark/core/units.h"
 #include "kinemark/io/osim/osim_model.h"
 #include "kinemark/model/model.h"
@@ -35,6 +39,35 @@ inline simulation::SimulatedSubject subject(const model::Model& model, double no
   options.duration_s = duration_s;
   options.seed = seed;
   return simulation::simulate_subject(model, options).value();
+}
+
+struct DrawnSubject {
+  simulation::SimulatedSubject recording;
+  std::string what;
+};
+
+/// A subject drawn at random. One that moves `speed` times as fast is recorded as much more slowly, and its
+/// recording then played at 60 Hz.
+inline DrawnSubject draw(const model::Model& model, std::uint64_t seed, double soft_tissue) {
+  constexpr double kRate_hz = 60.0, kDuration_s = 8.0;
+  constexpr std::uint64_t kStream = 0x646972656374;
+  Random random(seed, kStream);
+  constexpr simulation::MotionKind kKinds[] = {simulation::MotionKind::walk, simulation::MotionKind::reach,
+                                               simulation::MotionKind::tai_chi,
+                                               simulation::MotionKind::mixed};
+  simulation::SubjectOptions options;
+  options.motion = kKinds[std::min(3, static_cast<int>(random.uniform(0.0, 4.0)))];
+  const double speed = std::exp(random.uniform(std::log(0.5), std::log(3.0)));
+  options.noise_sd_m = std::exp(random.uniform(std::log(0.2e-3), std::log(3.1e-3)));
+  options.soft_tissue = soft_tissue;
+  options.rate_hz = kRate_hz / speed;
+  options.duration_s = kDuration_s * speed;
+  options.seed = seed;
+  DrawnSubject out{.recording = simulation::simulate_subject(model, options).value()};
+  for (auto* time : {&out.recording.markers.time, &out.recording.truth.time}) time->rate_hz = kRate_hz;
+  out.what = fmt::format("{}, {:.1f} times as fast, {:.2f} mm", simulation::to_string(options.motion), speed,
+                         1e3 * options.noise_sd_m);
+  return out;
 }
 
 /// Coordinates of joints: those of the free root left out.

@@ -58,6 +58,32 @@ class Track(CommandTest):
         self.assertIn("rank", ran.err)
         report = json.loads((self.folder / "q_report.json").read_text())
         self.assertIn("LASI, RASI, LPSI, RPSI", json.dumps(report))
+        self.assertIn(" mm RMS from its goals, ", json.dumps(report))
+        self.assertNotIn(", lost movement ", json.dumps(report))
+        self.assertIn("Level 2: weight", ran.err)
+        names, rows = table(self.folder / "q_levels.sto")
+        self.assertEqual(names, ["time", "level_1_mm", "level_2_mm", "relaxed"])
+        self.assertEqual(len(rows), 100)
+        ran = self.good(*self.track(), "--force", "--level", "LASI,RASI,LPSI,RPSI", "--level", "*", "--strict", "--level-bound", 500)
+        self.assertIn("Level 1: strict, bound 500.0 mm", ran.err)
+        self.assertNotIn("frames a strict level is beyond its bound.", ran.err + ran.out)
+
+    def test_a_strict_level_beyond_its_bound_fails_a_gate(self):
+        ran = self.good(*self.track(), "--level", "LASI,RASI,LPSI,RPSI", "--level", "*", "--strict", "--level-bound", 0.01, status=1)
+        self.assertIn("frames a strict level is beyond its bound.", ran.err)
+        self.assertIn("was farther from its goals than its bound of 0.0 mm", ran.err)
+        self.assertTrue(any(row[-1] == 1 for row in table(self.folder / "q_levels.sto")[1]))
+
+    def test_an_accuracy_is_met_or_refused_before_anything_is_written(self):
+        self.refused(3, ["an accuracy of 0.001 deg cannot be had", "would do"], *self.track(accuracy="0.001deg"))
+        self.assertFalse((self.folder / "q.mot").exists())
+        self.refused(2, "is no angle above 0, as 0.5deg", *self.track(accuracy="fine"))
+        self.refused(2, "--accuracy", *self.track(accuracy="5deg"), "--cutoff", 6)
+        ran = self.good(*self.track(accuracy="20deg"))
+        self.assertIn("Expected error of the angles", ran.err)
+        report = (self.folder / "q_report.json").read_text()
+        self.assertIn(", lost movement ", report)
+        self.assertNotIn(" mm RMS from its goals, ", report)
 
     def test_what_cannot_be_is_refused_in_a_sentence(self):
         self.refused(2, "no model", "track", "-t", self.c3d, "-o", "q.mot")

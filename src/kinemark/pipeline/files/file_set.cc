@@ -25,18 +25,10 @@ constexpr std::size_t kBlock = 1UL << 20;
 constexpr std::size_t kSearched = 4UL << 20;
 
 /// What follows the stem of a result's first file.
-constexpr std::array<std::string_view, 12> kEndings = {"_tau_sd.sto",
-                                                       "_sd.sto",
-                                                       "_bound.sto",
-                                                       "_tau.sto",
-                                                       "_marker_errors.sto",
-                                                       "_marker_locations.sto",
-                                                       "_rank.sto",
-                                                       "_report.json",
-                                                       "_derivatives.sto",
-                                                       "_skeleton.json",
-                                                       ".mot",
-                                                       ".osim"};
+constexpr std::array<std::string_view, 13> kEndings = {
+    "_tau_sd.sto",           "_sd.sto",   "_bound.sto",  "_tau.sto",     "_marker_errors.sto",
+    "_marker_locations.sto", "_rank.sto", "_levels.sto", "_report.json", "_derivatives.sto",
+    "_skeleton.json",        ".mot",      ".osim"};
 /// Results that have a folder of their own, by the names there: of `joints`, of `simulate`. Models are left
 /// out: one is replaced by its scaled one.
 using Names = std::array<std::string_view, 5>;

@@ -5,11 +5,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "kinemark/core/text.h"
+#include "kinemark/core/units.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
@@ -20,6 +22,13 @@ namespace {
 
 std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
+std::string describe_level(const motion::LevelAccount& level) {
+  return fmt::format("{}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame",
+                     std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
+                                              : fmt::format("weight {:.3g}", level.weight),
+                     1e3 * level.rms_error_m, 1e3 * level.max_error_m);
+}
+
 std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
                                                                   const motion::TrackResult& result) {
   const auto& o = job.options;
@@ -27,12 +36,29 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
       {"levels of priority", std::to_string(std::max<std::size_t>(1, o.levels.size()))}};
   for (std::size_t i = 0; i < o.levels.size(); ++i)
     options.emplace_back(fmt::format("level {}", i + 1), list(o.levels[i].markers));
-  options.emplace_back("gains", o.kp > 0.0 ? fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.kp, o.kd)
-                                           : fmt::format("omega {:g} rad/s", o.omega_rad_s));
+  for (std::size_t i = 0; i < result.levels.size(); ++i)
+    options.emplace_back(fmt::format("level {} as followed", i + 1), describe_level(result.levels[i]));
+  if (result.accuracy) {
+    const auto& a = *result.accuracy;
+    options.emplace_back("accuracy wanted", fmt::format("{:g} deg", kDegPerRad * a.wanted_rad));
+    options.emplace_back("accuracy expected",
+                         fmt::format("{:.3g} deg RMS; noise {:.2g}, lost movement {:.2g}, steps {:.2g} deg",
+                                     kDegPerRad * a.predicted_rad, kDegPerRad * a.noise_rad,
+                                     kDegPerRad * a.lost_rad, kDegPerRad * a.step_rad));
+    options.emplace_back("largest, smallest expected",
+                         fmt::format("{:.3g} deg in {}, {:.3g} deg in {}", kDegPerRad * a.largest_rad,
+                                     a.largest, kDegPerRad * a.smallest_rad, a.smallest));
+  }
+  options.emplace_back(
+      "gains", o.kp > 0.0 ? fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.kp, o.kd)
+                          : fmt::format("omega {:g} rad/s",
+                                        result.accuracy ? result.accuracy->omega_rad_s : o.omega_rad_s));
   options.emplace_back("step", fmt::format("{:.4g} ms", 1e3 * result.step_s));
   options.emplace_back("damping", fmt::format("{:g}", o.damping));
-  options.emplace_back("cut-off of the goals",
-                       o.cutoff_hz > 0.0 ? fmt::format("{:g} Hz", o.cutoff_hz) : "none");
+  options.emplace_back("cut-off of the goals", result.accuracy
+                                                   ? fmt::format("{:g} Hz", result.accuracy->cutoff_hz)
+                                               : o.cutoff_hz > 0.0 ? fmt::format("{:g} Hz", o.cutoff_hz)
+                                                                   : "none");
   options.emplace_back("feed-forward", o.feed_forward ? "on" : "off");
   options.emplace_back("posture", fmt::format("kp {:g} 1/s^2, kd {:g} 1/s", o.posture_kp, o.posture_kd));
   options.emplace_back("limits of clamped coordinates", o.limits ? "kept" : "ignored");
@@ -70,8 +96,25 @@ data::Table rank_table(const motion::TrackResult& result) {
   return table;
 }
 
+/// Distances of levels to their goals, frame by frame, and whether strict ones were relaxed.
+data::Table levels_table(const motion::TrackResult& result) {
+  data::Table table;
+  table.name = "Levels";
+  for (std::size_t i = 0; i < result.levels.size(); ++i)
+    table.columns.push_back(fmt::format("level_{}_mm", i + 1));
+  table.columns.emplace_back("relaxed");
+  const std::size_t L = result.levels.size();
+  for (std::size_t f = 0; f < result.relaxed.size(); ++f) {
+    table.time_s.push_back(result.motion.time.time_s(static_cast<std::int64_t>(f)));
+    for (std::size_t i = 0; i < L; ++i) table.values.push_back(1e3 * result.level_error[f * L + i]);
+    table.values.push_back(result.relaxed[f]);
+  }
+  return table;
+}
+
 Result<Staging> stage_files(const TrackJob& job) {
   std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
+  if (job.options.levels.size() > 1) files.emplace_back("_levels.sto");
   if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
   files.push_back("_report.json");
   std::vector<std::filesystem::path> further;
@@ -114,6 +157,9 @@ Result<TrackOutcome> run_track(TrackJob job) {
   auto files = internal::motion_files(job, motion, outcome.summary);
   internal::add_nwb_file(job, motion, outcome.summary, inputs->recording.trial.beside, files);
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
+  if (!outcome.result.levels.empty())
+    files.push_back(
+        table_file(beside(job.output, "_levels.sto"), [&] { return levels_table(outcome.result); }));
   if (!job.report.empty())
     files.push_back(text_file(job.report, [&] {
       return internal::motion_page(job, inputs->model, outcome.summary, motion,

@@ -8,7 +8,7 @@
 namespace kinemark::pipeline {
 
 /// What `kinemark track` is asked to do. Writes Q.mot, Q_sd.sto, Q_bound.sto, Q_tau.sto, Q_tau_sd.sto,
-/// Q_rank.sto, Q_marker_errors.sto and Q_report.json.
+/// Q_rank.sto, Q_marker_errors.sto, Q_report.json and, with several levels, Q_levels.sto.
 struct TrackJob : MotionJob {
   motion::TrackOptions options;  ///< of the tracking
   std::filesystem::path report;  ///< page to write as well, .html

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -68,6 +70,22 @@ std::optional<data::Trajectories> markers_of(const data::Trajectories& recorded,
   return solved_markers(recorded, result.fit, motion);
 }
 
+/// No frame may have a strict level beyond its bound.
+void add_level_gate(Gates& gates, const motion::TrackResult& result) {
+  const std::size_t L = result.levels.size();
+  if (L == 0 || std::isnan(result.levels.front().bound_m)) return;
+  std::int64_t beyond = 0;
+  for (std::size_t f = 0; f < result.relaxed.size(); ++f)
+    for (std::size_t i = 0; i < L; ++i)
+      if (result.level_error[f * L + i] > result.levels[i].bound_m) {
+        ++beyond;
+        break;
+      }
+  add_gate(
+      gates, "levels", static_cast<double>(beyond), 0.0, "frames",
+      fmt::format("In {} of {} frames a strict level is beyond its bound.", beyond, result.motion.frames()));
+}
+
 void add_gates(Gates& gates, const MarkerBounds& bounds, const motion::TrackResult& result) {
   const double offset_m = result.fit.mean_error_m.norm();
   add_marker_gates(gates, bounds, offset_m,
@@ -77,6 +95,7 @@ void add_gates(Gates& gates, const MarkerBounds& bounds, const motion::TrackResu
                   fmt::format("are flagged: goals out of reach, or a body that ran away ({} times "
                               "started anew)",
                               result.restarts));
+  add_level_gate(gates, result);
   add_left_out_gate(gates, result.motion);
 }
 

@@ -106,7 +106,8 @@ TEST(Controller, TheFastWayAndTheRowsAgree) {
 
 TEST(Controller, AnExactLevelGetsTheAccelerationItAsksFor) {
   const auto model = body();
-  const Plan plan = make(model, {.levels = {{.markers = {"F2"}}, {.markers = {"S2", "T3"}}}, .damping = 0.0});
+  const Plan plan = make(
+      model, {.levels = {{.markers = {"F2"}}, {.markers = {"S2", "T3"}}}, .strict = true, .damping = 0.0});
   Controller controller(plan);
   auto goal = goals_at(plan, pose(plan, 3));
   goal.a.col(0) = Eigen::Vector3d(1.0, -2.0, 0.5);
@@ -209,7 +210,8 @@ TEST(Controller, AStepAllocatesNothing) {
   const auto model = body(0.9);  // some limits are met on the way
   for (const bool two_levels : {false, true}) {
     TrackOptions options{.step_s = 1e-3};
-    if (two_levels) options.levels = {{.markers = {"T1", "T2", "T3", "T4"}}, {.markers = {"*"}}};
+    if (two_levels)
+      options.levels = {{.markers = {"T1", "T2", "T3", "T4"}}, {.markers = {"*"}}}, options.strict = true;
     const Plan plan = make(model, options);
     Controller controller(plan);
     const auto goal = goals_at(plan, pose(plan, 30));

@@ -150,7 +150,7 @@ struct OnlineTracker::Impl {
       pose.smallest_singular = bounds->smallest_singular();
       fixed = std::all_of(pose.determined.begin(), pose.determined.end(), [](auto d) { return d != 0; });
     }
-    if (walker->flagged())
+    if (walker->flagged() || walker->beyond())
       pose.status = FrameStatus::not_converged;
     else if (!walker->any_goal())
       pose.status = FrameStatus::no_markers;
@@ -219,6 +219,8 @@ Result<OnlineTracker> OnlineTracker::create(const model::Model& model,
     return fail(Code::usage, fmt::format("the rate is {} Hz; it must lie in (0, {}]", rate_hz, kFastest_hz));
   if (options.derivatives != nullptr)
     return fail(Code::usage, "a live stream cannot come with the derivatives of a recording");
+  if (options.accuracy_rad > 0.0)
+    return fail(Code::usage, "a live stream cannot be followed to an accuracy: that takes a whole recording");
   TrackOptions whole = options;
   whole.first_time_s = -1e300;
   whole.last_time_s = 1e300;

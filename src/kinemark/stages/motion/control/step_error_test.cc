@@ -9,6 +9,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/data/motion_coordinates.h"
+#include "kinemark/stages/motion/control/internal/followed_run.h"
 #include "kinemark/stages/motion/testing/body.h"
 
 namespace kinemark::motion::internal {
@@ -53,25 +54,50 @@ TEST(StepError, FramesInWhichTheBodyWasSetAnewDoNotCount) {
   EXPECT_NEAR(step_error(model, motion, 0.01, 30.0), before, 0.02 * before);
 }
 
-TEST(StepError, TheStepThatDoesCostsNoMore) {
-  const auto model = subject();
-  const auto motion = swinging(model, 1e-3);
-  const double step_s = step_for(model, motion, 1e-5);
-  EXPECT_LE(step_error(model, motion, step_s, 0.5 / step_s), 1e-5);
-  const double parts = 0.01 / step_s, longer_s = 0.01 / (std::round(parts) - 1.0);
-  EXPECT_NEAR(parts, std::round(parts), 1e-9);
-  EXPECT_GT(step_error(model, motion, longer_s, 0.5 / longer_s), 1e-5);
-  EXPECT_EQ(step_for(model, motion, 1.0), 0.01) << "a whole frame";
+TEST(StepError, TheStepThatDoesIsTheLongestPartThatCostsNoMore) {
+  EXPECT_EQ(step_for(0.01, 1e-3, 1e-3), 0.01) << "as it is";
+  EXPECT_NEAR(step_for(0.01, 1e-3, 0.9e-3), 0.005, 1e-12);
+  EXPECT_NEAR(step_for(0.01, 1e-3, 0.125e-3), 0.005, 1e-12) << "an eighth at half of the step";
+  EXPECT_NEAR(step_for(0.01, 1e-3, 0.124e-3), 0.01 / 3.0, 1e-12);
+  EXPECT_GT(step_for(0.01, 1.0, 1e-30), 4e-5) << "it ends";
 }
 
 TEST(StepError, IsWarnedOfBesideWhatAnglesAreKnownTo) {
   const auto model = subject();
-  EXPECT_NE(warn_of_step(model, swinging(model, 5e-4), 0.01, 30.0), "");
-  EXPECT_EQ(warn_of_step(model, swinging(model, 1e-2), 0.01, 30.0), "") << "noise is more";
-  EXPECT_EQ(warn_of_step(model, swinging(model, 1e-6), 1e-3, 100.0), "") << "nobody needs less than 0.01 deg";
+  const Plan plan =
+      make_plan(model, testing_body::record(model, 4), {.omega_rad_s = 30.0, .step_s = 0.01}).value();
+  EXPECT_NE(warn_of_step(plan, 1.1e-3, 5e-3), "");
+  EXPECT_EQ(warn_of_step(plan, 0.9e-3, 5e-3), "") << "noise is more";
+  EXPECT_EQ(warn_of_step(plan, 1.7e-4, 1e-6), "") << "nobody needs less than 0.01 deg";
+  EXPECT_NE(warn_of_step(plan, 1.8e-4, 1e-6), "");
   auto unknown = swinging(model, 5e-4);
   unknown.q_sd.clear();
-  EXPECT_EQ(warn_of_step(model, unknown, 0.01, 30.0), "");
+  EXPECT_TRUE(std::isnan(stated_error(model, unknown)));
+}
+
+TEST(StepError, IsMeasuredByFinerStepsWhateverThePart) {
+  const auto model = subject();
+  const auto markers = testing_body::record(model, 300);
+  const TrackOptions options{.omega_rad_s = 50.0, .step_s = 0.01, .judge_samples = false};
+  const Plan plan = make_plan(model, markers, options).value();
+  const auto filter = make_filter(100.0, options);
+  const auto run = first_run(plan, markers, filter, options, {}).value();
+  const Plan finer = with_finer_steps(run.body.plan);
+  EXPECT_EQ(finer.steps_per_frame, 4);
+  EXPECT_NEAR(std::sqrt(finer.kp), 200.0, 1e-9);
+  const auto cost = [&](const Eigen::MatrixXd& states) {
+    Walker walker(finer, filter, plan.problem.frames, 0.0);
+    fill_window(finer, markers, walker.samples());
+    return step_cost(run.body.plan, states, walker);
+  };
+  const double found = cost(run.body.track.states);
+  EXPECT_GT(found, 1e-6);
+  EXPECT_LT(found, step_error(model, run.body.result.motion, 0.01, 50.0));
+  auto moved = run.body.track.states;
+  const int elbow = model.coordinates()[9].state_idx;
+  for (Eigen::Index f = 0; f < moved.cols(); ++f) moved(elbow, f) += f % 2 == 0 ? 0.0 : 0.02;
+  // One of seven angles is 0.02 off in every other frame.
+  EXPECT_NEAR(cost(moved), 0.02 / std::sqrt(12.0), 0.3 * 0.02 / std::sqrt(12.0));
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Tasks, TheyBringTheBodyToTheirGoals) {
   const auto model = body();
   const auto markers = testing_body::record(model, 150);
   const TimeBase still{.rate_hz = 100.0, .t0_s = 0.0, .frames = 1};
-  TrackOptions options{.levels = {{.markers = {"T1", "T2", "T3", "T4"}}, {}}, .step_s = 2e-3};
+  TrackOptions options{.levels = {{.markers = {"T1", "T2", "T3", "T4"}}, {}}, .strict = true, .step_s = 2e-3};
   options.levels[1].tasks = {
       coordinate_task("elbow", {0.4}, still), coordinate_task("arm_rot", {-0.2}, still),
       distance_task({"thigh", {0.0, -0.3, 0.0}}, {"forearm", {0.0, -0.2, 0.0}}, {0.6}, still)};

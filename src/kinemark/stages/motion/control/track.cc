@@ -5,15 +5,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <expected>
 #include <utility>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/missing.h"
-#include "kinemark/data/motion_coordinates.h"
-#include "kinemark/stages/motion/control/internal/first_pose.h"
+#include "kinemark/stages/motion/control/internal/accuracy.h"
+#include "kinemark/stages/motion/control/internal/followed_run.h"
+#include "kinemark/stages/motion/control/internal/levels.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/step_error.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
@@ -24,80 +23,12 @@
 namespace kinemark::motion {
 namespace {
 
+using internal::FollowedRun;
 using internal::GoalFilter;
+using internal::JudgedRun;
 using internal::Plan;
 using internal::Track;
 using internal::Walker;
-
-void fill_window(const Plan& plan, const data::Trajectories& markers, internal::SampleWindow& samples) {
-  const int M = plan.problem.model.marker_count();
-  Eigen::Matrix3Xd y(3, M);
-  Eigen::VectorXd weight(M);
-  for (std::int64_t f = 0; f < plan.problem.frames; ++f) {
-    plan.problem.observe(markers, f, y, weight);
-    samples.push(y, weight);
-  }
-  samples.end();
-}
-
-/// Goals at the frames, so that the first pose, the noise and the caller see what the controller sees.
-void fill_goals(const Plan& plan, const data::Trajectories& markers, const GoalFilter& filter,
-                const internal::SampleWindow& samples, const data::Derivatives* derivatives, Track& track) {
-  const auto& p = plan.problem;
-  const int M = p.model.marker_count();
-  internal::GoalCell cell(M);
-  internal::GoalValues goal(M);
-  track.goals = data::Trajectories::all_missing(markers.names, markers.time);
-  track.weights.setZero(M, p.frames);
-  for (std::int64_t f = 0; f < p.frames; ++f) {
-    const std::int64_t first = std::min(f, std::max<std::int64_t>(0, p.frames - 2));
-    if (derivatives != nullptr)
-      filter.build(samples, first, *derivatives, p.data_marker, markers.markers(), p.first_frame, cell);
-    else
-      filter.build(samples, first, cell);
-    cell.at(static_cast<double>(f - first), goal);
-    track.weights.col(f) = goal.weight;
-    for (int m = 0; m < M; ++m) {
-      if (goal.weight[m] <= 0.0) continue;
-      track.goals.x(p.first_frame + f, p.data_marker[at(m)]) = goal.x.col(m);
-      track.goals.state[track.goals.index(p.first_frame + f, p.data_marker[at(m)])] =
-          data::SampleState::measured;
-    }
-  }
-}
-
-void describe(const Plan& plan, const data::Trajectories& markers, TrackResult& result) {
-  const auto& p = plan.problem;
-  result.fit = p.fit;
-  result.step_s = plan.step_s;
-  result.free_speeds =
-      static_cast<int>(std::count(p.fixed_speed.begin(), p.fixed_speed.end(), std::uint8_t{0}));
-  auto& motion = result.motion;
-  data::set_coordinates(p.model.description(), motion);
-  for (const auto& marker : p.model.description().markers) motion.markers.push_back(marker.name);
-  motion.time = {.rate_hz = markers.time.rate_hz,
-                 .t0_s = markers.time.time_s(p.first_frame),
-                 .frames = p.frames,
-                 .first_number = markers.time.number(p.first_frame)};
-  for (const int c : plan.locked) result.locked_coordinates.push_back(motion.coordinates[at(c)]);
-}
-
-/// Without goals of other kinds there is nothing to do where no marker is seen.
-Status check_seen(const Plan& plan, const internal::SampleWindow& samples, const Track& track,
-                  const TimeBase& time) {
-  const auto& p = plan.problem;
-  if (track.weights.size() > 0 && track.weights.maxCoeff() > 0.0) return {};
-  if (std::any_of(plan.levels.begin(), plan.levels.end(),
-                  [](const auto& level) { return !level.tasks.empty(); }))
-    return {};
-  bool seen = false;
-  for (std::int64_t f = 0; f < p.frames && !seen; ++f)
-    for (int m = 0; m < p.model.marker_count() && !seen; ++m) seen = samples.present(f, m);
-  return fail(Code::bad_input,
-              fmt::format("no tracked marker is seen {}between {:g} and {:g} s",
-                          seen ? "in enough frames in a row to be followed " : "", time.time_s(p.first_frame),
-                          time.time_s(p.first_frame + p.frames - 1)));
-}
 
 Status check_derivatives(const data::Trajectories& markers, const TrackOptions& options) {
   if (options.derivatives == nullptr) return {};
@@ -106,8 +37,6 @@ Status check_derivatives(const data::Trajectories& markers, const TrackOptions& 
     return fail(Code::bad_input, "the derivatives given lack velocity or acceleration; need both");
   return {};
 }
-
-std::unexpected<Error> stopped() { return fail(Code::cancelled, "direct marker control was stopped"); }
 
 /// Deviations and bounds are those of the samples that remain.
 void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& track) {
@@ -121,80 +50,108 @@ void forget_rejected(const Plan& plan, const data::Trajectories& kept, Track& tr
     }
 }
 
-void warn_of_step(const model::Model& model, const Plan& plan, TrackResult& result) {
-  auto warning = internal::warn_of_step(model, result.motion, plan.step_s, std::sqrt(plan.kp));
+/// What steps cost is measured, by finer ones, where it may be too much.
+void warn_of_step(const data::Trajectories& goals, const GoalFilter& filter, const TrackOptions& options,
+                  FollowedRun& run) {
+  auto& [plan, track, result] = run;
+  const auto& model = plan.problem.model;
+  const double known = internal::stated_error(model, result.motion);
+  if (!(internal::step_error(model, result.motion, plan.step_s, std::sqrt(plan.kp)) >
+        internal::tolerated_cost(known)))
+    return;
+  const Plan finer = internal::with_finer_steps(plan);
+  Walker walker(finer, filter, plan.problem.frames, result.motion.time.t0_s);
+  if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, goals.markers());
+  internal::fill_window(plan, goals, walker.samples());
+  auto warning = internal::warn_of_step(plan, internal::step_cost(plan, track.states, walker), known);
   if (!warning.empty()) result.fit.warnings.push_back(std::move(warning));
 }
 
-/// Samples as they are followed.
-struct Followed {
-  const data::Trajectories& kept;   ///< of what the deviations are
-  const data::Trajectories& goals;  ///< the same, and in place of what was left out where the body has it
-};
+/// Noise of the goals, M, variance per axis, m^2.
+Eigen::VectorXd noise_of_goals(const JudgedRun& run, const data::Trajectories& markers,
+                               const GoalFilter& filter, const TrackOptions& options) {
+  const auto& [plan, track, result] = run.body;
+  const Eigen::Index M = plan.problem.model.marker_count();
+  const double given = options.marker_noise_sd_m * options.marker_noise_sd_m;
+  if (given > 0.0) return Eigen::VectorXd::Constant(M, given * filter.noise_in_goal());
+  const bool filtered = options.derivatives == nullptr && filter.noise_in_rest() >= 1e-3;
+  if (!filtered) return internal::goal_noise(plan, track, filter, options, {}).own;
+  return filter.noise_in_goal() *
+         internal::white_noise(plan, run.kept(markers), track, filter, options.threads, result.motion);
+}
 
-/// A body that has followed a recording.
-struct FollowedRun {
-  Plan plan;
-  Track track;
-  TrackResult result;
-};
-
-Status follow(const data::Trajectories& markers, const Followed& followed, const GoalFilter& filter,
-              const TrackOptions& options, const Progress& progress, FollowedRun& run) {
-  auto& plan = run.plan;
-  {
-    internal::SampleWindow samples(plan.problem.model.marker_count(), plan.problem.frames);
-    fill_window(plan, followed.goals, samples);
-    fill_goals(plan, followed.goals, filter, samples, options.derivatives, run.track);
-    if (auto status = check_seen(plan, samples, run.track, markers.time); !status) return status;
+/// What a run in which all levels counted alike says of them: weights, or bounds and whether they can be
+/// kept.
+void choose_levels(const JudgedRun& first, const data::Trajectories& markers, const GoalFilter& filter,
+                   const TrackOptions& options, Plan& plan) {
+  const auto& [joined, track, result] = first.body;
+  if (!options.strict) {
+    if (const auto found = internal::find_level_weights(joined, track, result.rank, options.threads))
+      internal::join_levels(plan, *found);
+    return;
   }
-  const Eigen::VectorXd start = internal::find_first_pose(plan, run.track.goals, options.lock);
-  if (auto status = internal::check_mass(plan, start); !status) return status;
-  describe(plan, markers, run.result);
-  Walker walker(plan, filter, plan.problem.frames, run.result.motion.time.t0_s);
-  if (options.derivatives != nullptr) walker.use_derivatives(*options.derivatives, markers.markers());
-  fill_window(plan, followed.goals, walker.samples());
-  internal::Recorder recorder(plan, followed.kept, walker, run.track, run.result);
-  const auto begin = std::chrono::steady_clock::now();
-  if (!recorder.run(start, progress)) return stopped();
-  run.result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {};
+  if (!(options.level_bound_m > 0.0))
+    plan.level_bounds_m =
+        internal::find_level_bounds(joined, track, noise_of_goals(first, markers, filter, options));
+  auto warning = internal::describe_checks(plan, internal::check_strict(plan, track), plan.levels_given_up);
+  if (!warning.empty()) plan.problem.fit.warnings.push_back(std::move(warning));
 }
 
-/// Follow all samples as they are, and judge them by the body that did. False: not all are explained, and the
-/// run does not count.
-Result<bool> follow_all(const data::Trajectories& markers, const GoalFilter& filter,
-                        const TrackOptions& options, const Progress& progress, FollowedRun& run) {
-  if (auto status = follow(markers, {.kept = markers, .goals = markers}, filter, options, progress, run);
+/// The run that counts, with several levels: after one in which they counted alike.
+Status run_levels(const Plan& plan, const data::Trajectories& markers, const GoalFilter& filter,
+                  const TrackOptions& options, const Progress& progress, JudgedRun& run) {
+  FollowedRun next{.plan = plan, .track = {}, .result = {}};
+  choose_levels(run, markers, filter, options, next.plan);
+  if (auto status =
+          internal::follow(markers, {.kept = run.kept(markers), .goals = run.goals(markers, options)}, filter,
+                           options, progress, next);
       !status)
-    return std::unexpected(status.error());
-  if (!options.judge_samples) return true;
-  const auto found = internal::judge_followed(run.plan.problem, run.plan.start_options, markers,
-                                              run.track.states, run.result.motion.status);
-  run.result.solves += found.solves;
-  return found.all_explained;
-}
-
-/// Follow what is left of the samples when each was judged by the poses that fit its frame best.
-Status follow_judged(const data::Trajectories& markers, const GoalFilter& filter, const TrackOptions& options,
-                     const Progress& progress, FollowedRun& run, internal::JudgedFrames& judged) {
-  auto found = internal::solve_and_judge(run.plan.problem, run.plan.start_options, markers, progress);
-  if (!found) return stopped();
-  judged = std::move(*found);
-  const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
-  // What was left out is followed where its marker lies on the body in the frames beside, lest the goals
-  // jump.
-  const data::Trajectories& goals = judged.filled && options.derivatives == nullptr ? *judged.filled : kept;
-  if (auto status = follow(markers, {.kept = kept, .goals = goals}, filter, options, progress, run); !status)
     return status;
-  run.result.solves += run.plan.problem.frames;
+  next.result.solves += run.body.result.solves;
+  next.result.solve_seconds += run.body.result.solve_seconds;
+  run.body = std::move(next);
   return {};
 }
 
-}  // namespace
+/// Frames in which a level was beyond its bound.
+void add_level_findings(TrackResult& result) {
+  const std::size_t L = result.levels.size();
+  for (std::size_t i = 0; i < L; ++i) {
+    const auto& level = result.levels[i];
+    if (level.beyond == 0) continue;
+    data::Finding finding{.kind = data::FindingKind::flagged,
+                          .subject = fmt::format("level {}", i + 1),
+                          .size = static_cast<double>(level.beyond)};
+    for (std::size_t f = 0; f < result.relaxed.size(); ++f)
+      if (result.level_error[f * L + i] > level.bound_m)
+        finding.frames.push_back(static_cast<std::int64_t>(f));
+    finding.first_frame = finding.frames.front();
+    finding.last_frame = finding.frames.back();
+    finding.description = fmt::format(
+        "level {} was farther from its goals than its bound of {:.1f} mm in {} of {} frames ({:.2f} to "
+        "{:.2f} "
+        "s), up to {:.1f} mm{}",
+        i + 1, 1e3 * level.bound_m, level.beyond, result.motion.frames(),
+        result.motion.time.time_s(finding.first_frame), result.motion.time.time_s(finding.last_frame),
+        1e3 * level.max_error_m,
+        level.unmet > 0
+            ? fmt::format("; in {} of them it cannot be met, not even by all levels in one sum of squares",
+                          level.unmet)
+            : "");
+    result.fit.findings.push_back(std::move(finding));
+  }
+}
 
-Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
-                                  const TrackOptions& options, const Progress& progress) {
+void warn_of_relaxing(TrackResult& result) {
+  const auto frames = std::ranges::count(result.relaxed, std::uint8_t{1});
+  if (frames == 0) return;
+  result.fit.warnings.push_back(fmt::format(
+      "strict levels were followed in one sum of squares in {} of {} frames ({} times begun){}", frames,
+      result.motion.frames(), result.relaxations, result.relaxed.back() != 0 ? ", to the end" : ""));
+}
+
+Result<TrackResult> track_as_given(const model::Model& model, const data::Trajectories& markers,
+                                   const TrackOptions& options, const Progress& progress) {
   auto plan = internal::make_plan(model, markers, options);
   if (!plan) return std::unexpected(plan.error());
   if (auto status = check_derivatives(markers, options); !status) return std::unexpected(status.error());
@@ -202,30 +159,27 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
     return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
 
   const GoalFilter filter = internal::make_filter(plan->rate_hz, options);
-  const bool judges_first = options.judge_samples && plan->settle;
-  FollowedRun run{.plan = *plan, .track = {}, .result = {}};
-  internal::JudgedFrames judged;
-  bool done = false;
-  if (!judges_first) {
-    const auto explained = follow_all(markers, filter, options, progress, run);
-    if (!explained) return std::unexpected(explained.error());
-    done = *explained;
-  }
-  if (!done) {
-    run = {.plan = *plan, .track = {}, .result = {}};
-    if (auto status = follow_judged(markers, filter, options, progress, run, judged); !status)
+  const bool two_runs = internal::needs_first_run(*plan, options);
+  Plan first = *plan;
+  if (two_runs) internal::join_levels(first, std::vector<double>(plan->asked.size(), 1.0));
+  auto judged_run = internal::first_run(first, markers, filter, options, progress);
+  if (!judged_run) return std::unexpected(judged_run.error());
+  if (two_runs)
+    if (auto status = run_levels(*plan, markers, filter, options, progress, *judged_run); !status)
       return std::unexpected(status.error());
-  }
 
+  auto& run = judged_run->body;
   auto& result = run.result;
   if (options.judge_samples)
-    internal::add_sample_findings(run.plan.problem, judged, markers, result.motion, result.fit);
+    internal::add_sample_findings(run.plan.problem, judged_run->judged, markers, result.motion, result.fit);
   if (options.error_bars) {
-    const data::Trajectories& kept = judged.kept ? *judged.kept : markers;
+    const data::Trajectories& kept = judged_run->kept(markers);
     forget_rejected(run.plan, kept, run.track);
     internal::add_error_bars(run.plan, kept, run.track, filter, options, result);
-    if (options.feed_forward) warn_of_step(model, run.plan, result);
+    if (options.feed_forward) warn_of_step(judged_run->goals(markers, options), filter, options, run);
   }
+  add_level_findings(result);
+  if (plan->asked.size() > 1 && options.strict) warn_of_relaxing(result);
   internal::add_marker_errors(result.motion, result.fit);
   if (result.flagged_frames > 0)
     result.fit.findings.push_back(
@@ -235,6 +189,42 @@ Result<TrackResult> track_markers(const model::Model& model, const data::Traject
              fmt::format("the goals were out of reach, or the body ran away and was started anew ({} times)",
                          result.restarts)});
   return std::move(result);
+}
+
+Result<AccuracyChoice> choose(const model::Model& model, const data::Trajectories& markers,
+                              const TrackOptions& options, const Progress& progress) {
+  const auto plan = internal::make_plan(model, markers, options);
+  if (!plan) return std::unexpected(plan.error());
+  if (plan->problem.frames < 2)
+    return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
+  const auto asked = internal::pilot_options(plan->rate_hz, options);
+  auto pilot = internal::make_plan(model, markers, asked);
+  if (!pilot) return std::unexpected(pilot.error());
+  if (pilot->asked.size() > 1) internal::join_levels(*pilot, std::vector<double>(pilot->asked.size(), 1.0));
+  const GoalFilter filter = internal::make_filter(plan->rate_hz, asked);
+  const auto run = internal::first_run(*pilot, markers, filter, asked, progress);
+  if (!run) return std::unexpected(run.error());
+  Plan as_followed = *plan;
+  as_followed.locked = run->body.plan.locked;
+  as_followed.problem.fixed_speed = run->body.plan.problem.fixed_speed;
+  return internal::choose_by_accuracy(as_followed, *run, markers, filter, options);
+}
+
+}  // namespace
+
+Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
+                                  const TrackOptions& options, const Progress& progress) {
+  if (!(options.accuracy_rad > 0.0)) return track_as_given(model, markers, options, progress);
+  auto chosen = choose(model, markers, options, progress);
+  if (!chosen) return std::unexpected(chosen.error());
+  TrackOptions tuned = options;
+  tuned.accuracy_rad = 0.0;
+  tuned.cutoff_hz = chosen->cutoff_hz;
+  tuned.step_s = chosen->step_s;
+  tuned.omega_rad_s = chosen->omega_rad_s;
+  auto result = track_as_given(model, markers, tuned, progress);
+  if (result) result->accuracy = std::move(*chosen);
+  return result;
 }
 
 Result<data::Trajectories> control_goals(const data::Trajectories& markers, const TrackOptions& options) {

@@ -5,9 +5,11 @@
 // kinematics (Demircan, Sentis, De Sapio, Khatib 2008). Theory: docs/theory/direct-marker-control.md
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/core/progress.h"
 #include "kinemark/data/joint_motion.h"
 #include "kinemark/data/marker_fit.h"
@@ -17,6 +19,28 @@
 #include "kinemark/stages/motion/ik.h"
 
 namespace kinemark::motion {
+
+/// What became of one of several levels.
+struct LevelAccount {
+  double weight = kNaN;       ///< of its squared errors in the sum of all; NaN: a strict level
+  double bound_m = kNaN;      ///< of a strict level's error in a frame; NaN: none
+  double rms_error_m = kNaN;  ///< to its goals, of all frames
+  double max_error_m = 0.0;   ///< RMS of its goals in the worst frame
+  std::int64_t beyond = 0;    ///< frames in which it was beyond its bound
+  std::int64_t unmet = 0;     ///< those of them in which all levels in one sum did not keep the bound either
+};
+
+/// What a wanted accuracy led to. Errors are RMS over the angles of joints that the markers determine, for
+/// this model: that it has the wrong size shows in no recording.
+struct AccuracyChoice {
+  double wanted_rad = 0.0;                                 ///< as asked for
+  double predicted_rad = 0.0;                              ///< of the choice
+  double noise_rad = 0.0, lost_rad = 0.0, step_rad = 0.0;  ///< its parts: noise, lost movement, steps
+  double cutoff_hz = 0.0;                                  ///< at which noise and lost movement are least
+  double step_s = 0.0, omega_rad_s = 0.0;                  ///< the longest step that does, and its gains
+  std::string largest, smallest;                 ///< coordinates that are known worst and best (equation 17)
+  double largest_rad = 0.0, smallest_rad = 0.0;  ///< how well
+};
 
 /// What track_markers() found: the motion, and how well it follows the markers.
 struct TrackResult {
@@ -37,6 +61,12 @@ struct TrackResult {
   /// F x n, with error bars: SD of what the filter of the goals took away from the movement, part of
   /// motion.q_sd; 0 without a filter, NaN where not determined.
   Array<double> filter_sd;
+  std::optional<AccuracyChoice> accuracy;  ///< where one was asked for
+  std::vector<LevelAccount> levels;        ///< as asked for; empty where there is one
+  Array<double> level_error;  ///< F x levels: RMS distance to the goals, m; NaN where none is seen
+  /// F: strict levels that were followed in one sum of squares, because one had been beyond its bound.
+  std::vector<std::uint8_t> relaxed;
+  std::int64_t relaxations = 0;                       ///< times that this began
   int free_speeds = 0;                                ///< directions there are: speeds that are not locked
   std::vector<std::string> locked_coordinates;        ///< held at the rest pose because no marker moves them
   std::vector<std::string> undetermined_coordinates;  ///< fixed in less than 95 % of the frames

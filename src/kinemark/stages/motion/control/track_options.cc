@@ -20,7 +20,7 @@ struct Bounded {
 };
 
 Status check_numbers(const TrackOptions& o) {
-  const std::array<Bounded, 14> numbers{{{"omega", o.omega_rad_s, 0.0, false},
+  const std::array<Bounded, 16> numbers{{{"omega", o.omega_rad_s, 0.0, false},
                                          {"kp", o.kp, 0.0, true},
                                          {"kd", o.kd, 0.0, true},
                                          {"the step", o.step_s, 0.0, true},
@@ -33,7 +33,9 @@ Status check_numbers(const TrackOptions& o) {
                                          {"the posture's kd", o.posture_kd, 0.0, true},
                                          {"the largest error", o.max_error_m, 0.0, false},
                                          {"the largest speed", o.max_speed, 0.0, false},
-                                         {"the marker noise", o.marker_noise_sd_m, 0.0, true}}};
+                                         {"the marker noise", o.marker_noise_sd_m, 0.0, true},
+                                         {"the level bound", o.level_bound_m, 0.0, true},
+                                         {"the accuracy", o.accuracy_rad, 0.0, true}}};
   for (const auto& n : numbers)
     if (!std::isfinite(n.value) || n.value < n.low || (!n.low_itself && n.value == n.low))
       return fail(Code::usage, fmt::format("{} is {}; it must be {} {}", n.name, n.value,
@@ -43,6 +45,9 @@ Status check_numbers(const TrackOptions& o) {
                                          o.cutoff_hz, kLowestCutoff_hz));
   if ((o.kp > 0.0) != (o.kd > 0.0))
     return fail(Code::usage, fmt::format("kp is {} and kd is {}; give both, or omega alone", o.kp, o.kd));
+  if (o.accuracy_rad > 0.0 && (o.kp > 0.0 || o.derivatives != nullptr))
+    return fail(Code::usage,
+                "an accuracy chooses gains and cut-off; gains or derivatives of samples are given");
   if (o.truncation >= 1.0)
     return fail(Code::usage, fmt::format("truncation is {}; it must be below 1", o.truncation));
   if (o.lookahead_s > 10.0 || o.fade_s > 10.0)
@@ -58,6 +63,10 @@ Status TrackOptions::check() const {
     if (levels[i].markers.empty() && levels[i].tasks.empty())
       return fail(Code::usage,
                   fmt::format("level {} has no tasks; name at least one marker or goal in it", i + 1));
+    if (!std::isfinite(levels[i].weight) || levels[i].weight < 0.0 ||
+        (levels[i].weight > 0.0) != (levels.front().weight > 0.0))
+      return fail(Code::usage, fmt::format("level {} weighs {}; give each level a weight above 0, or none",
+                                           i + 1, levels[i].weight));
     for (const auto& task : levels[i].tasks)
       if (task == nullptr) return fail(Code::usage, fmt::format("level {} holds a task that is null", i + 1));
   }

@@ -14,11 +14,12 @@
 
 namespace kinemark::motion {
 
-/// Markers and tasks of one priority level, in descending priority: a lower level never disturbs a higher
-/// one.
+/// Markers and tasks of one level. Levels are parts of one sum of squares, each with a weight of its own, or
+/// strict priorities in descending order: a lower level never disturbs a higher one.
 struct TrackLevel {
   std::vector<std::string> markers;          ///< names in the model; "*": all that no level names
   std::vector<std::shared_ptr<Task>> tasks;  ///< goals that are not points, see tasks.h
+  double weight = 0.0;  ///< > 0, of squared errors beside those of other levels; 0 in all levels: found
 };
 
 /// Treatment of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
@@ -29,17 +30,24 @@ enum class LockMode : std::uint8_t {
 
 /// Options of track_markers().
 struct TrackOptions {
-  std::vector<TrackLevel> levels;            ///< empty: one level of all markers
+  std::vector<TrackLevel> levels;  ///< empty: one level of all markers
+  /// Levels are strict priorities; else each level's squared errors are weighted by 1 / variance of its
+  /// markers, as a first run with equal weights finds it. Where that is not known, and in a live stream,
+  /// each level weighs four times as much as the next.
+  bool strict = false;
+  double level_bound_m = 0.0;  ///< of a strict level's RMS distance to its goals; 0: from a first run
   std::vector<MarkerWeight> marker_weights;  ///< within a level; markers not listed have 1, 0 leaves out
 
   double omega_rad_s = 100.0;  ///< > 0; kp = omega^2, kd = 2 omega
   double kp = 0.0, kd = 0.0;   ///< 1/s^2 and 1/s; both > 0: used in place of omega
   double step_s =
       0.0;  ///< largest step; a frame is cut into equal ones. 0: the largest with omega step <= 0.5
-  bool settle = false;   ///< one level of markers: at every frame a solver of inverse kinematics removes
-                         ///< what is left of the gradient of the marker errors, so that the frame's pose is
-                         ///< the best fit, also where markers contradict one another
-  double damping = 0.1;  ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
+  double accuracy_rad = 0.0;  ///< > 0: RMS over angles of joints that is asked for; cut-off, step and omega
+                              ///< follow from a first run, or the run is refused. Not for a live stream
+  bool settle = false;        ///< one level of markers: at every frame a solver of inverse kinematics removes
+                        ///< what is left of the gradient of the marker errors, so that the frame's pose is
+                        ///< the best fit, also where markers contradict one another
+  double damping = 0.1;      ///< >= 0, kg^-1/2: directions that hardly move the markers are slowed
   double truncation = 1e-4;  ///< > 0, of a level's strongest direction: below, left to lower levels
   bool feed_forward = true;  ///< velocity and acceleration of the goals are used
   double cutoff_hz = 6.0;    ///< of the goals, zero phase, -3 dB; 0: goals are the samples; or >= 0.12

@@ -20,21 +20,10 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing_body::angle_rms;
 using testing_body::record;
 
 model::Model body() { return model::Model::compile(testing_body::description()).value(); }
-
-/// Root mean square difference of joint angles to the truth, rad, after `skip` frames.
-double angle_rms(const model::Model& model, const data::JointMotion& motion, std::int64_t skip) {
-  double squares = 0.0;
-  std::int64_t count = 0;
-  for (std::int64_t f = skip; f < motion.frames(); ++f) {
-    const Eigen::VectorXd q = testing_body::coordinates(model, f);
-    for (std::int64_t c = 6; c < motion.size(); ++c, ++count)
-      squares += std::pow(motion.q[motion.index(f, c)] - q[c], 2);
-  }
-  return std::sqrt(squares / static_cast<double>(count));
-}
 
 TEST(TrackSteps, NoSolverOfInverseKinematicsIsCalledAfterTheFirstFrameUnlessAsked) {
   const auto model = body();

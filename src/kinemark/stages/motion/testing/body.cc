@@ -120,4 +120,15 @@ data::Trajectories record(const model::Model& model, std::int64_t frames, double
   return markers;
 }
 
+double angle_rms(const model::Model& model, const data::JointMotion& motion, std::int64_t skip) {
+  double squares = 0.0;
+  std::int64_t count = 0;
+  for (std::int64_t f = skip; f < motion.frames(); ++f) {
+    const Eigen::VectorXd q = coordinates(model, f);
+    for (std::int64_t c = 6; c < motion.size(); ++c, ++count)
+      squares += std::pow(motion.q[motion.index(f, c)] - q[c], 2);
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
 }  // namespace kinemark::motion::testing_body

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "kinemark/data/joint_motion.h"
 #include "kinemark/data/model_description.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/model/model.h"
@@ -21,5 +22,10 @@ namespace kinemark::motion::testing_body {
 /// Markers of the moving body; every marker gets noise_sd_m per axis from the seed.
 [[nodiscard]] data::Trajectories record(const model::Model& model, std::int64_t frames,
                                         double noise_sd_m = 0.0, std::uint64_t seed = 1);
+
+/// Root mean square difference of joint angles (root left out) to the moving body's, rad, after `skip`
+/// frames.
+[[nodiscard]] double angle_rms(const model::Model& model, const data::JointMotion& motion,
+                               std::int64_t skip = 0);
 
 }  // namespace kinemark::motion::testing_body

@@ -59,9 +59,8 @@ void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, co
     out.variance.segment<3>(row).setConstant(noise.own[m]);
     row += 3;
   }
-  for (const auto& task : level.tasks) {
-    rows_.resize(task->rows(), model.speed_count());
-    task->evaluate(model, w_, time_s, rows_);
+  for (std::size_t t = 0; t < level.tasks.size(); ++t) {
+    level.evaluate(t, model, w_, time_s, rows_);
     for (Eigen::Index i = 0; i < rows_.error.size(); ++i, ++row) {
       const double scale = std::sqrt(rows_.weight[i]);
       out.A.col(row) = scale * rows_.jacobian.row(i).transpose();

@@ -16,8 +16,9 @@ namespace {
 
 // Singular values (kg^-1/2) above which a single level needs no singular vectors: it fixes all directions.
 constexpr double kFullRank = 0.03;
-constexpr double kStartDamping = 0.01;  // of the speeds at the start
-constexpr int kMostHolds = 8;           // rounds of adding coordinates that rest at a limit
+constexpr double kJoinedDamping = 0.03;  // of all levels in one sum of squares
+constexpr double kStartDamping = 0.01;   // of the speeds at the start
+constexpr int kMostHolds = 8;            // rounds of adding coordinates that rest at a limit
 constexpr PriorityDamping kLoops{.damping = 0.0, .truncation = 1e-6};
 
 }  // namespace
@@ -64,9 +65,7 @@ void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double 
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
       auto& rows = gathered_[i].tasks[t];
-      const auto& task = *plan_.levels[i].tasks[t];
-      rows.resize(task.rows(), model_.speed_count());
-      task.evaluate(model_, w_, time_s, rows);
+      plan_.levels[i].evaluate(t, model_, w_, time_s, rows);
       H_ += rows.jacobian.transpose() * rows.weight.asDiagonal() * rows.jacobian;
       normal_force_ += rows.jacobian.transpose() * rows.weight.cwiseProduct(rows.goal_velocity);
     }
@@ -125,9 +124,7 @@ void Controller::find_commands(const GoalValues& goal, double time_s,
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
       auto& rows = gathered_[i].tasks[t];
-      const auto& task = *plan_.levels[i].tasks[t];
-      rows.resize(task.rows(), model_.speed_count());
-      task.evaluate(model_, w_, time_s, rows);
+      plan_.levels[i].evaluate(t, model_, w_, time_s, rows);
       // From here on `error` holds the right-hand side of the rows.
       rows.error *= plan_.kp;
       rows.error +=
@@ -181,7 +178,25 @@ void Controller::solve(const Eigen::VectorXd& weight) {
     return;
   }
   close_loops();
-  for (const auto& g : gathered_) solver_.add_level(g.J, g.r, plan_.damping);
+  if (joined_)
+    solve_joined();
+  else
+    for (const auto& g : gathered_) solver_.add_level(g.J, g.r, plan_.damping);
+}
+
+void Controller::solve_joined() {
+  Eigen::Index rows = 0;
+  for (const auto& g : gathered_) rows += g.r.size();
+  joined_J_.resize(rows, model_.speed_count());
+  joined_r_.resize(rows);
+  rows = 0;
+  for (const auto& g : gathered_) {
+    joined_J_.middleRows(rows, g.r.size()) = g.J;
+    joined_r_.segment(rows, g.r.size()) = g.r;
+    rows += g.r.size();
+  }
+  solver_.add_level(joined_J_, joined_r_,
+                    {.damping = kJoinedDamping, .truncation = plan_.damping.truncation});
 }
 
 bool Controller::hold_at_limits() {

@@ -41,6 +41,9 @@ class Controller {
     forget_step();
   }
 
+  /// From the next evaluate() on follow all levels in one damped sum of squares, or one after the other.
+  void join(bool joined) { joined_ = joined; }
+
   /// Keep the present state, for go_back().
   void keep();
   /// Back to the state that was kept.
@@ -73,6 +76,7 @@ class Controller {
   /// The loop constraints of the model, with priority over all levels.
   void close_loops();
   void solve(const Eigen::VectorXd& weight);
+  void solve_joined();
   /// Hold coordinates that would exceed a limit; true when another coordinate is held.
   bool hold_at_limits();
 
@@ -81,15 +85,15 @@ class Controller {
   model::Workspace w_;
   PrioritySolver solver_;
   bool one_level_ = false;  // of markers and tasks, without loops: the fast path can be used
-  bool have_jacobian_ = false;
+  bool have_jacobian_ = false, joined_ = false;
   Eigen::VectorXd x_, v_, a_, now_a_, wished_, bias_, normal_force_, held_a_, move_;
   Eigen::VectorXd kept_x_, kept_v_, kept_a_;
   Eigen::Matrix3Xd command_;
   Eigen::Matrix3Xd marker_begun_, marker_ended_;  // of the step with a_: at its beginning and its end
   double step_s_ = 0.0;                           // length of the step that ends here; 0: there is none
   double later_s_ = 0.0;                          // what a_ is later than its evaluation
-  Eigen::MatrixXd M_, H_, J_, loop_J_;
-  Eigen::VectorXd loop_gap_, loop_r_;
+  Eigen::MatrixXd M_, H_, J_, loop_J_, joined_J_;
+  Eigen::VectorXd loop_gap_, loop_r_, joined_r_;
   struct Gathered {
     Eigen::MatrixXd J;
     Eigen::VectorXd r;

@@ -16,6 +16,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
+#include "kinemark/stages/motion/control/internal/levels.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -91,6 +92,7 @@ Status place_levels(const std::map<std::string, std::size_t>& level_of, const st
       if (auto status = task->bind(model); !status) return fail_at(task->name(), status.error());
       level.task_rows += task->rows();
     }
+    level.task_weights.assign(level.tasks.size(), 1.0);
     if (level.rows() == 0)
       return fail(Code::bad_input,
                   fmt::format("level {} has no tasks: the recording holds none of its markers", i + 1));
@@ -174,6 +176,13 @@ Status lock_named(const TrackOptions& options, Plan& plan) {
 
 }  // namespace
 
+void Plan::Level::evaluate(std::size_t t, const model::Model& model, const model::Workspace& w, double time_s,
+                           TaskRows& rows) const {
+  rows.resize(tasks[t]->rows(), model.speed_count());
+  tasks[t]->evaluate(model, w, time_s, rows);
+  rows.weight *= task_weights[t];
+}
+
 void Plan::apply_locks(Eigen::VectorXd& x) const {
   for (const int c : locked) {
     const int row = problem.model.coordinates()[at(c)].state_idx;
@@ -233,6 +242,12 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   plan.max_error_m = options.max_error_m;
   plan.ease_s = std::max(options.fade_s, 1.0 / plan.rate_hz);
   if (auto status = place_levels(*level_of, levels, plan); !status) return std::unexpected(status.error());
+  plan.asked = plan.levels;
+  plan.marker_weight = plan.problem.weight;
+  if (plan.asked.size() > 1 && options.strict)
+    plan.level_bounds_m.assign(plan.asked.size(),
+                               options.level_bound_m > 0.0 ? options.level_bound_m : kUsualBound_m);
+  if (plan.asked.size() > 1 && !options.strict) join_levels(plan, first_weights(options.levels));
   // Strict levels and goals that are not points have no single sum of squares to settle.
   plan.one_sum = plan.levels.size() == 1 && plan.levels.front().tasks.empty();
   plan.settle = options.settle && plan.one_sum;
@@ -280,12 +295,11 @@ void lock_idle(Plan& plan, const IdlePoses& idle_poses) {
         model::marker_jacobian(model, w, J);
         squares = J.colwise().squaredNorm().transpose();
       }
-      for (const auto& level : plan.levels)
-        for (const auto& task : level.tasks) {
+      for (const auto& level : plan.asked)
+        for (std::size_t t = 0; t < level.tasks.size(); ++t) {
           most.setZero(model.speed_count());
           for (const double time_s : idle_poses.times_s) {
-            rows.resize(task->rows(), model.speed_count());
-            task->evaluate(model, w, time_s, rows);
+            level.evaluate(t, model, w, time_s, rows);
             for (Eigen::Index k = 0; k < most.size(); ++k)
               most[k] = std::max(most[k], rows.weight.dot(rows.jacobian.col(k).cwiseAbs2()));
           }

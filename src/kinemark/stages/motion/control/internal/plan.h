@@ -22,10 +22,19 @@ struct Plan {
   struct Level {
     std::vector<int> markers;  ///< indices in problem.model
     std::vector<std::shared_ptr<Task>> tasks;
+    std::vector<double> task_weights;  ///< of each task, beside those of its rows
     int task_rows = 0;
     [[nodiscard]] int rows() const { return 3 * static_cast<int>(markers.size()) + task_rows; }
+    /// Rows of task `t` at a state; `rows` need no size.
+    void evaluate(std::size_t t, const model::Model& model, const model::Workspace& w, double time_s,
+                  TaskRows& rows) const;
   };
-  std::vector<Level> levels;
+  std::vector<Level> asked;            ///< levels as the options name them
+  std::vector<Level> levels;           ///< as they are solved: these, or all of them in one
+  std::vector<double> level_weights;   ///< of squared errors in one level; empty: levels are as asked for
+  std::vector<double> level_bounds_m;  ///< of strict levels; empty: one level
+  bool levels_given_up = false;        ///< strict levels that are followed in one sum of squares all the time
+  Eigen::VectorXd marker_weight;       ///< M, within its level
   double rate_hz = 0.0;
   double kp = 0.0, kd = 0.0;
   double step_s = 0.0;

@@ -24,8 +24,6 @@ constexpr std::int64_t kProgressEvery = 100;  // frames
 
 }  // namespace
 
-namespace {}  // namespace
-
 Readout::Readout(const model::Model& model) : model_(model), w_(model), near_(model.coordinate_count()) {
   for (int c = 0; c < model.coordinate_count(); ++c)
     near_[c] = model.description().coordinates[at(c)].default_value;
@@ -75,6 +73,15 @@ Recorder::Recorder(const Plan& plan, const data::Trajectories& markers, Walker& 
   track.states.resize(plan.problem.model.state_count(), F);
   result.rank.assign(at(F), 0);
   result.smallest_singular.assign(at(F), 0.0);
+  if (plan.asked.size() < 2) return;
+  result.levels.resize(plan.asked.size());
+  for (std::size_t i = 0; i < result.levels.size(); ++i) {
+    auto& level = result.levels[i];
+    if (!plan.level_weights.empty()) level.weight = plan.level_weights[i];
+    if (!plan.level_bounds_m.empty()) level.bound_m = plan.level_bounds_m[i];
+  }
+  result.level_error.assign(at(F) * plan.asked.size(), kNaN);
+  result.relaxed.assign(at(F), 0);
 }
 
 bool Recorder::run(const Eigen::VectorXd& x, const Progress& progress) {
@@ -87,6 +94,7 @@ bool Recorder::run(const Eigen::VectorXd& x, const Progress& progress) {
     store();
   }
   if (goals_ == 0) result_.rms_goal_error_m = kNaN;
+  close_levels();
   result_.restarts = walker_.restarts();
   result_.solves += walker_.solves() - solves_at_first;
   result_.steps = walker_.controller().steps();
@@ -109,13 +117,41 @@ void Recorder::store() {
   result_.rank[at(f)] = body.rank();
   result_.smallest_singular[at(f)] = body.smallest_singular();
   store_marker_errors(f);
+  store_levels(f);
   if (walker_.flagged()) {
     motion.status[at(f)] = FrameStatus::not_converged;
     ++result_.flagged_frames;
   } else if (walker_.any_goal()) {
     motion.status[at(f)] =
         body.rank() < result_.free_speeds ? FrameStatus::underdetermined : FrameStatus::converged;
+    if (walker_.beyond()) motion.status[at(f)] = FrameStatus::not_converged;
   }
+}
+
+void Recorder::store_levels(std::int64_t f) {
+  if (result_.levels.empty()) return;
+  result_.relaxed[at(f)] = walker_.relaxed() ? 1 : 0;
+  for (std::size_t i = 0; i < result_.levels.size(); ++i) {
+    auto& level = result_.levels[i];
+    const double error = walker_.level_errors()[static_cast<Eigen::Index>(i)];
+    result_.level_error[at(f) * result_.levels.size() + i] = error;
+    if (!std::isfinite(error)) continue;
+    level.max_error_m = std::max(level.max_error_m, error);
+    if (!walker_.guard().is_beyond(i, error)) continue;
+    ++level.beyond;
+    if (walker_.relaxed() && walker_.guard().settled()) ++level.unmet;
+  }
+}
+
+void Recorder::close_levels() {
+  const std::size_t L = result_.levels.size();
+  for (std::size_t i = 0; i < L; ++i) {
+    double squares = 0.0, count = 0.0;
+    for (std::size_t k = i; k < result_.level_error.size(); k += L)
+      if (const double e = result_.level_error[k]; std::isfinite(e)) squares += e * e, count += 1.0;
+    if (count > 0.0) result_.levels[i].rms_error_m = std::sqrt(squares / count);
+  }
+  result_.relaxations = walker_.guard().trips() + (plan_.levels_given_up ? 1 : 0);
 }
 
 void Recorder::store_marker_errors(std::int64_t f) {

@@ -57,6 +57,8 @@ class Recorder {
  private:
   void store();
   void store_marker_errors(std::int64_t f);
+  void store_levels(std::int64_t f);
+  void close_levels();
 
   const Plan& plan_;
   const data::Trajectories& markers_;

@@ -14,10 +14,13 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kShare = 0.3;                    // of what angles are known to: it adds 4 % to that
+constexpr double kShare = 0.2;                    // of what angles are known to: noise grows with it, by 5 %
 constexpr double kLeast_rad = 0.01 * kRadPerDeg;  // nobody needs less
 constexpr double kShortest_s = 1e-4;
 constexpr double kLeft = 2.0;
+constexpr int kTimesFiner = 4;
+constexpr double kCompared_s = 1.0, kSkipped_s = 0.1;  // of a stretch; until the finer body has its speeds
+constexpr std::int64_t kMostStretches = 10;
 constexpr double kOmegaStep = 0.5;  // half of the limit of stability
 
 /// RMS over angles of joints of a number per frame and coordinate; NaN where there is none.
@@ -65,23 +68,59 @@ double stated_error(const model::Model& model, const data::JointMotion& motion) 
   return rms(model, motion, [&](std::int64_t f, std::int64_t c) { return motion.q_sd[motion.index(f, c)]; });
 }
 
-double step_for(const model::Model& model, const data::JointMotion& motion, double most) {
-  const double jerk = find_jerk(model, motion), frame_s = 1.0 / motion.time.rate_hz;
-  double step_s = frame_s;
-  for (int parts = 1; step_s > kShortest_s && !(error_of(jerk, step_s, kOmegaStep / step_s) <= most);)
-    step_s = frame_s / ++parts;
-  return step_s;
+double tolerated_cost(double known) { return std::max(kShare * known, kLeast_rad); }
+
+Plan with_finer_steps(const Plan& plan) {
+  Plan finer = plan;
+  finer.steps_per_frame = kTimesFiner * plan.steps_per_frame;
+  finer.step_s = 1.0 / (plan.rate_hz * finer.steps_per_frame);
+  const double omega = kOmegaStep / finer.step_s;
+  finer.kp = omega * omega;
+  finer.kd = 2.0 * omega;
+  return finer;
 }
 
-std::string warn_of_step(const model::Model& model, const data::JointMotion& motion, double step_s,
-                         double omega_rad_s) {
-  const double error = step_error(model, motion, step_s, omega_rad_s), known = stated_error(model, motion);
-  if (!(error > kShare * known && error > kLeast_rad)) return {};
-  const double shorter_s = step_for(model, motion, std::max(kShare * known, kLeast_rad));
+double step_cost(const Plan& plan, const Eigen::MatrixXd& states, Walker& finer) {
+  const auto& model = plan.problem.model;
+  const std::int64_t length = std::max<std::int64_t>(2, std::llround(kCompared_s * plan.rate_hz)),
+                     skipped = static_cast<std::int64_t>(std::ceil(kSkipped_s * plan.rate_hz)),
+                     whole = length + skipped, frames = plan.problem.frames,
+                     apart = std::max(whole, frames / kMostStretches);
+  double squares = 0.0, count = 0.0;
+  for (std::int64_t begin = 0; begin + skipped < frames; begin += apart) {
+    finer.begin(states.col(begin), begin);
+    for (std::int64_t f = begin + 1; f < std::min(frames, begin + whole); ++f) {
+      finer.next();
+      if (f < begin + skipped || finer.flagged()) continue;
+      for (int i = 0; i < model.coordinate_count(); ++i) {
+        const auto& c = model.coordinates()[at(i)];
+        if (c.speed_idx < 0 || !model.description().coordinates[at(i)].is_rotation ||
+            plan.problem.fixed_speed[at(c.speed_idx)] != 0)
+          continue;
+        const double off = finer.controller().x()[c.state_idx] - states(c.state_idx, f);
+        squares += off * off;
+        count += 1.0;
+      }
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+double step_for(double step_s, double cost, double most) {
+  // At omega = 0.5 / step the error grows with the third power of the step.
+  double shorter_s = step_s;
+  for (int parts = 1; shorter_s > kShortest_s && !(cost * std::pow(shorter_s / step_s, 3) <= most);)
+    shorter_s = step_s / ++parts;
+  return shorter_s;
+}
+
+std::string warn_of_step(const Plan& plan, double cost, double known) {
+  if (!(cost > tolerated_cost(known))) return {};
+  const double shorter_s = step_for(plan.step_s, cost, tolerated_cost(known));
   return fmt::format(
-      "steps of {:.3g} ms at omega {:.3g} rad/s may cost {:.2g} deg of angles that are known to {:.2g} deg; "
+      "steps of {:.3g} ms at omega {:.3g} rad/s cost {:.2g} deg of angles that are known to {:.2g} deg; "
       "--step {:.3g} --omega {:.3g} does not",
-      1e3 * step_s, omega_rad_s, kDegPerRad * error, kDegPerRad * known, 1e3 * shorter_s,
+      1e3 * plan.step_s, std::sqrt(plan.kp), kDegPerRad * cost, kDegPerRad * known, 1e3 * shorter_s,
       kOmegaStep / shorter_s);
 }
 

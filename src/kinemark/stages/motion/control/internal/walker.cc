@@ -101,7 +101,12 @@ Walker::Walker(const Plan& plan, GoalFilter filter, std::int64_t capacity, doubl
       other_(plan.rest),
       move_(Eigen::VectorXd::Zero(plan.problem.model.speed_count())),
       at_limit_(at(plan.problem.model.speed_count()), -1),
-      t0_s_(t0_s) {}
+      t0_s_(t0_s),
+      level_errors_(plan),
+      pursued_errors_(plan),
+      guard_(plan.level_bounds_m, plan.rate_hz, plan.levels_given_up) {
+  controller_.join(guard_.joined());
+}
 
 void Walker::use_derivatives(const data::Derivatives& d, std::int64_t markers_in_d) {
   derivatives_ = &d;
@@ -128,6 +133,8 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
   flagged_ = !controller_.evaluate(goal_, time_s());
   if (flagged_) restart();
   judge();
+  led_ = goal_;
+  watch_levels();
   last_good_ = settled_;
 }
 
@@ -144,6 +151,7 @@ void Walker::next() {
   }
   flagged_ = flagged_ || lost_;
   judge();
+  watch_levels();
   if (!flagged_) last_good_ = controller_.x();
 }
 
@@ -202,14 +210,7 @@ bool Walker::settle() {
   // Goals that are still eased in come from where the body was and fit no pose.
   const bool eased = led_.x != goal_.x;
   if (!eased && usual_cost_ >= 0.0 && outcome.cost > kCostly * usual_cost_ + kCostly_m2) {
-    other_ = settled_;
-    const auto second =
-        find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
-    if (second.cost < kCheaper * outcome.cost) {
-      settled_ = other_;
-      outcome = second;
-      kept = false;
-    }
+    kept = !try_other_starts(outcome.cost);
   }
   if (!eased)
     usual_cost_ = usual_cost_ < 0.0 ? outcome.cost : kMemory * usual_cost_ + (1.0 - kMemory) * outcome.cost;
@@ -221,6 +222,16 @@ bool Walker::settle() {
     controller_.start(settled_, goal_, time_s() + plan_.steps_per_frame * plan_.step_s);
   }
   return kept;
+}
+
+bool Walker::try_other_starts(double& cost) {
+  other_ = settled_;
+  const auto outcome =
+      find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
+  if (!(outcome.cost < kCheaper * cost)) return false;
+  settled_ = other_;
+  cost = outcome.cost;
+  return true;
 }
 
 // A stretched arm: with the elbow at its limit the arm turns freely about itself, and may have turned to
@@ -292,21 +303,31 @@ void Walker::recover(double cost) {
   const double most = kCostly * usual_cost_ + kCostly_m2;
   if (usual_cost_ >= 0.0 && cost > most) {
     settled_ = controller_.x();
-    auto best = settler_.solve(goal_.x, goal_.weight, 0, settled_);
-    other_ = settled_;
-    const auto second =
-        find_start(unbiased_, plan_.start_options, settler_, goal_.x, goal_.weight, 0, kOtherStarts, other_);
-    if (second.cost < kCheaper * best.cost) {
-      settled_ = other_;
-      best = second;
-    }
-    if (best.cost < kMuchCheaper * cost) {
+    double best = settler_.solve(goal_.x, goal_.weight, 0, settled_).cost;
+    try_other_starts(best);
+    if (best < kMuchCheaper * cost) {
       set_anew(settled_);
       flagged_ = true;
       return;
     }
   }
   usual_cost_ = usual_cost_ < 0.0 ? cost : kMemory * usual_cost_ + (1.0 - kMemory) * std::min(cost, most);
+}
+
+bool Walker::beyond() const {
+  for (std::size_t i = 0; i < plan_.level_bounds_m.size(); ++i)
+    if (guard_.is_beyond(i, level_errors()[static_cast<Eigen::Index>(i)])) return true;
+  return false;
+}
+
+// A marker that comes back is far from its goal at once, and led there: that is no fault of the levels.
+void Walker::watch_levels() {
+  if (plan_.asked.size() < 2) return;
+  level_errors_.find(controller_.workspace(), goal_, time_s());
+  relaxed_ = guard_.joined();
+  if (plan_.level_bounds_m.empty()) return;
+  guard_.look(pursued_errors_.find(controller_.workspace(), flagged_ ? goal_ : led_, time_s()));
+  controller_.join(guard_.joined());
 }
 
 void Walker::judge() {

@@ -10,6 +10,8 @@
 #include "kinemark/data/derivatives.h"
 #include "kinemark/stages/motion/control/internal/controller.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/control/internal/level_guard.h"
+#include "kinemark/stages/motion/control/internal/levels.h"
 #include "kinemark/stages/motion/control/internal/plan.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
 
@@ -72,6 +74,13 @@ class Walker {
   /// Or it had lost its goals, which another pose fitted much better, and was set anew.
   [[nodiscard]] bool flagged() const { return flagged_; }
   [[nodiscard]] std::int64_t restarts() const { return restarts_; }
+  /// RMS distance of each level as asked for to its goals, m; NaN where it has none.
+  [[nodiscard]] const Eigen::VectorXd& level_errors() const { return level_errors_.found(); }
+  /// The frame's strict levels were followed in one sum of squares.
+  [[nodiscard]] bool relaxed() const { return relaxed_; }
+  [[nodiscard]] const LevelGuard& guard() const { return guard_; }
+  /// Some strict level is beyond its bound.
+  [[nodiscard]] bool beyond() const;
   /// Poses that a solver of inverse kinematics was asked for so far: to settle, or to set the body anew.
   [[nodiscard]] std::int64_t solves() const { return solver_.solves() + settler_.solves(); }
 
@@ -92,12 +101,15 @@ class Walker {
   /// A body that is not settled may have lost its goals: it is set anew where another pose fits them much
   /// better.
   void recover(double cost);
+  /// Look for a better fit than `settled_`, which costs `cost`, from other poses. False: there is none.
+  bool try_other_starts(double& cost);
   /// Look for a better fit than `settled_`, which costs `cost`, on the other side of limits. What the best
   /// costs.
   double try_limits(double cost);
   /// Position and velocity errors of model markers whose goals become active now.
   void lead_new_markers(double time_s, double u);
   void judge();
+  void watch_levels();
 
   const Plan& plan_;
   GoalFilter filter_;
@@ -117,7 +129,9 @@ class Walker {
   double t0_s_ = 0.0;
   double usual_cost_ = -1.0;  // m^2, of frames whose goals are not eased in; below 0: none yet
   std::int64_t frame_ = 0, restarts_ = 0;
-  bool flagged_ = false, lost_ = false;
+  LevelErrors level_errors_, pursued_errors_;
+  LevelGuard guard_;
+  bool flagged_ = false, lost_ = false, relaxed_ = false;
 };
 
 }  // namespace kinemark::motion::internal
