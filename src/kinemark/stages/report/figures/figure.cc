@@ -24,6 +24,7 @@ using internal::PanelFrame;
 constexpr double kTitle = 34.0, kCaption = 30.0, kNoteLine = 14.0, kNoteSize = 11.0, kPanelNoteSize = 10.0,
                  kBeforeNotes = 6.0;
 constexpr double kPlain = 210.0, kSquare = 400.0;  // heights of panels one below the other
+constexpr double kBeside = 8.0;                    // left free beside a picture
 constexpr double kPngScale = 3.0;
 const std::string kTitleInk = "#1a1a1a", kCaptionInk = "#6b6b6b";
 
@@ -127,6 +128,8 @@ class FigureDrawing {
            layout_.note * static_cast<double>(note);
   }
   [[nodiscard]] double inner(Row row) const {
+    const double own = std::ranges::max(row, {}, &FigurePanel::height).height;
+    if (own > 0.0) return own;
     if (figure_.panel_height > 0.0) return figure_.panel_height;
     const bool equal = std::ranges::any_of(row, &FigurePanel::equal);
     if (figure_.columns > 1) return equal ? panel_width() : 0.6 * panel_width();
@@ -156,6 +159,13 @@ class FigureDrawing {
           line += layout_.note;
         }
       Legend(panel, panel_width()).draw(canvas, {left, axes - legend_height(panel) - layout_.legend_to_axes});
+      if (panel.picture) {
+        panel.picture(canvas, {.left = cell_ * static_cast<double>(c) + kBeside,
+                               .right = cell_ * static_cast<double>(c + 1) - kBeside,
+                               .top = axes,
+                               .bottom = axes + inner(row)});
+        continue;
+      }
       PanelDrawing(panel,
                    {.left = left,
                     .right = left + panel_width(),
