@@ -28,14 +28,16 @@ struct StudyArguments {
 };
 
 void add_options(CLI::App& command, StudyArguments& arguments, const std::string& seeds_are) {
-  command.add_option("--figures", arguments.figures, "Page to write, .html, with the paper's figures and the table; or a folder: the page, and every "
-                     "figure by the paper's number as .svg, .png and .csv");
+  command.add_option(
+      "--figures", arguments.figures,
+      "Page to write, .html, with the paper's figures and the table; or a folder: the page, and every "
+      "figure by the paper's number as .svg, .png and .csv");
   command.add_option("--seeds", arguments.seeds,
                      seeds_are + ": 3, 1-10 or 1,4,7-9; that of --seed when absent");
 }
 
-/// Run a study for its seeds, write its figures, print its table. The place of the figures is asked for first,
-/// as a study takes minutes.
+/// Run a study for its seeds, write its figures, print its table. The place of the figures is asked for
+/// first, as a study takes minutes.
 /// @param run      seeds in, Result of a study out
 /// @param page_of  its page, a Result
 template <class RunStudy, class PageOf>

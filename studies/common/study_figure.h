@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// A founding paper's figure from our own data: by the paper's number, with the numbers that it draws and those
-// of the paper beside ours.
+// A founding paper's figure from our own data: by the paper's number, with the numbers that it draws and
+// those of the paper beside ours.
 #pragma once
 
 #include <Eigen/Core>
@@ -60,8 +60,8 @@ struct StudyFigure {
 /// The figure with its title, its name below it and the numbers as notes: what is written to a file.
 [[nodiscard]] report::Figure figure_for_print(const StudyFigure& figure, std::string_view classic);
 
-/// "curve,x,y,z" and a line a point, 9 digits; z is empty for curves of two columns. Names with a comma are in
-/// quotes; none holds a quote.
+/// "curve,x,y,z" and a line a point, 9 digits; z is empty for curves of two columns. Names with a comma are
+/// in quotes; none holds a quote.
 [[nodiscard]] std::string figure_csv(const StudyFigure& figure);
 
 }  // namespace kinemark::studies

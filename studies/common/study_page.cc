@@ -79,8 +79,7 @@ Result<std::vector<std::filesystem::path>> StudyFiles::write(const StudyPage& pa
     const auto print = figure_for_print(figure, page.classic);
     const auto add = [&](const char* ending, std::string text) {
       names.push_back(figure.file_name() + ending);
-      files.push_back(
-          pipeline::text_file(folder_ / names.back(), [text = std::move(text)] { return text; }));
+      files.push_back(pipeline::text_file(folder_ / names.back(), [text = std::move(text)] { return text; }));
     };
     add(".svg", report::figure_svg(print));
     add(".csv", figure_csv(figure));

@@ -22,8 +22,8 @@ struct StudyPage {
   StudyTable table;
 };
 
-/// One self-contained page in the design of all pages: bounds that are missed, figures with the paper's numbers
-/// and ours under each, table.
+/// One self-contained page in the design of all pages: bounds that are missed, figures with the paper's
+/// numbers and ours under each, table.
 [[nodiscard]] std::string study_html(const StudyPage& page);
 
 /// Where the figures of a study go: a page (.html), or a folder for the page, study.html, and every figure as

@@ -22,7 +22,8 @@ StudyPage example() {
   page.heading = "Arms";
   page.description = "a < b";
   page.classic = "1986 method";
-  page.figures = {{.paper = "Smith 1990", .number = 1, .name = "errors", .numbers = {{"a < b", "mm", 2.0, {}, 1.0}}}};
+  page.figures = {
+      {.paper = "Smith 1990", .number = 1, .name = "errors", .numbers = {{"a < b", "mm", 2.0, {}, 1.0}}}};
   page.table.seeds = {1};
   page.table.rows = {{.quantity = "error", .unit = "mm", .paper = 30.0, .ours = 2.0, .at_most = 3.0},
                      {.quantity = "share", .unit = "%", .ours = 1.0, .at_least = 2.0}};

@@ -40,11 +40,13 @@ struct Curve {
 };
 
 std::vector<Curve> curves() {
-  return {
-      {"bound", kBoundInk, [](const ElbowErrors& e) { return kPerM * e.ours.bound_m(); }, 5.0, kLeast},
-      {"report's method", kReportInk, [](const ElbowErrors& e) { return kPerM * e.report.rms_answered_m(); }, 1.6, kLeast},
-      {"SCoRE", kScoreInk, [](const ElbowErrors& e) { return kPerM * e.score.rms_answered_m(); }, 1.6, kLeast},
-      {"ours", kOursInk, [](const ElbowErrors& e) { return kPerM * e.ours.rms_determined_m(); }, 1.6, kLeast}};
+  return {{"bound", kBoundInk, [](const ElbowErrors& e) { return kPerM * e.ours.bound_m(); }, 5.0, kLeast},
+          {"report's method", kReportInk,
+           [](const ElbowErrors& e) { return kPerM * e.report.rms_answered_m(); }, 1.6, kLeast},
+          {"SCoRE", kScoreInk, [](const ElbowErrors& e) { return kPerM * e.score.rms_answered_m(); }, 1.6,
+           kLeast},
+          {"ours", kOursInk, [](const ElbowErrors& e) { return kPerM * e.ours.rms_determined_m(); }, 1.6,
+           kLeast}};
 }
 
 using Which = std::function<bool(const ElbowCell&)>;
@@ -66,10 +68,15 @@ void draw(StudyFigure& out, FigurePanel& panel, const MacaqueStudy& study, const
     x[i] = points[static_cast<std::size_t>(i)].first;
     y[i] = points[static_cast<std::size_t>(i)].second;
     if (curve.width < 3.0 && !dashed)
-      panel.symbols.push_back({.shape = SymbolShape::disc, .name = "", .colour = curve.colour, .at = {x[i], y[i]}});
+      panel.symbols.push_back(
+          {.shape = SymbolShape::disc, .name = "", .colour = curve.colour, .at = {x[i], y[i]}});
   }
-  panel.lines.push_back({.name = dashed ? "" : curve.name, .colour = curve.colour, .x = x, .y = y,
-                         .width = curve.width, .dashed = dashed});
+  panel.lines.push_back({.name = dashed ? "" : curve.name,
+                         .colour = curve.colour,
+                         .x = x,
+                         .y = y,
+                         .width = curve.width,
+                         .dashed = dashed});
   out.curves.push_back(curve_of(fmt::format("{}{}", curve.name, of), {x, y}));
 }
 
@@ -100,10 +107,12 @@ void draw_arm(report::SpaceDrawing& scene, const LimbRecording& limb, std::int64
 }
 
 /// Rows of the table with these quantities that are there.
-std::vector<FigureNumber> numbers_there(const StudyTable& table, std::initializer_list<std::string_view> wanted) {
+std::vector<FigureNumber> numbers_there(const StudyTable& table,
+                                        std::initializer_list<std::string_view> wanted) {
   std::vector<std::string_view> there;
   for (const auto quantity : wanted)
-    if (std::ranges::find(table.rows, quantity, &StudyRow::quantity) != table.rows.end()) there.push_back(quantity);
+    if (std::ranges::find(table.rows, quantity, &StudyRow::quantity) != table.rows.end())
+      there.push_back(quantity);
   return numbers_of(table, there);
 }
 
@@ -115,11 +124,11 @@ StudyFigure elbow_errors(const MacaqueStudy& study, bool staggered) {
                   .name = staggered ? "error of the elbow, markers staggered by 20 mm"
                                     : "error of the elbow against noise and against missing data"};
   const auto of_kind = [&](const ElbowCell& c) { return (c.stagger_m > 0.0) == staggered; };
-  FigurePanel noise{.title = "Against noise (dashed: 40 % missing)",
+  FigurePanel noise{.title = "Noise (dashed: 40 % missing)",
                     .x_label = "noise per axis, mm",
                     .y_label = "error, RMS, mm",
                     .logarithmic = true};
-  FigurePanel missing{.title = "Against missing data, noise 1 mm (dashed: with the pose)",
+  FigurePanel missing{.title = "Missing data (dashed: with the pose)",
                       .x_label = "missing samples, %",
                       .y_label = "error, RMS, mm",
                       .logarithmic = true};
@@ -143,6 +152,7 @@ StudyFigure elbow_errors(const MacaqueStudy& study, bool staggered) {
   if (!staggered) {
     mark_paper(noise, {{2.0, 30.0}});
     mark_paper(missing, {{20.0, 10.16}, {40.0, 30.0}});
+    out.figure.notes = {"Against missing data: 1 mm of noise."};
     out.numbers = numbers_there(study.table, {"collinear, 2 mm noise, 0 % missing: elbow",
                                               "collinear, 1 mm noise, 20 % missing: elbow"});
   }
@@ -153,18 +163,23 @@ StudyFigure elbow_errors(const MacaqueStudy& study, bool staggered) {
 }
 
 StudyFigure published_errors(const MacaqueStudy& study) {
-  StudyFigure out{.paper = kMacaque, .number = 6, .name = "mean error of the elbow against missing data, by the report's own reading"};
+  StudyFigure out{.paper = kMacaque,
+                  .number = 6,
+                  .name = "mean error of the elbow against missing data, by the report's own reading"};
   FigurePanel panel{.x_label = "missing samples, %", .y_label = "mean error, mm"};
-  const auto curve = [&](std::vector<double> PublishedResult::* method, const char* name, const char* colour) {
+  const auto curve = [&](std::vector<double> PublishedResult::* method, const char* name,
+                         const char* colour) {
     std::vector<double> share, value;
     for (const auto& cell : study.published) {
       const auto& errors = cell.*method;
       if (cell.cell.missing == 0.0 || errors.empty()) continue;
       share.push_back(100.0 * cell.cell.missing);
-      value.push_back(kPerM * std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size()));
+      value.push_back(kPerM * std::accumulate(errors.begin(), errors.end(), 0.0) /
+                      static_cast<double>(errors.size()));
     }
     const auto n = static_cast<Eigen::Index>(share.size());
-    const VectorXd x = Eigen::Map<const VectorXd>(share.data(), n), y = Eigen::Map<const VectorXd>(value.data(), n);
+    const VectorXd x = Eigen::Map<const VectorXd>(share.data(), n),
+                   y = Eigen::Map<const VectorXd>(value.data(), n);
     panel.lines.push_back({.name = name, .colour = colour, .x = x, .y = y, .width = 1.6});
     out.curves.push_back(curve_of(name, {x, y}));
   };
@@ -178,10 +193,12 @@ StudyFigure published_errors(const MacaqueStudy& study) {
 }
 
 StudyFigure frames_answered(const MacaqueStudy& study) {
-  StudyFigure out{.paper = kMacaque, .name = "frames with an answer, 1 mm of noise (dashed: markers staggered)"};
+  StudyFigure out{.paper = kMacaque,
+                  .name = "frames with an answer, 1 mm of noise (dashed: markers staggered)"};
   FigurePanel panel{.x_label = "missing samples, %", .y_label = "frames, %"};
   const std::vector<Curve> shown{
-      {"report's method, answered", kReportInk, [](const ElbowErrors& e) { return 100.0 * e.report.share_answered(); }},
+      {"report's method, answered", kReportInk,
+       [](const ElbowErrors& e) { return 100.0 * e.report.share_answered(); }},
       {"SCoRE, answered", kScoreInk, [](const ElbowErrors& e) { return 100.0 * e.score.share_answered(); }},
       {"ours, determined", kOursInk, [](const ElbowErrors& e) { return 100.0 * e.ours.share_determined(); }}};
   for (const auto& curve : shown)
@@ -189,7 +206,8 @@ StudyFigure frames_answered(const MacaqueStudy& study) {
       draw(
           out, panel, study, curve, staggered ? ", staggered" : "", staggered,
           [&](const ElbowCell& c) {
-            return (c.stagger_m > 0.0) == staggered && !c.pose_correlated && std::abs(c.noise_m - 0.001) < 1e-9;
+            return (c.stagger_m > 0.0) == staggered && !c.pose_correlated &&
+                   std::abs(c.noise_m - 0.001) < 1e-9;
           },
           [](const ElbowCell& c) { return 100.0 * c.missing; });
   out.figure.panels.push_back(std::move(panel));
@@ -228,15 +246,19 @@ Result<StudyFigure> simulated_arm(const MacaqueStudy& study, std::uint64_t seed)
   StudyFigure out{.paper = kMacaque, .number = 5, .name = "the simulated arm, 2 mm of noise, and its elbow"};
   FigurePanel panel;
   panel.height = 330.0;
-  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) { scene.draw(canvas, room); };
+  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) {
+    scene.draw(canvas, room);
+  };
   out.figure.panels.push_back(std::move(panel));
-  out.figure.notes = {fmt::format(
-      "Frame {} of {}, the one of median error: {:.1f} mm by the report's method (gold), {:.1f} mm by ours (blue). "
-      "Squares of the floor: {:.0f} mm.",
-      frame + 1, limb->markers.frames(), kPerM * (their_elbow - truth).norm(), kPerM * (our_elbow - truth).norm(),
-      kPerM * scene.square())};
+  out.figure.notes = {
+      fmt::format("Frame {} of {}, the one of median error: {:.1f} mm by the report's method (gold), {:.1f} "
+                  "mm by ours (blue). "
+                  "Squares of the floor: {:.0f} mm.",
+                  frame + 1, limb->markers.frames(), kPerM * (their_elbow - truth).norm(),
+                  kPerM * (our_elbow - truth).norm(), kPerM * scene.square())};
   out.numbers = numbers_there(study.table, {"collinear, 2 mm noise, 0 % missing: elbow"});
-  out.curves = {curve_of("true elbow, m", Matrix3Xd(truth)), curve_of("elbow by the report's method, m", Matrix3Xd(their_elbow)),
+  out.curves = {curve_of("true elbow, m", Matrix3Xd(truth)),
+                curve_of("elbow by the report's method, m", Matrix3Xd(their_elbow)),
                 curve_of("elbow by ours, m", Matrix3Xd(our_elbow))};
   return out;
 }

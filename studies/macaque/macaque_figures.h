@@ -8,9 +8,9 @@
 
 namespace kinemark::studies {
 
-/// The report's figures 1 to 7 from our own data, then errors of staggered markers and the share of frames with
-/// an answer, which it has not; of the report's own reading, figure 6 alone. Single recordings are of the first
-/// seed. The study needs one seed or more.
+/// The report's figures 1 to 7 from our own data, then errors of staggered markers and the share of frames
+/// with an answer, which it has not; of the report's own reading, figure 6 alone. Single recordings are of
+/// the first seed. The study needs one seed or more.
 [[nodiscard]] Result<StudyPage> macaque_page(const MacaqueStudy& study);
 
 }  // namespace kinemark::studies

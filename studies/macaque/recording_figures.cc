@@ -73,7 +73,8 @@ std::int64_t at_food(const LimbRecording& limb) {
   std::int64_t out = 0;
   double far = -1.0;
   for (std::int64_t f = 0; f < limb.markers.frames(); ++f)
-    if (const double d = (at(limb.end_in_world, static_cast<std::size_t>(f)) - mouth).norm(); d > far) far = d, out = f;
+    if (const double d = (at(limb.end_in_world, static_cast<std::size_t>(f)) - mouth).norm(); d > far)
+      far = d, out = f;
   return out;
 }
 
@@ -89,11 +90,12 @@ void draw_body(report::SpaceDrawing& scene) {
 /// A lens as a small pyramid that looks at the arm.
 void draw_camera(report::SpaceDrawing& scene, const Vector3d& lens, const Vector3d& target) {
   constexpr double kDeep = 0.07, kHalf = 0.03;
-  const Vector3d z = (target - lens).normalized(), x = z.cross(Vector3d::UnitZ()).normalized(), y = z.cross(x);
+  const Vector3d z = (target - lens).normalized(), x = z.cross(Vector3d::UnitZ()).normalized(),
+                 y = z.cross(x);
   Matrix3Xd rim(3, 5);
   int corner = 0;
-  for (const auto& [a, b] : {std::pair{-1.0, -1.0}, std::pair{1.0, -1.0}, std::pair{1.0, 1.0}, std::pair{-1.0, 1.0},
-                             std::pair{-1.0, -1.0}})
+  for (const auto& [a, b] : {std::pair{-1.0, -1.0}, std::pair{1.0, -1.0}, std::pair{1.0, 1.0},
+                             std::pair{-1.0, 1.0}, std::pair{-1.0, -1.0}})
     rim.col(corner++) = lens - kDeep * z + kHalf * (a * x + b * y);
   const report::SpaceLine ink{.colour = kInk, .width = 1.3};
   scene.line(rim, ink);
@@ -112,22 +114,26 @@ StudyFigure among_cameras(const LimbRecording& limb) {
   const auto room = simulation::sleeve_room();
   const auto frame = at_food(limb);
   const Matrix3Xd arm = arm_of(limb, frame);
-  report::SpaceDrawing scene(28.0, 18.0);
-  scene.floor(-0.30);
+  report::SpaceDrawing scene(-100.0, 25.0);
   for (const auto& camera : room.cameras) {
     scene.line(between(camera, arm.col(1)), {.colour = kSight, .width = 1.0, .dashed = true});
     draw_camera(scene, camera, arm.col(1));
   }
   draw_body(scene);
-  scene.line(arm, {.colour = "#000000", .width = 3.0, .shadow = true});
-  draw_leds(scene, limb, frame, 2.6);
-  for (std::size_t c = 0; c < room.cameras.size(); ++c)
-    scene.label(fmt::format("camera {}", c + 1), room.cameras[c], Anchor::middle, {0.0, -16.0});
-  scene.label("sleeve", arm.col(1), Anchor::middle, {-6.0, 26.0});
-  auto out = figure_of(1, "the animal with the sleeve of LEDs among the cameras", scene, 380.0);
+  scene.line(arm, {.colour = "#000000", .width = 3.0});
+  draw_leds(scene, limb, frame, 3.0);
+  for (std::size_t c = 0; c < room.cameras.size(); ++c) {
+    const bool below = c == 3;  // another camera stands beside it
+    scene.label(fmt::format("camera {}", c + 1), room.cameras[c], below ? Anchor::middle : Anchor::start,
+                below ? Eigen::Vector2d(4.0, 34.0) : Eigen::Vector2d(26.0, 4.0));
+  }
+  scene.label("sleeve", arm.col(2), Anchor::middle, {4.0, 30.0});
+  scene.label("head", room.head.centre, Anchor::end, {-22.0, 2.0});
+  auto out = figure_of(1, "the animal with the sleeve of LEDs among the cameras", scene, 360.0);
   out.numbers = {{"frames a second of the cameras", "Hz", 60.0, {}, limb.markers.time.rate_hz}};
   Matrix3Xd lenses(3, static_cast<Eigen::Index>(room.cameras.size()));
-  for (std::size_t c = 0; c < room.cameras.size(); ++c) lenses.col(static_cast<Eigen::Index>(c)) = room.cameras[c];
+  for (std::size_t c = 0; c < room.cameras.size(); ++c)
+    lenses.col(static_cast<Eigen::Index>(c)) = room.cameras[c];
   out.curves = {curve_of("cameras, m", lenses), curve_of("arm, m", arm)};
   return out;
 }
@@ -144,7 +150,9 @@ StudyFigure sleeve(const LimbRecording& limb, double radius_m) {
   StudyFigure out;
   for (const double length : {upper, fore}) {
     for (const double share : {0.04, 0.35, 0.65, 0.96})
-      scene.line(ring({0.0, from + share * length, 0.0}, radius_m * Vector3d::UnitX(), radius_m * Vector3d::UnitZ()), skin);
+      scene.line(
+          ring({0.0, from + share * length, 0.0}, radius_m * Vector3d::UnitX(), radius_m * Vector3d::UnitZ()),
+          skin);
     for (const double z : {-radius_m, radius_m})
       scene.line(between({0.0, from + 0.04 * length, z}, {0.0, from + 0.96 * length, z}), skin);
     scene.line(between({0.0, from, 0.0}, {0.0, from + length, 0.0}), {.colour = "#000000", .width = 4.0});
@@ -153,14 +161,17 @@ StudyFigure sleeve(const LimbRecording& limb, double radius_m) {
     for (Eigen::Index k = 0; k < leds.cols(); ++k) {
       shown.col(k) = stretched(leds.col(k), from);
       scene.dot(kSegmentInks[s], shown.col(k), 6.0, shown.col(k).x() < -1e-9);
-      scene.label(limb.markers.names[static_cast<std::size_t>(limb.layout.segments[s].markers[static_cast<std::size_t>(k)])],
-                  shown.col(k), Anchor::middle, {0.0, shown.col(k).z() >= 0.0 ? -11.0 : 21.0});
+      scene.label(
+          limb.markers
+              .names[static_cast<std::size_t>(limb.layout.segments[s].markers[static_cast<std::size_t>(k)])],
+          shown.col(k), Anchor::middle, {0.0, shown.col(k).z() >= 0.0 ? -11.0 : 21.0});
     }
     out.curves.push_back(curve_of(limb.layout.segments[s].name + ", m", shown));
     from += length;
     ++s;
   }
-  for (const auto& [name, y] : {std::pair{"shoulder", 0.0}, std::pair{"elbow", upper}, std::pair{"wrist", upper + fore}})
+  for (const auto& [name, y] :
+       {std::pair{"shoulder", 0.0}, std::pair{"elbow", upper}, std::pair{"wrist", upper + fore}})
     scene.label(name, {0.0, y, -1.9 * radius_m}, Anchor::middle, {0.0, 14.0});
   auto curves = std::move(out.curves);
   out = figure_of(2, "the sleeve and its LEDs; rings lie behind the arm", scene, 190.0);
@@ -187,25 +198,31 @@ StudyFigure distances(const LimbRecording& limb) {
     const auto index = [&](std::int64_t f) { return limb.markers.index(f, marker); };
     VectorXd distance(limb.markers.frames());
     for (std::int64_t f = 0; f < limb.markers.frames(); ++f)
-      distance[f] = kMm * (at(limb.x_true, index(f)) - at(limb.centre_in_world, static_cast<std::size_t>(f))).norm();
+      distance[f] =
+          kMm * (at(limb.x_true, index(f)) - at(limb.centre_in_world, static_cast<std::size_t>(f))).norm();
     const Vector3d x = at(limb.x_true, index(food));
     scene.line(between(arm.col(1), x), {.colour = kSegmentInks[segment], .width = 1.4, .dashed = true});
     scene.dot(kSegmentInks[segment], x, 5.5);
     const auto& name = limb.markers.names[static_cast<std::size_t>(marker)];
-    scene.label(fmt::format("{}: {:.0f} mm", name, distance.mean()), x, k % 2 == 0 ? Anchor::start : Anchor::end,
-                {k % 2 == 0 ? 10.0 : -10.0, 4.0});
+    const std::string said = fmt::format("{}: {:.0f} mm", name, distance.mean());
+    if (segment == 0)
+      scene.label(said, x, Anchor::start, {11.0, 4.0});
+    else
+      scene.label(said, x, Anchor::middle, {0.0, k % 2 == 0 ? -12.0 : 22.0});
     out.curves.push_back(
         curve_of(name + " to the elbow, mm",
-                 {VectorXd::LinSpaced(distance.size(), 0.0, static_cast<double>(distance.size() - 1) / limb.markers.time.rate_hz),
+                 {VectorXd::LinSpaced(distance.size(), 0.0,
+                                      static_cast<double>(distance.size() - 1) / limb.markers.time.rate_hz),
                   distance}));
     ++k;
   }
   scene.dot(kInk, arm.col(1), 6.5);
-  scene.label("elbow", arm.col(1), Anchor::end, {-12.0, 16.0});
+  scene.label("elbow", arm.col(1), Anchor::start, {12.0, 14.0});
   scene.label("shoulder", arm.col(0), Anchor::end, {-10.0, 4.0});
-  scene.label("wrist", arm.col(2), Anchor::start, {10.0, 14.0});
+  scene.label("wrist", arm.col(2), Anchor::end, {-10.0, 4.0});
   auto curves = std::move(out.curves);
-  out = figure_of(3, "distances from a joint to the markers of its segments, which stay in every posture", scene, 330.0);
+  out = figure_of(3, "distances from a joint to the markers of its segments, which stay in every posture",
+                  scene, 330.0);
   out.curves = std::move(curves);
   return out;
 }
@@ -215,7 +232,9 @@ Result<StudyFigure> stream(const LimbRecording& limb) {
   constexpr int kFactor = 4;
   const auto made = simulation::upsample(limb.markers, {.factor = kFactor});
   if (!made) return std::unexpected(made.error());
-  StudyFigure out{.paper = kMacaque, .number = 4, .name = "LEDs that are seen, and the stream between the cameras' samples"};
+  StudyFigure out{.paper = kMacaque,
+                  .number = 4,
+                  .name = "LEDs that are seen, and the stream between the cameras' samples"};
   const auto& seen = limb.markers;
   report::FigurePanel lanes{.x_label = "time, s", .y_label = "LED", .tight = true, .height = 190.0};
   for (std::int64_t m = 0; m < seen.markers(); ++m) {
@@ -224,7 +243,8 @@ Result<StudyFigure> stream(const LimbRecording& limb) {
       time[f] = seen.time.time_s(f);
       if (seen.present(f, m)) lane[f] = static_cast<double>(m + 1);
     }
-    lanes.lines.push_back({.colour = kSegmentInks[m < seen.markers() / 2 ? 0 : 1], .x = time, .y = lane, .width = 5.0});
+    lanes.lines.push_back(
+        {.colour = kSegmentInks[m < seen.markers() / 2 ? 0 : 1], .x = time, .y = lane, .width = 5.0});
   }
   // The LED and half second with the most samples but for a gap in the middle.
   constexpr std::int64_t kShown = 30;
@@ -240,7 +260,8 @@ Result<StudyFigure> stream(const LimbRecording& limb) {
       if (worth > best) best = worth, marker = m, first = f;
     }
   const auto& name = seen.names[static_cast<std::size_t>(marker)];
-  report::FigurePanel close{.x_label = "time, s", .y_label = fmt::format("{}, height, mm", name), .tight = true, .height = 150.0};
+  report::FigurePanel close{
+      .x_label = "time, s", .y_label = fmt::format("{}, height, mm", name), .tight = true, .height = 150.0};
   VectorXd time(kFactor * kShown + 1), z = VectorXd::Constant(kFactor * kShown + 1, std::nan(""));
   for (std::int64_t k = 0; k <= kFactor * kShown; ++k) {
     const auto f = kFactor * first + k;
@@ -257,7 +278,8 @@ Result<StudyFigure> stream(const LimbRecording& limb) {
                                .at = {seen.time.time_s(first + k), kMm * seen.x(first + k, marker).z()}});
   close.lines.push_back({.name = "stream, 240 Hz", .colour = kInk, .x = time, .y = z, .width = 1.0});
   out.figure.panels = {lanes, close};
-  const double share = 100.0 * (1.0 - static_cast<double>(seen.count_missing()) / static_cast<double>(seen.state.size()));
+  const double share =
+      100.0 * (1.0 - static_cast<double>(seen.count_missing()) / static_cast<double>(seen.state.size()));
   out.figure.notes = {fmt::format("{:.0f} % of the samples are seen.", share)};
   out.numbers = {{"samples a second of the stream", "Hz", 240.0, {}, made->time.rate_hz}};
   out.curves = {curve_of(name + ", time s, height mm", {time, z})};
@@ -287,16 +309,18 @@ Result<StudyFigure> recorded_arm(std::uint64_t seed) {
   const auto found = workflow::joints(recording, options);
   if (!found) return std::unexpected(found.error());
   auto picture = pipeline::limb_picture(found->used, found->skeleton, Vector3d::UnitZ());
-  StudyFigure out{.paper = kMacaque, .number = 7, .name = "the arm from its recorded markers, in some postures"};
+  StudyFigure out{
+      .paper = kMacaque, .number = 7, .name = "the arm from its recorded markers, in some postures"};
   out.figure = std::move(picture.figure);
   out.figure.title.clear();
   out.figure.notes.push_back(std::exchange(out.figure.caption, {}));
   const auto centres = workflow::centre_trajectories(found->skeleton);
   for (const auto f : picture.frames)
     for (std::int64_t c = 0; c < centres.markers(); ++c)
-      out.curves.push_back(curve_of(fmt::format("{} of frame {}, m", centres.names[static_cast<std::size_t>(c)],
-                                                found->skeleton.time.number(f)),
-                                    Matrix3Xd(centres.x(f, c))));
+      out.curves.push_back(
+          curve_of(fmt::format("{} of frame {}, m", centres.names[static_cast<std::size_t>(c)],
+                               found->skeleton.time.number(f)),
+                   Matrix3Xd(centres.x(f, c))));
   return out;
 }
 

@@ -16,8 +16,10 @@ TEST(RecordingFigures, AreNumberedAndShowTheirParts) {
   const auto figures = recording_figures(4);
   ASSERT_TRUE(figures) << figures.error().message;
   ASSERT_EQ(figures->size(), 4U);
-  const std::vector<std::vector<const char*>> parts{
-      {"camera 6", "sleeve"}, {">u0<", ">f7<", "shoulder"}, {" mm</text>", "elbow"}, {"LED", "240 Hz", "60 Hz"}};
+  const std::vector<std::vector<const char*>> parts{{"camera 6", "sleeve"},
+                                                    {">u0<", ">f7<", "shoulder"},
+                                                    {" mm</text>", "elbow"},
+                                                    {"LED", "240 Hz", "60 Hz"}};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ((*figures)[i].number, static_cast<int>(i + 1));
     const auto svg = report::figure_svg((*figures)[i].figure);
@@ -29,7 +31,8 @@ TEST(RecordingFigures, CamerasAreThoseThatSeeTheSleeve) {
   const auto figures = recording_figures(4).value();
   const auto room = simulation::sleeve_room();
   for (std::size_t c = 0; c < room.cameras.size(); ++c)
-    EXPECT_EQ(Eigen::Vector3d(figures[0].curves[0].points.row(static_cast<Eigen::Index>(c))), room.cameras[c]);
+    EXPECT_EQ(Eigen::Vector3d(figures[0].curves[0].points.row(static_cast<Eigen::Index>(c))),
+              room.cameras[c]);
 }
 
 TEST(RecordingFigures, DistancesFromTheElbowStay) {

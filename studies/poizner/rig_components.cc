@@ -22,6 +22,7 @@ using report::CanvasRoom;
 using Points = std::vector<Vector2d>;
 
 constexpr double kHeight = 372.0, kArm = 250.0;  // of the picture; width of the arm's part
+constexpr double kPosture_s = 0.2;               // of the sign
 const std::string kInk = "#1a1a1a", kLed = "#c0392b", kLight = "#d98880", kBody = "#9a9a9a";
 
 Matrix3Xd ring(const Vector3d& centre, const Vector3d& a, const Vector3d& b) {
@@ -41,9 +42,11 @@ struct Block {
 
 void draw_block(Canvas& canvas, const Block& block) {
   const auto& r = block.room;
-  canvas.area(Points{{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}}, "#f3f5f8", 1.0);
-  canvas.line(Points{{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}, {r.left, r.top}},
-              {.colour = kInk, .width = 1.2});
+  canvas.area(Points{{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}}, "#f3f5f8",
+              1.0);
+  canvas.line(
+      Points{{r.left, r.top}, {r.right, r.top}, {r.right, r.bottom}, {r.left, r.bottom}, {r.left, r.top}},
+      {.colour = kInk, .width = 1.2});
   constexpr double kLine = 14.0;
   double y = 0.5 * (r.top + r.bottom - kLine * static_cast<double>(block.words.size())) + 11.0;
   for (std::size_t i = 0; i < block.words.size(); ++i, y += kLine)
@@ -67,44 +70,55 @@ Words words_of(const simulation::PhysicalRig& rig, const data::Counts& counts) {
   constexpr double kMm = 1e3, kUs = 1e6;
   const auto& nominal = rig.nominal;
   const auto cameras = nominal.camera_count();
-  return {.camera = fmt::format("lens {:.0f} mm f/{:.3g}, at {:.0f} m", kMm * rig.light.focal_length_m,
+  return {.camera = fmt::format("{:.0f} mm f/{:.3g}, at {:.0f} m", kMm * rig.light.focal_length_m,
                                 rig.light.f_number, rig.light.distance_m),
-          .sheet = fmt::format("{} detector, {:.1f} mm", to_string(nominal.cameras.front().detector.kind),
+          .sheet = fmt::format("{}, {:.1f} mm", to_string(nominal.cameras.front().detector.kind),
                                2.0 * kMm * nominal.cameras.front().detector.half_side_m),
-          .amplifiers = fmt::format("{} channels, {:.0f} µs", 4 * cameras,
-                                    kUs * nominal.electronics.time_constant_s),
+          .amplifiers =
+              fmt::format("{} channels, {:.0f} µs", 4 * cameras, kUs * nominal.electronics.time_constant_s),
           .converter = fmt::format("{} bit, {:.0f} µs a channel", nominal.electronics.bits,
                                    kUs * nominal.timing.conversion_s),
           .frames = fmt::format("{:g} frames a second", counts.time.rate_hz),
           .leds = fmt::format("{} of {} LEDs in turn", counts.led_count(), simulation::kMostLeds)};
 }
 
+/// Two columns: the cameras with the LEDs' control, and what becomes of their signals.
 void draw_blocks(Canvas& canvas, const CanvasRoom& room, const Words& words,
-                 const std::vector<std::string>& cameras, const Vector2d& leds) {
-  const double left = room.left + kArm + 24.0, right = room.right - 4.0, middle = 0.5 * (left + right),
-               top = room.top + 4.0;
-  const auto at = [&](double from, double to, double y, double height) {
-    return CanvasRoom{.left = from, .right = to, .top = y, .bottom = y + height};
+                 const std::vector<std::string>& cameras, const Vector2d& hand, double below_arm) {
+  const double left = room.left + kArm + 20.0, right = room.right - 4.0, gap = 34.0,
+               width = 0.5 * (right - left - gap), second = left + width + gap, top = room.top + 6.0;
+  const auto block = [&](double x, double y, double height, std::vector<std::string> text) {
+    draw_block(canvas, {{.left = x, .right = x + width, .top = top + y, .bottom = top + y + height},
+                        std::move(text)});
   };
-  const double gap = 10.0, half = middle - 0.5 * gap;
-  draw_block(canvas, {at(left, half, top, 64.0), {fmt::format("Camera {}", cameras[0]), words.camera, words.sheet}});
-  draw_block(canvas,
-             {at(half + gap, right, top, 64.0), {fmt::format("Camera {}", cameras[1]), words.camera, words.sheet}});
-  draw_block(canvas, {at(left + 60.0, right - 60.0, top + 90.0, 44.0), {"Amplifiers", words.amplifiers}});
-  draw_block(canvas, {at(left + 60.0, right - 60.0, top + 158.0, 44.0), {"Multiplexer, A/D converter", words.converter}});
-  draw_block(canvas, {at(left + 60.0, right - 60.0, top + 226.0, 44.0), {"Computer", words.frames}});
-  draw_block(canvas, {at(left, half, top + 308.0, 44.0), {"LED control", words.leds}});
-  draw_block(canvas, {at(half + gap, right, top + 308.0, 44.0), {"Disk, 3-D graphics", "paths and measures"}});
-  for (const double x : {middle - 40.0, middle + 40.0}) draw_arrow(canvas, {{x, top + 64.0}, {x, top + 90.0}});
-  draw_arrow(canvas, {{middle, top + 134.0}, {middle, top + 158.0}});
-  draw_arrow(canvas, {{middle, top + 202.0}, {middle, top + 226.0}});
-  draw_arrow(canvas, {{middle - 60.0, top + 270.0}, {middle - 60.0, top + 308.0}});
-  draw_arrow(canvas, {{middle + 60.0, top + 270.0}, {middle + 60.0, top + 308.0}});
-  draw_arrow(canvas, {{left, top + 330.0}, {leds.x(), top + 330.0}, {leds.x(), leds.y()}});
-  canvas.text({left - 12.0, top + 346.0}, "cable to the LEDs", {.size = 11.0, .anchor = Anchor::end, .colour = kInk});
-  canvas.line(Points{{left - 92.0, top + 118.0}, {left, top + 42.0}}, {.colour = kLight, .width = 1.2, .dashed = true});
-  canvas.line(Points{{left - 92.0, top + 118.0}, {half + gap + 8.0, top + 64.0}},
-              {.colour = kLight, .width = 1.2, .dashed = true});
+  block(left, 0.0, 70.0, {fmt::format("Camera {}", cameras[0]), words.camera, words.sheet});
+  block(left, 100.0, 70.0, {fmt::format("Camera {}", cameras[1]), words.camera, words.sheet});
+  block(left, 280.0, 60.0, {"LED control", words.leds});
+  block(second, 50.0, 70.0, {"Amplifiers", words.amplifiers});
+  block(second, 150.0, 60.0, {"Multiplexer, A/D", words.converter});
+  block(second, 240.0, 50.0, {"Computer", words.frames});
+  block(second, 320.0, 46.0, {"Disk, 3-D graphics"});
+  const double middle = second + 0.5 * width, edge = left + width;
+  draw_arrow(canvas, {{edge, top + 35.0},
+                      {edge + 0.5 * gap, top + 35.0},
+                      {edge + 0.5 * gap, top + 70.0},
+                      {second, top + 70.0}});
+  draw_arrow(canvas, {{edge, top + 135.0},
+                      {edge + 0.5 * gap, top + 135.0},
+                      {edge + 0.5 * gap, top + 100.0},
+                      {second, top + 100.0}});
+  draw_arrow(canvas, {{middle, top + 120.0}, {middle, top + 150.0}});
+  draw_arrow(canvas, {{middle, top + 210.0}, {middle, top + 240.0}});
+  draw_arrow(canvas, {{middle, top + 290.0}, {middle, top + 320.0}});
+  draw_arrow(canvas,
+             {{second, top + 265.0}, {left + 0.5 * width, top + 265.0}, {left + 0.5 * width, top + 280.0}});
+  draw_arrow(
+      canvas,
+      {{left, top + 322.0}, {room.left + 0.45 * kArm, top + 322.0}, {room.left + 0.45 * kArm, below_arm}});
+  canvas.text({left - 14.0, top + 338.0}, "wires to the LEDs",
+              {.size = 11.0, .anchor = Anchor::end, .colour = kInk});
+  for (const double y : {35.0, 135.0})
+    canvas.line(Points{hand, {left, top + y}}, {.colour = kLight, .width = 1.2, .dashed = true});
 }
 
 }  // namespace
@@ -137,23 +151,28 @@ StudyFigure rig_components(const simulation::PhysicalRig& rig, const simulation:
                            const data::Counts& counts) {
   const auto leds = static_cast<int>(scene.leds.size());
   Matrix3Xd arm(3, leds);
-  for (int led = 0; led < leds; ++led) arm.col(led) = scene.led(led, 0.0).x_in_world;
+  for (int led = 0; led < leds; ++led) arm.col(led) = scene.led(led, kPosture_s).x_in_world;
   report::SpaceDrawing drawn(-25.0, 8.0);
   draw_signer(drawn, arm.col(0));
   drawn.line(upright(arm), {.colour = kInk, .width = 4.0});
   for (int led = 0; led < leds; ++led) {
     const Vector3d at = upright(arm).col(led);
     drawn.dot(kLed, at, 6.0);
-    drawn.label(fmt::format("{} {}", led + 1, scene.leds[static_cast<std::size_t>(led)]), at, Anchor::start,
-                {9.0, led == 3 ? -7.0 : 12.0});
+    // Shoulder and hand to the left, out of the light's way.
+    const bool beside = led == 0 || led == 3;
+    drawn.label(fmt::format("{} {}", led + 1, scene.leds[static_cast<std::size_t>(led)]), at,
+                beside ? Anchor::end : Anchor::start, {beside ? -6.0 : 9.0, beside ? -10.0 : 18.0});
   }
-  StudyFigure out{.paper = kPoizner, .number = 1, .name = "components of the system, and the LEDs on the arm"};
+  StudyFigure out{
+      .paper = kPoizner, .number = 1, .name = "components of the system, and the LEDs on the arm"};
   report::FigurePanel panel;
   panel.height = kHeight;
-  panel.picture = [drawn, words = words_of(rig, counts), cameras = counts.cameras](Canvas& canvas,
-                                                                                const CanvasRoom& room) {
-    drawn.draw(canvas, {.left = room.left - 10.0, .right = room.left + kArm, .top = room.top, .bottom = room.bottom - 60.0});
-    draw_blocks(canvas, room, words, cameras, {room.left + 0.45 * kArm, room.bottom - 72.0});
+  panel.picture = [drawn, words = words_of(rig, counts), cameras = counts.cameras,
+                   hand = Vector3d(upright(arm).rightCols<1>())](Canvas& canvas, const CanvasRoom& room) {
+    const CanvasRoom of_arm{
+        .left = room.left - 10.0, .right = room.left + kArm, .top = room.top, .bottom = room.bottom - 60.0};
+    drawn.draw(canvas, of_arm);
+    draw_blocks(canvas, room, words, cameras, drawn.place(hand, of_arm), of_arm.bottom - 14.0);
   };
   out.figure.panels.push_back(std::move(panel));
   out.numbers = {{"LEDs that it can drive", "1", 8.0, {}, static_cast<double>(simulation::kMostLeds)},

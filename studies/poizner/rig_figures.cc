@@ -26,7 +26,8 @@ StudyFigure figure_of(int number, std::string name, TimingDiagram diagram) {
   StudyFigure out{.paper = kPoizner, .number = number, .name = std::move(name)};
   report::FigurePanel panel;
   panel.height = height_of(diagram);
-  for (const auto& trace : diagram.traces) out.curves.push_back(curve_of(trace.name, {trace.time, trace.level}));
+  for (const auto& trace : diagram.traces)
+    out.curves.push_back(curve_of(trace.name, {trace.time, trace.level}));
   panel.picture = [diagram = std::move(diagram)](report::Canvas& canvas, const report::CanvasRoom& room) {
     draw(diagram, canvas, room);
   };
@@ -39,7 +40,8 @@ TimingTrace trace_of(std::string name, const Pulses& pulses, double scale, doubl
   return {.name = std::move(name), .time = scale * train.time, .level = train.level};
 }
 
-/// Figure 2: the frame's clock, every LED's pulse and the conversions, one frame and the beginning of the next.
+/// Figure 2: the frame's clock, every LED's pulse and the conversions, one frame and the beginning of the
+/// next.
 StudyFigure control_signals(const data::Counts& counts, const std::vector<LedSlot>& slots,
                             const data::SlotTiming& timing) {
   const double period = 1.0 / counts.time.rate_hz, end = period + 0.25 * slots.back().off_s;
@@ -57,7 +59,8 @@ StudyFigure control_signals(const data::Counts& counts, const std::vector<LedSlo
     Pulses lit;
     for (int frame = 0; frame < 2; ++frame)
       lit.emplace_back(frame * period + slots[led].on_s, frame * period + slots[led].off_s);
-    diagram.traces.push_back(trace_of(fmt::format("LED {}, {}", led + 1, slots[led].led), lit, kMs, 0.0, end));
+    diagram.traces.push_back(
+        trace_of(fmt::format("LED {}, {}", led + 1, slots[led].led), lit, kMs, 0.0, end));
   }
   diagram.traces.push_back(trace_of("A/D conversions", conversions, kMs, 0.0, end));
   diagram.traces.back().width = 0.8;
@@ -88,7 +91,8 @@ StudyFigure slot_timing(const LedSlot& slot, const data::SlotTiming& timing, dou
       const double at = slot.conversion_s[c * channels + k];
       pulses.emplace_back(at, at + 0.5 * timing.conversion_s);
     }
-    diagram.traces.push_back(trace_of(fmt::format("A/D, camera {}", cameras[c]), pulses, kUs, slot.on_s, end));
+    diagram.traces.push_back(
+        trace_of(fmt::format("A/D, camera {}", cameras[c]), pulses, kUs, slot.on_s, end));
   }
   const double first = slot.conversion_s.front();
   diagram.spans = {

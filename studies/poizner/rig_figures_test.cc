@@ -68,13 +68,15 @@ TEST(RigFigures, DrawTheScheduleInMilliseconds) {
 TEST(RigFigures, ThePicturesNameTheirParts) {
   const auto figures = rig_figures(1).value();
   const auto components = report::figure_svg(figures[0].figure);
-  for (const char* part : {"Camera A", "Camera B", "Amplifiers", "A/D converter", "LED control", "4 hand", "1 shoulder"})
+  for (const char* part :
+       {"Camera A", "Camera B", "Amplifiers", "Multiplexer, A/D", "LED control", "4 hand", "1 shoulder"})
     EXPECT_THAT(components, HasSubstr(part));
   const auto control = report::figure_svg(figures[1].figure);
   for (const char* part : {"frame clock", "LED 4, hand", "A/D conversions", "slot 904"})
     EXPECT_THAT(control, HasSubstr(part));
   const auto slot = report::figure_svg(figures[2].figure);
-  for (const char* part : {"settle 320", "8 conversions, 48", "off 200", "amplifier"}) EXPECT_THAT(slot, HasSubstr(part));
+  for (const char* part : {"settle 320", "8 conversions, 48", "off 200", "amplifier"})
+    EXPECT_THAT(slot, HasSubstr(part));
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ PulseTrain pulse_train(const std::vector<std::pair<double, double>>& pulses, dou
   time.push_back(end);
   level.push_back(level.back());
   const auto n = static_cast<Eigen::Index>(time.size());
-  return {Eigen::Map<const Eigen::VectorXd>(time.data(), n), Eigen::Map<const Eigen::VectorXd>(level.data(), n)};
+  return {Eigen::Map<const Eigen::VectorXd>(time.data(), n),
+          Eigen::Map<const Eigen::VectorXd>(level.data(), n)};
 }
 
 }  // namespace kinemark::studies

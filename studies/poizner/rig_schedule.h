@@ -23,8 +23,8 @@ struct LedSlot {
 /// conversion, until its last one has ended. Contract: the counts have cameras.
 [[nodiscard]] std::vector<LedSlot> schedule_of(const data::Counts& counts, const data::SlotTiming& timing);
 
-/// A signal that is high (1) between pairs of instants and low (0) elsewhere, from `begin` to `end`: the corners
-/// of its trace. Instants outside are left out.
+/// A signal that is high (1) between pairs of instants and low (0) elsewhere, from `begin` to `end`: the
+/// corners of its trace. Instants outside are left out.
 struct PulseTrain {
   Eigen::VectorXd time, level;
 };

@@ -19,7 +19,8 @@ using report::Anchor;
 using report::Canvas;
 using report::CanvasRoom;
 
-constexpr Eigen::Index kFirst = 20, kRound = 72;  // frames of one round of the sign before its first occlusion
+constexpr Eigen::Index kFirst = 20,
+                       kRound = 72;  // frames of one round of the sign before its first occlusion
 constexpr std::array<const char*, 4> kLedInks{"#7a7a7a", "#009e73", "#d55e00", "#0072b2"};
 const std::string kInk = "#1a1a1a", kPast = "#b0b0b0";
 
@@ -32,7 +33,8 @@ Matrix3Xd arm_at(const ArmOutcome& arm, Eigen::Index frame) {
 }
 
 /// An arrow head along a path at a frame, in the plane that is seen.
-void draw_heads(report::SpaceDrawing& scene, const Matrix3Xd& path, std::initializer_list<Eigen::Index> frames) {
+void draw_heads(report::SpaceDrawing& scene, const Matrix3Xd& path,
+                std::initializer_list<Eigen::Index> frames) {
   constexpr double kHead = 0.022;
   for (const auto f : frames) {
     const Vector3d d = (path.col(f + 1) - path.col(f - 1)).normalized(),
@@ -71,17 +73,20 @@ report::SpaceDrawing paths_in_space(const ArmOutcome& arm) {
   for (std::size_t led = 0; led < arm.our_paths.size(); ++led) {
     const Matrix3Xd path = upright(arm.our_paths[led].position);
     scene.line(path, {.colour = kLedInks[led % kLedInks.size()], .width = 1.3});
-    scene.label(arm.leds[led].name, path.rowwise().mean(), Anchor::start, {16.0, led + 1 == arm.our_paths.size() ? -30.0 : 4.0});
+    scene.label(arm.leds[led].name, path.rowwise().mean(), Anchor::start,
+                {16.0, led + 1 == arm.our_paths.size() ? -30.0 : 4.0});
   }
   scene.axes(low - Vector3d::Constant(0.03), 0.1, {"Z", "X", "Y"});
   return scene;
 }
 
-report::FigurePanel curve_panel(const char* y_label, const char* x_label, const VectorXd& time, const VectorXd& ours,
-                                const VectorXd& classic) {
-  report::FigurePanel out{.x_label = x_label, .y_label = y_label, .tight = true, .zero = true, .height = 120.0};
+report::FigurePanel curve_panel(const char* y_label, const char* x_label, const VectorXd& time,
+                                const VectorXd& ours, const VectorXd& classic) {
+  report::FigurePanel out{
+      .x_label = x_label, .y_label = y_label, .tight = true, .zero = true, .height = 140.0};
   const bool named = x_label[0] == '\0';
-  out.lines.push_back({.name = named ? "1986 method" : "", .colour = kClassicInk, .x = time, .y = classic, .width = 1.0});
+  out.lines.push_back(
+      {.name = named ? "1986 method" : "", .colour = kClassicInk, .x = time, .y = classic, .width = 1.0});
   out.lines.push_back({.name = named ? "ours" : "", .colour = kInk, .x = time, .y = ours, .width = 1.6});
   return out;
 }
@@ -107,16 +112,18 @@ StudyFigure sign_figure(const ArmOutcome& arm) {
   StudyFigure out{
       .paper = kPoizner,
       .number = 6,
-      .name = "the sign LOOK-AT[Continuative]: (A) line drawing, (B) paths of the LEDs, axes 100 mm, (C) hand"};
+      .name =
+          "the sign LOOK-AT[Continuative]: (A) line drawing, (B) paths of the LEDs, axes 100 mm, (C) hand"};
   report::FigurePanel drawings;
   drawings.height = 300.0;
-  drawings.picture = [a = line_drawing(arm), b = paths_in_space(arm)](Canvas& canvas, const CanvasRoom& room) {
+  drawings.picture = [a = line_drawing(arm), b = paths_in_space(arm)](Canvas& canvas,
+                                                                      const CanvasRoom& room) {
     const double middle = 0.46 * room.left + 0.54 * room.right - 40.0;
     a.draw(canvas, {.left = room.left, .right = middle, .top = room.top, .bottom = room.bottom});
     b.draw(canvas, {.left = middle, .right = room.right, .top = room.top, .bottom = room.bottom});
     for (const auto& [x, name] : {std::pair{room.left + 6.0, "A"}, std::pair{middle + 6.0, "B"}})
       canvas.text({x, room.top + 6.0}, name, {.size = 16.0, .colour = kInk, .bold = true});
-    canvas.text({room.left + 6.0, room.bottom + 34.0}, "C", {.size = 16.0, .colour = kInk, .bold = true});
+    canvas.text({room.left + 6.0, room.bottom + 24.0}, "C", {.size = 16.0, .colour = kInk, .bold = true});
   };
   out.figure.panels.push_back(std::move(drawings));
   const std::size_t hand = arm.our_paths.size() - 1;
@@ -128,12 +135,14 @@ StudyFigure sign_figure(const ArmOutcome& arm) {
              classic = tangential_motion(old_velocity, rates(old_velocity));
   out.figure.panels.push_back(curve_panel("tangential velocity, m/s", "", time, ours.speed, classic.speed));
   out.figure.panels.push_back(
-      curve_panel("acceleration, m/s²", "time, s", time, ours.acceleration, classic.acceleration));
+      curve_panel("tangential acc., m/s²", "time, s", time, ours.acceleration, classic.acceleration));
   const Eigen::Index ends = 10;  // as the table leaves them out
-  const VectorXd inner = ours.speed.segment(ends, n - 2 * ends), old = classic.speed.segment(ends, n - 2 * ends);
+  const VectorXd inner = ours.speed.segment(ends, n - 2 * ends),
+                 old = classic.speed.segment(ends, n - 2 * ends);
   constexpr double kPaperFastest = 2.7, kPaperSlowest = 0.5;
-  out.numbers = {{"largest tangential velocity of the hand", "m/s", kPaperFastest, old.maxCoeff(), inner.maxCoeff()},
-                 {"smallest tangential velocity of the hand", "m/s", kPaperSlowest, old.minCoeff(), inner.minCoeff()}};
+  out.numbers = {
+      {"largest tangential velocity of the hand", "m/s", kPaperFastest, old.maxCoeff(), inner.maxCoeff()},
+      {"smallest tangential velocity of the hand", "m/s", kPaperSlowest, old.minCoeff(), inner.minCoeff()}};
   for (std::size_t led = 0; led < arm.our_paths.size(); ++led)
     out.curves.push_back(curve_of(arm.leds[led].name + ", m", arm.our_paths[led].position));
   out.curves.push_back(curve_of("velocity of the hand, m/s", path.velocity));

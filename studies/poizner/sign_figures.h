@@ -16,8 +16,9 @@ struct TangentialMotion {
 [[nodiscard]] TangentialMotion tangential_motion(const Eigen::Matrix3Xd& velocity,
                                                  const Eigen::Matrix3Xd& acceleration);
 
-/// Figure 6 of Poizner, Wooten & Salot (1986): the sign LOOK-AT[Continuative] as a line drawing (A), the paths of
-/// its LEDs in space (B), and tangential velocity and acceleration of the hand (C), as reconstructed.
+/// Figure 6 of Poizner, Wooten & Salot (1986): the sign LOOK-AT[Continuative] as a line drawing (A), the
+/// paths of its LEDs in space (B), and tangential velocity and acceleration of the hand (C), as
+/// reconstructed.
 [[nodiscard]] StudyFigure sign_figure(const ArmOutcome& arm);
 
 }  // namespace kinemark::studies

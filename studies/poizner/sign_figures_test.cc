@@ -19,7 +19,8 @@ struct Circle {
   Circle() {
     for (int f = 0; f < 120; ++f) {
       const double t = 0.01 * f, angle = t * t, r = 0.2;
-      const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0), along(-std::sin(angle), std::cos(angle), 0.0);
+      const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0),
+          along(-std::sin(angle), std::cos(angle), 0.0);
       x.col(f) = r * out;
       v.col(f) = 2.0 * r * t * along;
       a.col(f) = 2.0 * r * along - 4.0 * r * t * t * out;
@@ -44,7 +45,8 @@ TEST(SignFigure, HoldsDrawingPathsAndCurves) {
   for (const char* name : {"shoulder", "elbow", "wrist", "hand"}) {
     arm.leds.push_back({.name = name});
     AlignedPath path;
-    path.position = circle.x.colwise() + Eigen::Vector3d(0.1 * static_cast<double>(arm.leds.size()), 0.0, 0.0);
+    path.position =
+        circle.x.colwise() + Eigen::Vector3d(0.1 * static_cast<double>(arm.leds.size()), 0.0, 0.0);
     path.velocity = circle.v;
     path.acceleration = circle.a;
     arm.our_paths.push_back(path);
@@ -53,7 +55,8 @@ TEST(SignFigure, HoldsDrawingPathsAndCurves) {
   const auto figure = sign_figure(arm);
   EXPECT_EQ(figure.title(), "Poizner 1986, figure 6");
   const auto svg = report::figure_svg(figure.figure);
-  for (const char* part : {">A<", ">B<", ">C<", "tangential velocity, m/s", "1986 method"}) EXPECT_THAT(svg, HasSubstr(part));
+  for (const char* part : {">A<", ">B<", ">C<", "tangential velocity, m/s", "1986 method"})
+    EXPECT_THAT(svg, HasSubstr(part));
   const auto& drawn = figure.curves.back();
   EXPECT_EQ(drawn.name, "tangential acceleration");
   EXPECT_NEAR(drawn.points(60, 0), 0.6, 1e-12);

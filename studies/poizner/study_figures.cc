@@ -38,7 +38,8 @@ StudyFigure errors_by_distance(const std::vector<AsBuiltOutcome>& rigs) {
       at.push_back(1e3 * (from + 0.5 * kStep_m)), value.push_back(math::quantile(errors, share));
     }
     const auto n = static_cast<Eigen::Index>(at.size());
-    const VectorXd x = Eigen::Map<const VectorXd>(at.data(), n), y = Eigen::Map<const VectorXd>(value.data(), n);
+    const VectorXd x = Eigen::Map<const VectorXd>(at.data(), n),
+                   y = Eigen::Map<const VectorXd>(value.data(), n);
     panel.lines.push_back({.name = name, .colour = colour, .x = x, .y = y});
     out.curves.push_back(curve_of(name, {x, y}));
   };

@@ -7,8 +7,8 @@
 
 namespace kinemark::studies {
 
-/// The table, and the paper's figures 1 to 6 from the first rig; of rigs as built, errors of distances over the
-/// room. The study needs one seed or more.
+/// The table, and the paper's figures 1 to 6 from the first rig; of rigs as built, errors of distances over
+/// the room. The study needs one seed or more.
 [[nodiscard]] Result<StudyPage> study_page(const PoiznerStudy& study);
 
 }  // namespace kinemark::studies

@@ -25,8 +25,9 @@ std::vector<int> rows_of(const TimingDiagram& diagram, const report::PlotAxis& t
   std::vector<int> out;
   std::vector<double> filled;  // of each row, pixels
   for (const auto& span : diagram.spans) {
-    const double middle = 0.5 * (time.at(span.from) + time.at(span.to)), half = 0.5 * width_of(span.text) + 4.0,
-                 from = std::min(time.at(span.from), middle - half), to = std::max(time.at(span.to), middle + half);
+    const double middle = 0.5 * (time.at(span.from) + time.at(span.to)),
+                 half = 0.5 * width_of(span.text) + 4.0, from = std::min(time.at(span.from), middle - half),
+                 to = std::max(time.at(span.to), middle + half);
     std::size_t row = 0;
     while (row < filled.size() && filled[row] > from) ++row;
     if (row == filled.size()) filled.push_back(0.0);
@@ -43,7 +44,8 @@ void draw_span(const TimingSpan& span, const report::PlotAxis& time, double y, r
   if (b - a > 3.0 * kHead)
     for (const auto& [tip, back] : {std::pair{a, a + kHead}, std::pair{b, b - kHead}})
       canvas.area(Points{{tip, y}, {back, y - 2.5}, {back, y + 2.5}}, kInk, 1.0);
-  canvas.text({0.5 * (a + b), y + 13.0}, span.text, {.size = 11.0, .anchor = Anchor::middle, .colour = kInk, .halo = true});
+  canvas.text({0.5 * (a + b), y + 13.0}, span.text,
+              {.size = 11.0, .anchor = Anchor::middle, .colour = kInk, .halo = true});
 }
 
 report::PlotAxis axis_of(const TimingDiagram& diagram, double left, double right) {
@@ -56,7 +58,8 @@ double height_of(const TimingDiagram& diagram) {
   constexpr double kUsual = 624.0;  // of a figure of 640 pixels
   const auto rows = rows_of(diagram, axis_of(diagram, 0.0, kUsual));
   const int spans = rows.empty() ? 0 : std::ranges::max(rows) + 1;
-  return kRow * static_cast<double>(diagram.traces.size()) + kSpanRow * spans + (spans > 0 ? 12.0 : 0.0) + kAxis;
+  return kRow * static_cast<double>(diagram.traces.size()) + kSpanRow * spans + (spans > 0 ? 12.0 : 0.0) +
+         kAxis;
 }
 
 void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::CanvasRoom& room) {
@@ -71,7 +74,8 @@ void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::Ca
   for (std::size_t i = 0; i < diagram.traces.size(); ++i) {
     const auto& trace = diagram.traces[i];
     const double low = room.top + kRow * static_cast<double>(i + 1) - 6.0;
-    canvas.text({time.from - 12.0, low - 7.0}, trace.name, {.size = 12.0, .anchor = Anchor::end, .colour = kInk});
+    canvas.text({time.from - 12.0, low - 7.0}, trace.name,
+                {.size = 12.0, .anchor = Anchor::end, .colour = kInk});
     Points points;
     for (Eigen::Index k = 0; k < trace.time.size(); ++k)
       points.emplace_back(time.at(trace.time[k]), low - kHigh * trace.level[k]);
@@ -83,7 +87,8 @@ void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::Ca
   canvas.line(Points{{time.from, y}, {time.to, y}}, {.colour = kThin, .width = 1.0});
   for (const double v : time.ticks()) {
     canvas.line(Points{{time.at(v), y}, {time.at(v), y + 4.0}}, {.colour = kThin, .width = 1.0});
-    canvas.text({time.at(v), y + 16.0}, fmt::format("{:g}", v), {.size = 11.0, .anchor = Anchor::middle, .colour = kInk});
+    canvas.text({time.at(v), y + 16.0}, fmt::format("{:g}", v),
+                {.size = 11.0, .anchor = Anchor::middle, .colour = kInk});
   }
   canvas.text({0.5 * (time.from + time.to), y + 32.0}, diagram.time_label,
               {.size = 12.0, .anchor = Anchor::middle, .colour = kInk});

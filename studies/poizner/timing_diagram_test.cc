@@ -12,7 +12,8 @@ using ::testing::HasSubstr;
 
 TimingDiagram diagram() {
   TimingDiagram out{.time_label = "time, ms", .end = 10.0, .traces = {}, .spans = {{0.0, 2.0, "short"}}};
-  out.traces.push_back({.name = "LED", .time = Eigen::Vector4d(0, 5, 5, 10), .level = Eigen::Vector4d(0, 0, 1, 1)});
+  out.traces.push_back(
+      {.name = "LED", .time = Eigen::Vector4d(0, 5, 5, 10), .level = Eigen::Vector4d(0, 0, 1, 1)});
   return out;
 }
 

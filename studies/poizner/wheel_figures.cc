@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 
@@ -42,19 +43,26 @@ StudyFigure displacement(const WheelOutcome& wheel) {
     out.curves.push_back(curve_of(kNames[static_cast<std::size_t>(axis)], {time, mm}));
   }
   constexpr double kDiameter_mm = 392.0;
-  out.numbers = {{"diameter of the wheel", "mm", kDiameter_mm, kDiameter_mm + kMm * wheel.classic.circle_error_m,
+  out.numbers = {{"diameter of the wheel", "mm", kDiameter_mm,
+                  kDiameter_mm + kMm * wheel.classic.circle_error_m,
                   kDiameter_mm + kMm * wheel.ours.circle_error_m}};
   return out;
 }
 
-/// Corners of the rectangle about the path in its plane, back to the first.
+/// Corners of the rectangle about the path in its plane, two sides level, back to the first.
 Matrix3Xd plane_of(const Matrix3Xd& path, const PlaneView& view) {
-  const Eigen::Vector2d low = view.in_plane.rowwise().minCoeff(), high = view.in_plane.rowwise().maxCoeff();
+  const Vector3d across = view.axes.col(2), level = Vector3d::UnitY().cross(across).normalized();
+  const Matrix3Xd centred = path.colwise() - view.centre;
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << level, across.cross(level);
+  const Eigen::Matrix2Xd flat = axes.transpose() * centred;
+  const Eigen::Vector2d low = flat.rowwise().minCoeff(), high = flat.rowwise().maxCoeff();
   Matrix3Xd out(3, 5);
   int corner = 0;
-  for (const auto& [a, b] : {std::pair{low.x(), low.y()}, std::pair{high.x(), low.y()}, std::pair{high.x(), high.y()},
-                             std::pair{low.x(), high.y()}, std::pair{low.x(), low.y()}})
-    out.col(corner++) = path.rowwise().mean() + a * view.axes.col(0) + b * view.axes.col(1);
+  for (const auto& [a, b] :
+       {std::pair{low.x(), low.y()}, std::pair{high.x(), low.y()}, std::pair{high.x(), high.y()},
+        std::pair{low.x(), high.y()}, std::pair{low.x(), low.y()}})
+    out.col(corner++) = view.centre + axes * Eigen::Vector2d(a, b);
   return out;
 }
 
@@ -67,7 +75,7 @@ void write_summary(Canvas& canvas, const CanvasRoom& room, const std::vector<Fig
     canvas.text({x, y}, text, {.size = 11.0, .anchor = anchor, .colour = kInk, .bold = bold});
   };
   word(names, "Best-fit plane", Anchor::start, true);
-  word(paper, "1986", Anchor::end, true);
+  word(paper, "paper", Anchor::end, true);
   word(ours, "here", Anchor::end, true);
   y += 8.0;
   canvas.line(std::vector<Eigen::Vector2d>{{names, y}, {room.right, y}}, {.colour = kInk, .width = 1.0});
@@ -81,15 +89,17 @@ void write_summary(Canvas& canvas, const CanvasRoom& room, const std::vector<Fig
     word(ours, fmt::format("{:.3f}", number.ours), Anchor::end);
   }
   y += 1.6 * kLine;
-  word(names, fmt::format("Box {:.0f} x {:.0f} x {:.0f} mm", box_mm.x(), box_mm.y(), box_mm.z()), Anchor::start);
+  word(names, fmt::format("Box {:.0f} x {:.0f} x {:.0f} mm", box_mm.x(), box_mm.y(), box_mm.z()),
+       Anchor::start);
   y += 16.0;
   word(names, "Axes 100 mm", Anchor::start);
 }
 
 StudyFigure in_space(const PoiznerStudy& study) {
   const auto& wheel = study.seeds.front().wheels.front();
-  StudyFigure out{
-      .paper = kPoizner, .number = 5, .name = "path of the turning wheel's LED in space, with the plane that fits best"};
+  StudyFigure out{.paper = kPoizner,
+                  .number = 5,
+                  .name = "path of the turning wheel's LED in space, with the plane that fits best"};
   const auto quantity = [](const char* what) { return fmt::format("{}: {}", wheel_name(0), what); };
   const std::array<std::string, 5> names{
       quantity("median error of the diameter"), quantity("scatter of the diameter"),
@@ -106,16 +116,22 @@ StudyFigure in_space(const PoiznerStudy& study) {
   scene.axes(low - Vector3d::Constant(0.03), 0.1, {"Z", "X", "Y"});
   report::FigurePanel panel;
   panel.height = 340.0;
-  panel.picture = [scene, numbers = out.numbers, box = Vector3d(kMm * (path.rowwise().maxCoeff() - path.rowwise().minCoeff()))](
+  panel.picture = [scene, numbers = out.numbers,
+                   box = Vector3d(kMm * (path.rowwise().maxCoeff() - path.rowwise().minCoeff()))](
                       Canvas& canvas, const CanvasRoom& room) {
-    constexpr double kTable = 268.0;
-    scene.draw(canvas, {.left = room.left, .right = room.right - kTable, .top = room.top, .bottom = room.bottom});
-    write_summary(canvas, {.left = room.right - kTable + 6.0, .right = room.right, .top = room.top, .bottom = room.bottom},
-                  numbers, box);
+    constexpr double kTable = 292.0;
+    scene.draw(canvas,
+               {.left = room.left, .right = room.right - kTable, .top = room.top, .bottom = room.bottom});
+    write_summary(
+        canvas,
+        {.left = room.right - kTable + 6.0, .right = room.right, .top = room.top, .bottom = room.bottom},
+        numbers, box);
   };
   out.figure.panels.push_back(std::move(panel));
   out.curves.push_back(curve_of("path, m", path));
-  out.curves.push_back(curve_of("box, m", Matrix3Xd((Matrix3Xd(3, 2) << path.rowwise().minCoeff(), path.rowwise().maxCoeff()).finished())));
+  out.curves.push_back(curve_of(
+      "box, m",
+      Matrix3Xd((Matrix3Xd(3, 2) << path.rowwise().minCoeff(), path.rowwise().maxCoeff()).finished())));
   return out;
 }
 

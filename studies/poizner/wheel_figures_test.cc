@@ -17,14 +17,17 @@ PoiznerStudy wheel_of_one_metre() {
   PoiznerSeed seed;
   WheelOutcome wheel;
   wheel.our_path.resize(3, 200);
-  for (int f = 0; f < 200; ++f) wheel.our_path.col(f) << 0.5 * std::cos(0.1 * f), 0.5 * std::sin(0.1 * f), 0.1 * std::cos(0.1 * f);
+  for (int f = 0; f < 200; ++f)
+    wheel.our_path.col(f) << 0.5 * std::cos(0.1 * f), 0.5 * std::sin(0.1 * f), 0.1 * std::cos(0.1 * f);
   wheel.ours.circle_error_m = 0.001;
   seed.wheels.push_back(wheel);
   PoiznerStudy study;
   study.seeds.push_back(seed);
-  for (const char* what : {"median error of the diameter", "scatter of the diameter", "largest error of the diameter",
-                           "scatter across the plane", "ratio of the axes, by spread over all samples"})
-    study.table.rows.push_back({.quantity = fmt::format("{}: {}", wheel_name(0), what), .unit = "mm", .paper = 0.7, .ours = 0.125});
+  for (const char* what :
+       {"median error of the diameter", "scatter of the diameter", "largest error of the diameter",
+        "scatter across the plane", "ratio of the axes, by spread over all samples"})
+    study.table.rows.push_back(
+        {.quantity = fmt::format("{}: {}", wheel_name(0), what), .unit = "mm", .paper = 0.7, .ours = 0.125});
   return study;
 }
 
@@ -48,7 +51,8 @@ TEST(WheelFigures, TheBoxHoldsThePathAndTheSummaryTheRowsOfTheTable) {
   EXPECT_NEAR(box(1, 0) - box(0, 0), 1.0, 1e-3);
   EXPECT_NEAR(box(1, 2) - box(0, 2), 0.2, 1e-3);
   const auto svg = report::figure_svg(five.figure);
-  for (const char* part : {"Box 1000 x 1000 x 200 mm", "Axes 100 mm", "Best-fit plane", ">0.125<", ">0.7<", "scatter of the diameter"})
+  for (const char* part : {"Box 1000 x 1000 x 200 mm", "Axes 100 mm", "Best-fit plane", ">0.125<", ">0.7<",
+                           "scatter of the diameter"})
     EXPECT_THAT(svg, HasSubstr(part));
 }
 

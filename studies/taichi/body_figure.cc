@@ -22,10 +22,11 @@ using Eigen::Vector3d;
 constexpr double kAzimuth_deg = 32.0, kApart_m = 1.15;  // where the viewer stands; postures beside each other
 const std::string kBone = "#8c8c8c", kInk = "#1a1a1a", kLight = "#9ec3e6", kTrail = "#bdbdbd";
 
-constexpr std::array<std::array<const char*, 5>, 4> kLimbs{{{"Neck", "RShoulder", "RElbow", "RWrist", "RHand"},
-                                                            {"Neck", "LShoulder", "LElbow", "LWrist", "LHand"},
-                                                            {"Pelvis", "RHip", "RKnee", "RAnkle", "RFoot"},
-                                                            {"Pelvis", "LHip", "LKnee", "LAnkle", "LFoot"}}};
+constexpr std::array<std::array<const char*, 5>, 4> kLimbs{
+    {{"Neck", "RShoulder", "RElbow", "RWrist", "RHand"},
+     {"Neck", "LShoulder", "LElbow", "LWrist", "LHand"},
+     {"Pelvis", "RHip", "RKnee", "RAnkle", "RFoot"},
+     {"Pelvis", "LHip", "LKnee", "LAnkle", "LFoot"}}};
 
 /// Forward, left, up of x forward, y up, z right.
 Vector3d upright(const Vector3d& x) { return {x.x(), -x.z(), x.y()}; }
@@ -36,7 +37,8 @@ Vector3d place(const Trajectories& body, std::int64_t frame, std::string_view la
   return upright(body.x(frame, m));
 }
 
-void draw_body(report::SpaceDrawing& scene, const Trajectories& body, std::int64_t frame, const Vector3d& shift) {
+void draw_body(report::SpaceDrawing& scene, const Trajectories& body, std::int64_t frame,
+               const Vector3d& shift) {
   const auto at = [&](const char* landmark) -> Vector3d { return place(body, frame, landmark) + shift; };
   const report::SpaceLine bone{.colour = kBone, .width = 4.0, .shadow = true};
   for (const auto& limb : kLimbs) {
@@ -87,8 +89,11 @@ StudyFigure controlled_body(const TaiChiDrawing& drawing) {
   report::SpaceDrawing scene(kAzimuth_deg, 12.0);
   scene.floor(-0.02);
   const auto half = static_cast<std::int64_t>(std::llround(0.5 * body.time.rate_hz));
-  StudyFigure out{.paper = kDemircan, .number = 1,
-                  .name = "the controlled body: first subset dark (right shoulder, left wrist), second light (left elbow, right wrist)"};
+  StudyFigure out{.paper = kDemircan,
+                  .number = 1,
+                  .name =
+                      "the controlled body: first subset dark (right shoulder, left wrist), second light "
+                      "(left elbow, right wrist)"};
   const auto subsets = paper_set().levels;
   int posture = 0;
   for (const double share : {0.12, 0.5, 0.82}) {
@@ -98,7 +103,8 @@ StudyFigure controlled_body(const TaiChiDrawing& drawing) {
     draw_body(scene, body, frame, shift);
     for (std::size_t level = 0; level < subsets.size(); ++level)
       for (const auto& landmark : subsets[level]) {
-        const auto from = std::max<std::int64_t>(0, frame - half), to = std::min(body.frames() - 1, frame + half);
+        const auto from = std::max<std::int64_t>(0, frame - half),
+                   to = std::min(body.frames() - 1, frame + half);
         Matrix3Xd trail(3, to - from + 1);
         for (std::int64_t f = from; f <= to; ++f) trail.col(f - from) = place(body, f, landmark) + shift;
         scene.line(trail, {.colour = kTrail, .width = 1.0});
@@ -113,10 +119,13 @@ StudyFigure controlled_body(const TaiChiDrawing& drawing) {
   }
   report::FigurePanel panel;
   panel.height = 360.0;
-  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) { scene.draw(canvas, room); };
+  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) {
+    scene.draw(canvas, room);
+  };
   out.figure.panels.push_back(std::move(panel));
-  out.numbers = {{"controlled landmarks, first subset", "1", 2.0, {}, static_cast<double>(subsets[0].size())},
-                 {"controlled landmarks, second subset", "1", 2.0, {}, static_cast<double>(subsets[1].size())}};
+  out.numbers = {
+      {"controlled landmarks, first subset", "1", 2.0, {}, static_cast<double>(subsets[0].size())},
+      {"controlled landmarks, second subset", "1", 2.0, {}, static_cast<double>(subsets[1].size())}};
   return out;
 }
 

@@ -302,7 +302,8 @@ TEST(TaiChiPage, DrawsEveryFigureAndTheTable) {
              smallest = curve("smallest joint error, all 21 landmarks, deg");
   const auto elbow = drawing.whole.motion.find("elbow_flex_r");
   for (std::int64_t f = 0; f < drawing.whole.motion.frames(); f += 10) {
-    const double error = kDegPerRad * std::abs(drawing.whole.goal_error[drawing.whole.motion.index(f, elbow)]);
+    const double error =
+        kDegPerRad * std::abs(drawing.whole.goal_error[drawing.whole.motion.index(f, elbow)]);
     EXPECT_LE(smallest(f, 1), largest(f, 1));
     if (!std::isfinite(error)) continue;
     EXPECT_LE(error, largest(f, 1) + 1e-12);

@@ -51,9 +51,10 @@ struct Angle {
   const char* name;
 };
 
-/// One joint of one arm: its angles by control of the whole body, dashed by that of the paper's four landmarks.
+/// One joint of one arm: its angles by control of the whole body, dashed by that of the paper's four
+/// landmarks.
 FigurePanel joint_of(StudyFigure& out, const TaiChiDrawing& drawing, const char* joint,
-                     std::initializer_list<Angle> angles, char side, bool last) {
+                     const std::vector<Angle>& angles, char side, bool last) {
   FigurePanel panel{.title = fmt::format("{} {}", side == 'r' ? "Right" : "Left", joint),
                     .x_label = last ? "time, s" : "",
                     .y_label = "angle, deg",
@@ -64,9 +65,14 @@ FigurePanel joint_of(StudyFigure& out, const TaiChiDrawing& drawing, const char*
     const auto coordinate = fmt::format("{}_{}", angle.coordinate, side);
     const auto add = [&](const motion::TrackResult& track, bool dashed) {
       const VectorXd time = times(track.motion.time), deg = angle_deg(track.motion, coordinate);
-      panel.lines.push_back({.name = dashed ? "" : angle.name, .colour = kInks[ink], .x = time, .y = deg,
-                             .width = dashed ? 0.9 : 1.7, .dashed = dashed});
-      out.curves.push_back(curve_of(coordinate + (dashed ? ", four landmarks" : ", all landmarks"), {time, deg}));
+      panel.lines.push_back({.name = dashed ? "" : angle.name,
+                             .colour = kInks[ink],
+                             .x = time,
+                             .y = deg,
+                             .width = dashed ? 0.9 : 1.7,
+                             .dashed = dashed});
+      out.curves.push_back(
+          curve_of(coordinate + (dashed ? ", four landmarks" : ", all landmarks"), {time, deg}));
     };
     add(drawing.paper, true);
     add(drawing.whole, false);
@@ -88,7 +94,7 @@ double determined_share(const data::JointMotion& motion, std::string_view coordi
 StudyFigure joint_angles(const TaiChiDrawing& drawing) {
   StudyFigure out{.paper = kDemircan, .number = 2, .name = "joint angles of the right and the left arm"};
   for (const auto& [joint, angles] :
-       {std::pair<const char*, std::initializer_list<Angle>>{
+       {std::pair<const char*, std::vector<Angle>>{
             "shoulder", {{"arm_flex", "flexion"}, {"arm_add", "adduction"}, {"arm_rot", "rotation"}}},
         {"elbow", {{"elbow_flex", "flexion"}}},
         {"wrist", {{"wrist_flex", "flexion"}, {"wrist_dev", "deviation"}}}})
@@ -96,12 +102,14 @@ StudyFigure joint_angles(const TaiChiDrawing& drawing) {
       out.figure.panels.push_back(joint_of(out, drawing, joint, angles, side, joint[0] == 'w'));
   out.figure.columns = 2;
   out.figure.panel_height = 112.0;
-  out.figure.keys = {{.name = "all 21 landmarks", .colour = "#444444"},
-                     {.name = "the paper's four landmarks", .colour = "#444444", .dashed = true, .width = 1.0}};
-  out.figure.notes = {fmt::format(
-      "Flexion of the right elbow is determined in {:.0f} % of the frames by all landmarks, in {:.0f} % by the four.",
-      determined_share(drawing.whole.motion, "elbow_flex_r"),
-      determined_share(drawing.paper.motion, "elbow_flex_r"))};
+  out.figure.keys = {
+      {.name = "all 21 landmarks", .colour = "#444444"},
+      {.name = "the paper's four landmarks", .colour = "#444444", .dashed = true, .width = 1.0}};
+  out.figure.notes = {
+      fmt::format("Flexion of the right elbow is determined in {:.0f} % of the frames by all landmarks, in "
+                  "{:.0f} % by the four.",
+                  determined_share(drawing.whole.motion, "elbow_flex_r"),
+                  determined_share(drawing.paper.motion, "elbow_flex_r"))};
   return out;
 }
 
@@ -134,7 +142,8 @@ StudyFigure goals_followed(const TaiChiDrawing& drawing, const StudyTable& table
       }
   out.figure.columns = 3;
   out.figure.panel_height = 80.0;
-  out.figure.keys = {{.name = "goal", .colour = kGoal, .width = 4.5}, {.name = "tracked", .colour = "#000000", .width = 1.4}};
+  out.figure.keys = {{.name = "goal", .colour = kGoal, .width = 4.5},
+                     {.name = "tracked", .colour = "#000000", .width = 1.4}};
   out.numbers = numbers_of(table, {"the paper's four landmarks, 1 ms: landmarks to goals, RMS",
                                    "the paper's four landmarks, 1 ms: landmarks to goals, largest"});
   return out;
@@ -163,13 +172,16 @@ JointErrors joint_errors(const motion::TrackResult& track) {
 
 /// Figure 4: margins of the landmarks' errors, and the largest and smallest joint error.
 StudyFigure margins(const TaiChiDrawing& drawing, const StudyTable& table) {
-  StudyFigure out{.paper = kDemircan, .number = 4,
-                  .name = "margins of the landmarks' errors, and largest and smallest joint error (equation 17)"};
+  StudyFigure out{
+      .paper = kDemircan,
+      .number = 4,
+      .name = "margins of the landmarks' errors, and largest and smallest joint error (equation 17)"};
   constexpr std::array<const char*, 4> kFourInks{"#000000", "#0072b2", "#d55e00", "#009e73"};
   const std::array<std::pair<const motion::TrackResult*, const char*>, 2> runs{
       {{&drawing.paper, "the four landmarks"}, {&drawing.whole, "all 21 landmarks"}}};
   for (const auto& [track, set] : runs) {
-    FigurePanel panel{.title = fmt::format("Landmark to goal, {}", set), .y_label = "error, mm", .tight = true};
+    FigurePanel panel{
+        .title = fmt::format("Landmark to goal, {}", set), .y_label = "error, mm", .tight = true};
     const VectorXd time = times(track->motion.time);
     const auto count = static_cast<std::int64_t>(track->motion.markers.size());
     std::size_t ink = 0;
@@ -177,8 +189,11 @@ StudyFigure margins(const TaiChiDrawing& drawing, const StudyTable& table) {
       const auto m = std::ranges::find(track->motion.markers, landmark) - track->motion.markers.begin();
       VectorXd mm(time.size());
       for (std::int64_t f = 0; f < track->motion.frames(); ++f)
-        mm[f] = 1e3 * Eigen::Map<const Eigen::Vector3d>(track->motion.marker_error.data() + 3 * (f * count + m)).norm();
-      panel.lines.push_back({.name = track == &drawing.paper ? landmark : "", .colour = kFourInks[ink++], .x = time, .y = mm});
+        mm[f] =
+            1e3 *
+            Eigen::Map<const Eigen::Vector3d>(track->motion.marker_error.data() + 3 * (f * count + m)).norm();
+      panel.lines.push_back(
+          {.name = track == &drawing.paper ? landmark : "", .colour = kFourInks[ink++], .x = time, .y = mm});
       out.curves.push_back(curve_of(fmt::format("{}, {}, mm", landmark, set), {time, mm}));
     }
     out.figure.panels.push_back(std::move(panel));
@@ -195,7 +210,8 @@ StudyFigure margins(const TaiChiDrawing& drawing, const StudyTable& table) {
     panel.lines.push_back({.name = "smallest", .colour = kWhole, .x = time, .y = errors.smallest});
     out.figure.panels.push_back(std::move(panel));
     out.curves.push_back(curve_of(fmt::format("largest joint error, {}, deg", set), {time, errors.largest}));
-    out.curves.push_back(curve_of(fmt::format("smallest joint error, {}, deg", set), {time, errors.smallest}));
+    out.curves.push_back(
+        curve_of(fmt::format("smallest joint error, {}, deg", set), {time, errors.smallest}));
   }
   out.figure.columns = 2;
   out.figure.panel_height = 150.0;

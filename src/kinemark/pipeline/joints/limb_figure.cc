@@ -127,8 +127,8 @@ std::vector<std::int64_t> choose_poses(const data::Trajectories& markers, const 
   return chosen;
 }
 
-LimbPicture limb_picture(const data::Trajectories& markers, const data::Skeleton& skeleton, const Vector3d& up,
-                         int poses) {
+LimbPicture limb_picture(const data::Trajectories& markers, const data::Skeleton& skeleton,
+                         const Vector3d& up, int poses) {
   const Eigen::Matrix3d upright =
       Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
   const auto frames = choose_poses(markers, skeleton, poses);
@@ -161,7 +161,9 @@ LimbPicture limb_picture(const data::Trajectories& markers, const data::Skeleton
     numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", skeleton.time.number(f));
   report::FigurePanel panel;
   panel.height = 440.0;
-  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) { scene.draw(canvas, room); };
+  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) {
+    scene.draw(canvas, room);
+  };
   LimbPicture out{.figure = {.title = "The limb from its markers",
                              .caption = fmt::format("Frames {}. Squares of the floor: {:.0f} mm.", numbers,
                                                     1e3 * scene.square()),

@@ -115,7 +115,12 @@ class FigureDrawing {
   [[nodiscard]] std::vector<std::string> note_lines(const FigurePanel& panel) const {
     return internal::broken_text(panel.note, kPanelNoteSize, panel_width());
   }
+  [[nodiscard]] static bool are_pictures(Row row) {
+    return std::ranges::all_of(
+        row, [](const FigurePanel& p) { return p.picture && p.title.empty() && p.note.empty(); });
+  }
   [[nodiscard]] double above(Row row) const {
+    if (are_pictures(row)) return kBeside;
     double legend = 0.0;
     bool title = false;
     std::size_t note = 0;  // lines
@@ -136,6 +141,7 @@ class FigureDrawing {
     return equal ? kSquare : kPlain;
   }
   [[nodiscard]] double below(Row row) const {
+    if (are_pictures(row)) return kBeside;
     const bool labelled = std::ranges::any_of(row, [](const FigurePanel& p) { return !p.x_label.empty(); });
     return labelled ? layout_.below : layout_.below_bare;
   }

@@ -68,7 +68,8 @@ void SpaceDrawing::line(const Matrix3Xd& x, const SpaceLine& how) {
   if (how.shadow) {
     Matrix3Xd below = x;
     below.row(2).setConstant(floor_z_);
-    shadows_.push_back({.text = {}, .x = std::move(below), .how = {.colour = kShadowInk, .width = how.width}});
+    shadows_.push_back(
+        {.text = {}, .x = std::move(below), .how = {.colour = kShadowInk, .width = how.width}});
   }
   things_.push_back({.text = {}, .x = x, .how = how});
 }
@@ -141,19 +142,35 @@ std::vector<SpaceDrawing::Thing> SpaceDrawing::grid() const {
   return out;
 }
 
-void SpaceDrawing::draw(Canvas& canvas, const CanvasRoom& room) const {
-  std::vector<Thing> all = grid();
-  all.insert(all.end(), shadows_.begin(), shadows_.end());
-  all.insert(all.end(), things_.begin(), things_.end());
+std::vector<SpaceDrawing::Thing> SpaceDrawing::all() const {
+  std::vector<Thing> out = grid();
+  out.insert(out.end(), shadows_.begin(), shadows_.end());
+  out.insert(out.end(), things_.begin(), things_.end());
+  return out;
+}
+
+SpaceDrawing::Fit SpaceDrawing::fit(const std::vector<Thing>& all, const CanvasRoom& room) const {
   auto [low, high] = extent_of(all, [&](const auto& x) { return project(x); });
   if (!(low.x() <= high.x())) low.setZero(), high.setOnes();
   const Vector2d extent = (high - low).cwiseMax(1e-9), size(room.right - room.left, room.bottom - room.top);
   const double scale = ((size.array() - 2.0 * kMargin) / extent.array()).minCoeff();
-  const Vector2d shift =
-      0.5 * Vector2d(room.left + room.right, room.top + room.bottom) - 0.5 * scale * (low + high);
-  for (const auto& thing : all) {
+  const Vector2d middle(0.5 * (room.left + room.right), 0.5 * (room.top + room.bottom));
+  return {.scale = scale, .shift = middle - 0.5 * scale * (low + high)};
+}
+
+Vector2d SpaceDrawing::place(const Vector3d& x, const CanvasRoom& room) const {
+  const Fit fitted = fit(all(), room);
+  return fitted.scale * project(x) + fitted.shift;
+}
+
+void SpaceDrawing::draw(Canvas& canvas, const CanvasRoom& room) const {
+  const auto things = all();
+  const Fit fitted = fit(things, room);
+  for (const auto& thing : things) {
     if (!thing.x.allFinite()) continue;
-    const auto at = [&](Eigen::Index i) -> Vector2d { return scale * project(thing.x.col(i)) + shift; };
+    const auto at = [&](Eigen::Index i) -> Vector2d {
+      return fitted.scale * project(thing.x.col(i)) + fitted.shift;
+    };
     if (!thing.text.empty()) {
       canvas.text(at(0) + thing.shift, thing.text,
                   {.size = kLabelSize, .anchor = thing.anchor, .colour = kWordInk, .halo = true});
@@ -163,8 +180,9 @@ void SpaceDrawing::draw(Canvas& canvas, const CanvasRoom& room) const {
     } else {
       std::vector<Vector2d> points;
       for (Eigen::Index i = 0; i < thing.x.cols(); ++i) points.push_back(at(i));
-      canvas.line(points,
-                  {.colour = thing.how.colour, .width = thing.how.width, .dashed = thing.how.dashed, .round = true});
+      canvas.line(
+          points,
+          {.colour = thing.how.colour, .width = thing.how.width, .dashed = thing.how.dashed, .round = true});
     }
   }
 }

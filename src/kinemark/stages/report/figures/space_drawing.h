@@ -45,6 +45,8 @@ class SpaceDrawing {
   /// Three arrows of one length along the axes from a corner, with their names at their tips.
   void axes(const Eigen::Vector3d& from, double length, const std::array<std::string, 3>& names);
 
+  /// Where a point lies when everything is drawn in a room, pixels.
+  [[nodiscard]] Eigen::Vector2d place(const Eigen::Vector3d& x, const CanvasRoom& room) const;
   /// Draws everything as large as fits. Non-finite lines and dots are left out.
   void draw(Canvas& canvas, const CanvasRoom& room) const;
 
@@ -65,6 +67,12 @@ class SpaceDrawing {
   };
   [[nodiscard]] Ground ground() const;
   [[nodiscard]] std::vector<Thing> grid() const;
+  struct Fit {
+    double scale = 1.0;
+    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  };
+  [[nodiscard]] std::vector<Thing> all() const;  // in the order of drawing
+  [[nodiscard]] Fit fit(const std::vector<Thing>& all, const CanvasRoom& room) const;
 
   Eigen::Vector3d right_, up_;
   bool has_floor_ = false;

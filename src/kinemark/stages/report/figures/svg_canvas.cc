@@ -53,7 +53,8 @@ class SvgCanvas final : public Canvas {
         lettering.upwards
             ? fmt::format("transform=\"translate({:.2f} {:.2f}) rotate(-90)\"", position.x(), position.y())
             : fmt::format("x=\"{:.2f}\" y=\"{:.2f}\"", position.x(), position.y());
-    const char* halo = lettering.halo ? " class=\"halo\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\"" : "";
+    const char* halo =
+        lettering.halo ? " class=\"halo\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\"" : "";
     out_ += fmt::format("<text {} font-size=\"{:g}\"{}{} text-anchor=\"{}\" fill=\"{}\">{}</text>\n", place,
                         lettering.size, lettering.bold ? " font-weight=\"bold\"" : "", halo, anchor,
                         lettering.colour, html_text(text));

@@ -32,7 +32,8 @@ bool meets_bar(const Vector3d& x, const Vector3d& to_camera) {
 }
 
 bool blocked(const SleeveRoom& room, const Vector3d& x, const Vector3d& to_camera) {
-  return meets_ball(x, to_camera, room.head) || meets_ball(x, to_camera, room.trunk) || meets_bar(x, to_camera);
+  return meets_ball(x, to_camera, room.head) || meets_ball(x, to_camera, room.trunk) ||
+         meets_bar(x, to_camera);
 }
 
 }  // namespace
@@ -79,7 +80,12 @@ namespace kinemark::simulation {
 
 SleeveRoom sleeve_room() {
   const Eigen::Vector3d mouth = internal::mouth_in_world();
-  return {.cameras = {{{0.7, 0.5, 0.5}, {0.8, -0.3, 0.4}, {0.3, 0.9, 0.2}, {0.5, -0.8, 0.3}, {-0.1, 0.3, 0.9}, {0.9, 0.2, -0.2}}},
+  return {.cameras = {{{0.7, 0.5, 0.5},
+                       {0.8, -0.3, 0.4},
+                       {0.3, 0.9, 0.2},
+                       {0.5, -0.8, 0.3},
+                       {-0.1, 0.3, 0.9},
+                       {0.9, 0.2, -0.2}}},
           .mouth = mouth,
           .head = {.centre = mouth + Eigen::Vector3d(-0.050, 0.0, 0.015), .radius_m = 0.045},
           .trunk = {.centre = {-0.060, 0.110, -0.140}, .radius_m = 0.090}};
