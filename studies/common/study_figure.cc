@@ -75,7 +75,7 @@ std::string number_text(const FigureNumber& number, std::string_view classic) {
   if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   out += ": ";
   if (number.paper) out += fmt::format("{} in the paper, ", with_unit(*number.paper, number.unit));
-  if (number.classic) out += fmt::format("{} by the {}, ", with_unit(*number.classic, number.unit), classic);
+  if (number.classic) out += fmt::format("{} ({}), ", with_unit(*number.classic, number.unit), classic);
   return out + with_unit(number.ours, number.unit) + " here.";
 }
 

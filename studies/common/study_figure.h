@@ -54,7 +54,7 @@ struct StudyFigure {
 [[nodiscard]] std::vector<FigureNumber> numbers_of(const StudyTable& table,
                                                    const std::vector<std::string_view>& quantities);
 
-/// "Scatter of the diameter: 0.5 mm in the paper, 0.58 by 1986 method, 0.17 here."
+/// "Scatter of the diameter: 0.5 mm in the paper, 0.58 mm (1986 method), 0.17 mm here."
 [[nodiscard]] std::string number_text(const FigureNumber& number, std::string_view classic);
 
 /// The figure with its title, its name below it and the numbers as notes: what is written to a file.

@@ -45,7 +45,7 @@ TEST(StudyFigure, NumbersStandBesideThoseOfThePaper) {
   const FigureNumber all{"scatter of the diameter", "mm", 0.5, 0.583, 0.1711},
       ours{"turns", "1", {}, {}, 3.3};
   EXPECT_EQ(number_text(all, "1986 method"),
-            "Scatter of the diameter: 0.5 mm in the paper, 0.583 mm by the 1986 method, 0.171 mm here.");
+            "Scatter of the diameter: 0.5 mm in the paper, 0.583 mm (1986 method), 0.171 mm here.");
   EXPECT_EQ(number_text(ours, "1986 method"), "Turns: 3.3 here.");
 }
 

@@ -293,7 +293,7 @@ TEST(TaiChiPage, DrawsEveryFigureAndTheTable) {
     EXPECT_THAT(report::figure_svg(figure.figure), testing::Not(HasSubstr("nan"))) << number;
     EXPECT_FALSE(figure.curves.empty()) << number;
   }
-  // Largest and smallest are those of equation 15 over the joints of a frame.
+  // Largest and smallest are those of equation 16 over the joints of a frame.
   const auto& curves = page.figures[3].curves;
   const auto curve = [&](std::string_view name) {
     return std::ranges::find(curves, name, &FigureCurve::name)->points;
@@ -302,8 +302,7 @@ TEST(TaiChiPage, DrawsEveryFigureAndTheTable) {
              smallest = curve("smallest joint error, all 21 landmarks, deg");
   const auto elbow = drawing.whole.motion.find("elbow_flex_r");
   for (std::int64_t f = 0; f < drawing.whole.motion.frames(); f += 10) {
-    const double error =
-        kDegPerRad * std::abs(drawing.whole.goal_error[drawing.whole.motion.index(f, elbow)]);
+    const double error = kDegPerRad * drawing.whole.goal_bound[drawing.whole.motion.index(f, elbow)];
     EXPECT_LE(smallest(f, 1), largest(f, 1));
     if (!std::isfinite(error)) continue;
     EXPECT_LE(error, largest(f, 1) + 1e-12);

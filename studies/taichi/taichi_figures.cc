@@ -74,7 +74,9 @@ FigurePanel joint_of(StudyFigure& out, const TaiChiDrawing& drawing, const char*
       out.curves.push_back(
           curve_of(coordinate + (dashed ? ", four landmarks" : ", all landmarks"), {time, deg}));
     };
-    add(drawing.paper, true);
+    if (std::ranges::find(drawing.paper.locked_coordinates, coordinate) ==
+        drawing.paper.locked_coordinates.end())
+      add(drawing.paper, true);
     add(drawing.whole, false);
     ++ink;
   }
@@ -154,15 +156,16 @@ struct JointErrors {
   VectorXd largest, smallest;
 };
 
-/// Equation 17: over the joints of each frame, what equation 15 leaves of their angles. The root is no joint.
+/// Equation 17: the largest and the smallest over the joints of each frame of what equation 16 allows their
+/// angles. The root is no joint.
 JointErrors joint_errors(const motion::TrackResult& track) {
   const auto& motion = track.motion;
   JointErrors out{VectorXd::Constant(motion.frames(), kNaN), VectorXd::Constant(motion.frames(), kNaN)};
-  for (std::int64_t f = 0; f < motion.frames() && !track.goal_error.empty(); ++f)
+  for (std::int64_t f = 0; f < motion.frames() && !track.goal_bound.empty(); ++f)
     for (std::int64_t c = 0; c < motion.size(); ++c) {
       const auto& name = motion.coordinates[static_cast<std::size_t>(c)];
       const bool locked = std::ranges::find(track.locked_coordinates, name) != track.locked_coordinates.end();
-      const double error = std::abs(track.goal_error[motion.index(f, c)]) * kDegPerRad;
+      const double error = track.goal_bound[motion.index(f, c)] * kDegPerRad;
       if (name.starts_with("pelvis_") || locked || !std::isfinite(error)) continue;
       if (!(out.largest[f] >= error)) out.largest[f] = error;
       if (!(out.smallest[f] <= error)) out.smallest[f] = error;
