@@ -304,6 +304,7 @@ Result<StudyFigure> recorded_arm(std::uint64_t seed) {
   if (!limb) return std::unexpected(limb.error());
   data::Recording recording;
   recording.trial.markers = limb->markers;
+  recording.trial.markers.time.first_number = recording.trial.first_frame;  // as a file would count
   workflow::JointsOptions options;
   options.segments = limb->layout;
   const auto found = workflow::joints(recording, options);

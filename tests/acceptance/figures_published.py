@@ -117,7 +117,7 @@ def check_present(folders):
 
 def check_schedule(folder, recording):
     """Figures 2 and 3: edges of the LEDs and beginnings of the conversions are those of the recorded schedule."""
-    timing = tomllib.loads((recording / "rig.toml").read_text())["timing"]
+    timing = tomllib.loads((recording / "rig_true.toml").read_text())["timing"]
     settle, conversion, off = (timing[key] for key in ("settle_s", "conversion_s", "off_s"))
     two, three = (curves(folder / f"poizner-1986-figure-{n}.csv") for n in (2, 3))
     worst, slot = 0.0, settle + 8 * conversion + off
