@@ -164,9 +164,9 @@ JointErrors joint_errors(const motion::TrackResult& track) {
   for (std::int64_t f = 0; f < motion.frames() && !track.goal_bound.empty(); ++f)
     for (std::int64_t c = 0; c < motion.size(); ++c) {
       const auto& name = motion.coordinates[static_cast<std::size_t>(c)];
-      const bool locked = std::ranges::find(track.locked_coordinates, name) != track.locked_coordinates.end();
       const double error = track.goal_bound[motion.index(f, c)] * kDegPerRad;
-      if (name.starts_with("pelvis_") || locked || !std::isfinite(error)) continue;
+      // 0 where it is locked or held at a limit: no joint that errs; NaN where it is not determined.
+      if (name.starts_with("pelvis_") || !(error > 0.0)) continue;
       if (!(out.largest[f] >= error)) out.largest[f] = error;
       if (!(out.smallest[f] <= error)) out.smallest[f] = error;
     }

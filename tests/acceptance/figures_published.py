@@ -203,7 +203,7 @@ def check_tai_chi(folder):
                 worst = max(worst, abs(mm - 1e3 * math.hypot(*(g[time] - t[time] for g, t in zip(goal, tracked, strict=True)))))
     row(worst < 1e-3, "tai chi 4, landmark errors to figure 3's goals less tracked", "<= 0.001 mm", f"{worst:.1e} mm")
     largest, smallest = ([p[1] for p in four[f"{which} joint error, all 21 landmarks, deg"]] for which in ("largest", "smallest"))
-    row(all(a >= b >= 0 for a, b in zip(largest, smallest, strict=True)) and max(largest) > 0, "tai chi 4, largest joint error (equation 17) above the smallest", "in every frame", f"{len(largest)} frames, {max(largest):.2f} deg at most")
+    row(all(a >= b > 0 for a, b in zip(largest, smallest, strict=True)) and max(largest) > 0, "tai chi 4, largest joint error (equation 17) above the smallest", "in every frame", f"{len(largest)} frames, {max(largest):.2f} deg at most")
     sides = {name[-len("_r, all landmarks"):][1] for name in curves(folder / "demircan-2008-figure-2.csv") if name.endswith(", all landmarks")}
     angles = {name.split(",")[0] for name in curves(folder / "demircan-2008-figure-2.csv")}
     wanted = {f"{a}_{s}" for a in ("arm_flex", "arm_add", "arm_rot", "elbow_flex", "wrist_flex", "wrist_dev") for s in "rl"}
