@@ -10,7 +10,6 @@
 #include "cli/recording_options.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/joints/joints_json.h"
-#include "studies/macaque/limb_figure.h"
 
 namespace kinemark::cli {
 namespace {
@@ -62,8 +61,6 @@ int run_command(const CommonOptions& common, JointsArguments& arguments) {
   if (auto s = read_names(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   job.noise_sd_m = 1e-3 * arguments.noise_mm;
-  job.draw = [](const data::Trajectories& markers, const data::Skeleton& skeleton,
-                const Eigen::Vector3d& up) { return studies::limb_figure(markers, skeleton, up); };
   job.continuity = !arguments.no_continuity;
   auto& many = arguments.many;
   if (many.are_many()) return run_many_joints(common, arguments);

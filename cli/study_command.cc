@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,9 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
-#include "kinemark/io/file.h"
 #include "kinemark/pipeline/files/json_text.h"
-#include "kinemark/pipeline/files/output_check.h"
 #include "studies/common/study_page.h"
 #include "studies/macaque/macaque_figures.h"
 #include "studies/macaque/study_macaque_job.h"
@@ -29,13 +28,16 @@ struct StudyArguments {
 };
 
 void add_options(CLI::App& command, StudyArguments& arguments, const std::string& seeds_are) {
-  command.add_option("--figures", arguments.figures, "Page with figures and the table to write, .html");
+  command.add_option(
+      "--figures", arguments.figures,
+      "Page to write, .html, with the paper's figures and the table; or a folder: the page, and every "
+      "figure by the paper's number as .svg, .png and .csv");
   command.add_option("--seeds", arguments.seeds,
                      seeds_are + ": 3, 1-10 or 1,4,7-9; that of --seed when absent");
 }
 
-/// Run a study for its seeds, write its page, print its table. The page's file is opened first, as a study
-/// takes minutes.
+/// Run a study for its seeds, write its figures, print its table. The place of the figures is asked for
+/// first, as a study takes minutes.
 /// @param run      seeds in, Result of a study out
 /// @param page_of  its page, a Result
 template <class RunStudy, class PageOf>
@@ -47,26 +49,29 @@ int run_study(const CommonOptions& common, const StudyArguments& arguments, cons
     if (!parsed) return report_error(parsed.error());
     seeds = std::move(*parsed);
   }
-  std::optional<io::OutputFile> file;
+  std::optional<studies::StudyFiles> files;
   if (!arguments.figures.empty()) {
-    if (auto s = pipeline::check_apart({arguments.figures}, common.kept); !s) return report_error(s.error());
-    auto created = io::OutputFile::create(arguments.figures, common.force);
+    pipeline::JobSettings settings;
+    settle(common, "", settings);
+    auto created = studies::StudyFiles::create(arguments.figures, settings);
     if (!created) return report_error(created.error());
-    file.emplace(std::move(*created));
+    files.emplace(std::move(*created));
   }
   const auto study = run(seeds);
   if (!study) return report_error(study.error());
-  if (file) {
+  std::vector<std::filesystem::path> written;
+  if (files) {
     const Result<studies::StudyPage> page = page_of(*study);
     if (!page) return report_error(page.error());
-    if (auto s = file->write(studies::study_html(*page)); !s) return report_error(s.error());
-    if (auto s = file->commit(); !s) return report_error(s.error());
+    auto done = files->write(*page);
+    if (!done) return report_error(done.error());
+    written = std::move(*done);
   }
   print_result(common.json ? pipeline::json_text(studies::study_json(study->table)) + "\n"
                            : studies::study_text(study->table));
   if (const auto missed = studies::missed_text(study->table); common.json && !missed.empty())
     say(common, missed);
-  if (file) say(common, "wrote " + arguments.figures);
+  for (const auto& path : written) say(common, "wrote " + path.string());
   return study->table.pass() ? 0 : 1;
 }
 
@@ -82,9 +87,7 @@ int run_poizner(const CommonOptions& common, const PoiznerArguments& arguments) 
             {.seeds = seeds, .as_built = arguments.as_built, .threads = common.threads},
             show_progress(common, "rigs"));
       },
-      [](const studies::PoiznerStudy& study) -> Result<studies::StudyPage> {
-        return studies::study_page(study);
-      });
+      studies::study_page);
 }
 
 void add_poizner(CLI::App& command, const CommonOptions& common, Run& run) {

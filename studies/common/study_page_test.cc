@@ -22,7 +22,8 @@ StudyPage example() {
   page.heading = "Arms";
   page.description = "a < b";
   page.classic = "1986 method";
-  page.figures = {{"Errors", "<svg id=\"one\"></svg>"}};
+  page.figures = {
+      {.paper = "Smith 1990", .number = 1, .name = "errors", .numbers = {{"a < b", "mm", 2.0, {}, 1.0}}}};
   page.table.seeds = {1};
   page.table.rows = {{.quantity = "error", .unit = "mm", .paper = 30.0, .ours = 2.0, .at_most = 3.0},
                      {.quantity = "share", .unit = "%", .ours = 1.0, .at_least = 2.0}};
@@ -45,7 +46,7 @@ nlohmann::json data_of(const std::string& html) {
 
 TEST(StudyPage, HoldsFiguresInOrderAndTheTable) {
   auto page = example();
-  page.figures.push_back({"Later & last", "<p>second</p>"});
+  page.figures.push_back({.paper = "Smith 1990", .name = "later & last"});
   const auto data = data_of(study_html(page));
   EXPECT_EQ(data["summary"]["kind"], "study");
   EXPECT_EQ(data["summary"]["trial"], "Arms");
@@ -53,8 +54,11 @@ TEST(StudyPage, HoldsFiguresInOrderAndTheTable) {
   EXPECT_EQ(result["description"], "a < b");
   EXPECT_EQ(result["classic"], "1986 method");
   ASSERT_EQ(result["figures"].size(), 2U);
-  EXPECT_EQ(result["figures"][0]["body"], "<svg id=\"one\"></svg>");
-  EXPECT_EQ(result["figures"][1]["caption"], "Later & last");
+  EXPECT_EQ(result["figures"][0]["caption"], "Smith 1990, figure 1: errors");
+  const auto body = result["figures"][0]["body"].get<std::string>();
+  EXPECT_THAT(body, HasSubstr("<svg"));
+  EXPECT_THAT(body, HasSubstr("<p>A &lt; b: 2 mm in the paper, 1 mm here.</p>"));
+  EXPECT_EQ(result["figures"][1]["caption"], "later & last");
   ASSERT_EQ(result["rows"].size(), 2U);
   EXPECT_EQ(result["rows"][0]["paper"], 30.0);
 }

@@ -47,13 +47,18 @@ TEST(StudyMacaque, CellsBecomeATableAndAPage) {
   EXPECT_GT(names.size(), 8U);
   const auto page = macaque_page(*study);
   ASSERT_TRUE(page) << page.error().message;
-  EXPECT_EQ(page->figures.size(), 7U);
-  std::string bodies;
-  for (const auto& figure : page->figures) bodies += figure.body;
-  EXPECT_THAT(bodies, HasSubstr("#b8b8b8"));  // the arm's shadow
-  EXPECT_EQ(bodies.find("nan"), std::string::npos);
-  EXPECT_EQ(bodies.find("http"), std::string::npos);
-  EXPECT_THAT(study_html(*page), HasSubstr("Figure 6, markers collinear"));
+  ASSERT_EQ(page->figures.size(), 9U);
+  std::string drawn;
+  for (std::size_t i = 0; i < page->figures.size(); ++i) {
+    const auto& figure = page->figures[i];
+    EXPECT_EQ(figure.number, i < 7 ? static_cast<int>(i + 1) : 0) << "those of the report, then others";
+    EXPECT_FALSE(figure.curves.empty()) << figure.caption();
+    drawn += report::figure_svg(figure.figure);
+  }
+  EXPECT_THAT(drawn, HasSubstr("#b8b8b8"));  // the arm's shadow
+  EXPECT_EQ(drawn.find("nan"), std::string::npos);
+  EXPECT_EQ(drawn.find("href"), std::string::npos);
+  EXPECT_THAT(study_html(*page), HasSubstr("Macaque report, figure 6: error of the elbow"));
 }
 
 TEST(StudyMacaque, SeedsArePooled) {

@@ -7,9 +7,8 @@
 
 namespace kinemark::studies {
 
-/// One self-contained page: the table, and for the first seed the wheel in its best-fit plane with its box,
-/// its displacement through time, the arm's four paths, speed and acceleration of the hand; of rigs as built,
-/// errors of distances over the room. The study needs one seed or more.
-[[nodiscard]] StudyPage study_page(const PoiznerStudy& study);
+/// The table, and the paper's figures 1 to 6 from the first rig; of rigs as built, errors of distances over
+/// the room. The study needs one seed or more.
+[[nodiscard]] Result<StudyPage> study_page(const PoiznerStudy& study);
 
 }  // namespace kinemark::studies

@@ -59,7 +59,7 @@ Status track(const ModelDescription& description, const Trajectories& landmarks,
              const data::JointMotion* truth, Parts& parts, bool draw, TaiChiSubject& out) {
   const auto model = model::Model::compile(description);
   if (!model) return std::unexpected(model.error());
-  auto all = reference_ik(*model, landmarks, reference_ik_options(description));
+  const auto all = reference_ik(*model, landmarks, reference_ik_options(description));
   if (!all) return std::unexpected(all.error());
   const auto made = carried_landmarks(*model, all->motion);
   if (draw) out.drawing.emplace();
@@ -74,17 +74,14 @@ Status track(const ModelDescription& description, const Trajectories& landmarks,
                         {&out.three, three_level_set(), true, nullptr},
                         {&out.paper, paper_set(), false, draw ? &drawing->paper : nullptr},
                         {&out.pelvis_paper, pelvis_paper_set(), false, nullptr},
-                        {&out.upper, upper_body_set(), true, draw ? &drawing->upper : nullptr}};
+                        {&out.upper, upper_body_set(), true, nullptr}};
   for (const auto& task : tasks) {
     if (!parts.next()) return stopped();
     auto outcome = study_set(*model, landmarks, made, task.set, task.coarse, truth, task.drawn);
     if (!outcome) return fail_at(task.set.name, outcome.error());
     *task.out = std::move(*outcome);
   }
-  if (draw) {
-    drawing->goals = landmarks;
-    drawing->least_squares = std::move(*all);
-  }
+  if (draw) drawing->goals = landmarks;
   return {};
 }
 

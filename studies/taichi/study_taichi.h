@@ -34,8 +34,7 @@ struct SetOutcome {
 /// Motions that the figures draw, on recorded goals at 1 ms.
 struct TaiChiDrawing {
   data::Trajectories goals;
-  motion::IkResult least_squares;  ///< whole body
-  motion::TrackResult whole, upper, paper;
+  motion::TrackResult whole, paper;
 };
 
 /// Results of one subject.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/taichi/study_taichi.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -279,21 +280,38 @@ TEST(TaiChiPage, DrawsEveryFigureAndTheTable) {
   study.subjects.push_back(numbered(1.0));
   auto& drawing = study.subjects[0].drawing.emplace();
   drawing.goals = s.landmarks;
-  drawing.least_squares = s.ik;
   drawing.whole = run_control(s.model, s.landmarks, whole_body_set(),
                               {.step_s = 1.0 / 60.0, .error_bars = true}, first_pose(s.ik.motion))
                       .value();
-  drawing.upper = drawing.paper = drawing.whole;
+  drawing.paper = drawing.whole;
   study.table.rows = taichi_rows(study.subjects, false);
   const auto page = taichi_page(study);
-  EXPECT_EQ(page.figures.size(), 12U);
-  for (const auto& figure : page.figures) {
-    EXPECT_THAT(figure.body, HasSubstr("<svg"));
-    EXPECT_THAT(figure.body, testing::Not(HasSubstr("nan"))) << figure.caption;
+  ASSERT_EQ(page.figures.size(), 4U);
+  for (int number = 1; number <= 4; ++number) {
+    const auto& figure = page.figures[static_cast<std::size_t>(number - 1)];
+    EXPECT_EQ(figure.title(), fmt::format("Demircan 2008, figure {}", number));
+    EXPECT_THAT(report::figure_svg(figure.figure), testing::Not(HasSubstr("nan"))) << number;
+    EXPECT_FALSE(figure.curves.empty()) << number;
+  }
+  // Largest and smallest are those of equation 16 over the joints of a frame.
+  const auto& curves = page.figures[3].curves;
+  const auto curve = [&](std::string_view name) {
+    return std::ranges::find(curves, name, &FigureCurve::name)->points;
+  };
+  const auto largest = curve("largest joint error, all 21 landmarks, deg"),
+             smallest = curve("smallest joint error, all 21 landmarks, deg");
+  const auto elbow = drawing.whole.motion.find("elbow_flex_r");
+  for (std::int64_t f = 0; f < drawing.whole.motion.frames(); f += 10) {
+    const double error = kDegPerRad * drawing.whole.goal_bound[drawing.whole.motion.index(f, elbow)];
+    EXPECT_LE(smallest(f, 1), largest(f, 1));
+    EXPECT_GT(smallest(f, 1), 0.0) << "what is held or locked does not count";
+    if (!(error > 0.0)) continue;
+    EXPECT_LE(error, largest(f, 1) + 1e-12);
+    EXPECT_GE(error, smallest(f, 1) - 1e-12);
   }
   EXPECT_THAT(page.description, HasSubstr("Simulated subjects"));
   EXPECT_THAT(page.description, HasSubstr("264 to 303 mm"));
-  EXPECT_THAT(study_html(page), HasSubstr("Figure 4: margin of joint error"));
+  EXPECT_THAT(study_html(page), HasSubstr("Demircan 2008, figure 4: margins"));
   EXPECT_THROW((void)taichi_page(TaiChiStudy{}), ContractError);
 }
 

@@ -16,18 +16,18 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
-#include "studies/common/svg_plot.h"
+#include "studies/taichi/body_figure.h"
 
 namespace kinemark::studies {
 namespace {
 
 using Eigen::VectorXd;
+using report::FigurePanel;
 
-constexpr const char* kGoal = "#888888";
-constexpr const char* kLeastSquares = "#b8860b";
-constexpr const char* kWhole = "#1f5fa8";
-constexpr const char* kUpper = "#2e8b57";
-constexpr const char* kPaper = "#a83232";
+constexpr const char* kGoal = "#b8b8b8";
+constexpr const char* kWhole = "#0072b2";
+constexpr const char* kFour = "#d55e00";
+constexpr std::array<const char*, 3> kInks{"#0072b2", "#d55e00", "#009e73"};
 
 VectorXd times(const TimeBase& time) {
   return VectorXd::LinSpaced(time.frames, time.time_s(0), time.time_s(time.frames - 1));
@@ -46,81 +46,41 @@ VectorXd angle_deg(const data::JointMotion& motion, std::string_view coordinate)
   return out;
 }
 
-/// Figure 2: one coordinate by every method.
-std::string angles(const TaiChiDrawing& drawing, std::string_view coordinate) {
-  SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}, deg", coordinate));
-  const auto& fitted = drawing.least_squares.motion;
-  plot.line("least squares", kLeastSquares, times(fitted.time), angle_deg(fitted, coordinate), 3.0);
-  const auto add = [&](const char* name, const char* colour, const motion::TrackResult& tracked) {
-    plot.line(name, colour, times(tracked.motion.time), angle_deg(tracked.motion, coordinate));
-  };
-  add("2 + 2 landmarks", kPaper, drawing.paper);
-  add("upper body", kUpper, drawing.upper);
-  add("whole body", kWhole, drawing.whole);
-  return plot.svg();
-}
+struct Angle {
+  const char* coordinate;  // without its side
+  const char* name;
+};
 
-/// Marker error (measured minus model) of one landmark, frames x 3; NaN where not seen.
-Eigen::MatrixX3d errors(const data::JointMotion& motion, std::string_view landmark) {
-  const auto at = std::ranges::find(motion.markers, landmark);
-  Eigen::MatrixX3d out = Eigen::MatrixX3d::Constant(motion.frames(), 3, kNaN);
-  if (at == motion.markers.end()) return out;
-  const auto count = static_cast<std::int64_t>(motion.markers.size());
-  for (std::int64_t f = 0; f < motion.frames(); ++f)
-    for (int axis = 0; axis < 3; ++axis)
-      out(f, axis) =
-          motion
-              .marker_error[static_cast<std::size_t>(3 * (f * count + (at - motion.markers.begin())) + axis)];
-  return out;
-}
-
-/// Figure 3: height and forward position of one landmark, goal and tracked.
-std::string path(const TaiChiDrawing& drawing, std::string_view landmark, int axis) {
-  constexpr std::array<const char*, 3> kAxis{"forward", "up", "right"};
-  const auto m = drawing.goals.find(landmark);
-  SvgPlot plot(std::string(landmark), "time, s",
-               fmt::format("{}, {}, m", landmark, kAxis[static_cast<std::size_t>(axis)]));
-  VectorXd goal(drawing.goals.frames());
-  for (std::int64_t f = 0; f < drawing.goals.frames(); ++f) goal[f] = drawing.goals.x(f, m)[axis];
-  plot.line("goal", kGoal, times(drawing.goals.time), goal, 4.0);
-  const auto add = [&](const char* name, const char* colour, const data::JointMotion& motion,
-                       std::int64_t first) {
-    const auto error = errors(motion, landmark);
-    plot.line(name, colour, times(motion.time), goal.segment(first, motion.frames()) - error.col(axis));
-  };
-  add("least squares, all 21", kLeastSquares, drawing.least_squares.motion,
-      drawing.least_squares.fit.first_frame);
-  add("whole body", kWhole, drawing.whole.motion, drawing.whole.fit.first_frame);
-  add("2 + 2 landmarks", kPaper, drawing.paper.motion, drawing.paper.fit.first_frame);
-  return plot.svg();
-}
-
-/// Figure 4, upper part: distance of each of the four landmarks from its goal.
-std::string margins(const data::JointMotion& motion, const char* title) {
-  constexpr std::array<std::pair<const char*, const char*>, 4> kFour{
-      {{"RShoulder", "#1f5fa8"}, {"LWrist", "#2e8b57"}, {"LElbow", "#a83232"}, {"RWrist", "#b8860b"}}};
-  SvgPlot plot(title, "time, s", "landmark to goal, mm");
-  for (const auto& [landmark, colour] : kFour)
-    plot.line(landmark, colour, times(motion.time), 1e3 * errors(motion, landmark).rowwise().norm());
-  return plot.svg();
-}
-
-/// Figure 4, lower part: control against least squares for one coordinate, and its bound.
-std::string joint_margin(const TaiChiDrawing& drawing, std::string_view coordinate) {
-  const auto& ours = drawing.whole.motion;
-  const auto c = ours.find(coordinate);
-  SvgPlot plot(std::string(coordinate), "time, s", fmt::format("{}: error and its bound, deg", coordinate));
-  const auto shift = drawing.whole.fit.first_frame - drawing.least_squares.fit.first_frame;
-  VectorXd bound = VectorXd::Constant(ours.frames(), kNaN);
-  const auto& goal_bound = drawing.whole.goal_bound;
-  for (std::int64_t f = 0; f < ours.frames() && !goal_bound.empty(); ++f)
-    bound[f] = goal_bound[ours.index(f, c)] * kDegPerRad;
-  const VectorXd fitted = angle_deg(drawing.least_squares.motion, coordinate).segment(shift, ours.frames());
-  VectorXd error = (angle_deg(ours, coordinate) - fitted).cwiseAbs();
-  for (double& e : error) e = std::abs(std::remainder(e, 360.0));
-  plot.line("bound of equation 16", kGoal, times(ours.time), bound, 2.0);
-  plot.line("whole body to least squares", kWhole, times(ours.time), error);
-  return plot.svg();
+/// One joint of one arm: its angles by control of the whole body, dashed by that of the paper's four
+/// landmarks.
+FigurePanel joint_of(StudyFigure& out, const TaiChiDrawing& drawing, const char* joint,
+                     const std::vector<Angle>& angles, char side, bool last) {
+  FigurePanel panel{.title = fmt::format("{} {}", side == 'r' ? "Right" : "Left", joint),
+                    .x_label = last ? "time, s" : "",
+                    .y_label = "angle, deg",
+                    .tight = true,
+                    .zero = true};
+  std::size_t ink = 0;
+  for (const auto& angle : angles) {
+    const auto coordinate = fmt::format("{}_{}", angle.coordinate, side);
+    const auto add = [&](const motion::TrackResult& track, bool dashed) {
+      const VectorXd time = times(track.motion.time), deg = angle_deg(track.motion, coordinate);
+      panel.lines.push_back({.name = dashed ? "" : angle.name,
+                             .colour = kInks[ink],
+                             .x = time,
+                             .y = deg,
+                             .width = dashed ? 0.9 : 1.7,
+                             .dashed = dashed});
+      out.curves.push_back(
+          curve_of(coordinate + (dashed ? ", four landmarks" : ", all landmarks"), {time, deg}));
+    };
+    if (std::ranges::find(drawing.paper.locked_coordinates, coordinate) ==
+        drawing.paper.locked_coordinates.end())
+      add(drawing.paper, true);
+    add(drawing.whole, false);
+    ++ink;
+  }
+  return panel;
 }
 
 /// Share of frames in which a coordinate is determined, in per cent.
@@ -132,12 +92,135 @@ double determined_share(const data::JointMotion& motion, std::string_view coordi
   return 100.0 * sum / static_cast<double>(motion.frames());
 }
 
-std::string determined_text(const TaiChiDrawing& drawing, std::string_view coordinate) {
-  return fmt::format(
-      "<p>Determined in {:.0f} % of the frames by all 21 landmarks, {:.0f} % by the upper body, "
-      "{:.0f} % by the four.</p>",
-      determined_share(drawing.whole.motion, coordinate), determined_share(drawing.upper.motion, coordinate),
-      determined_share(drawing.paper.motion, coordinate));
+/// Figure 2: angles of both arms.
+StudyFigure joint_angles(const TaiChiDrawing& drawing) {
+  StudyFigure out{.paper = kDemircan, .number = 2, .name = "joint angles of the right and the left arm"};
+  for (const auto& [joint, angles] :
+       {std::pair<const char*, std::vector<Angle>>{
+            "shoulder", {{"arm_flex", "flexion"}, {"arm_add", "adduction"}, {"arm_rot", "rotation"}}},
+        {"elbow", {{"elbow_flex", "flexion"}}},
+        {"wrist", {{"wrist_flex", "flexion"}, {"wrist_dev", "deviation"}}}})
+    for (const char side : {'r', 'l'})
+      out.figure.panels.push_back(joint_of(out, drawing, joint, angles, side, joint[0] == 'w'));
+  out.figure.columns = 2;
+  out.figure.panel_height = 112.0;
+  out.figure.keys = {
+      {.name = "all 21 landmarks", .colour = "#444444"},
+      {.name = "the paper's four landmarks", .colour = "#444444", .dashed = true, .width = 1.0}};
+  out.figure.notes = {
+      fmt::format("Flexion of the right elbow is determined in {:.0f} % of the frames by all landmarks, in "
+                  "{:.0f} % by the four.",
+                  determined_share(drawing.whole.motion, "elbow_flex_r"),
+                  determined_share(drawing.paper.motion, "elbow_flex_r"))};
+  return out;
+}
+
+/// Figure 3: the four landmarks along all three axes, goal and tracked.
+StudyFigure goals_followed(const TaiChiDrawing& drawing, const StudyTable& table) {
+  constexpr std::array<const char*, 3> kAxis{"forward", "up", "right"};
+  StudyFigure out{.paper = kDemircan, .number = 3, .name = "the four landmarks, tracked beside their goals"};
+  const auto four = tracked_landmarks(drawing.goals, drawing.paper.motion, drawing.paper.fit.first_frame);
+  const VectorXd goal_time = times(drawing.goals.time), time = times(four.time);
+  const auto along = [](const data::Trajectories& path, std::int64_t m, int axis) {
+    VectorXd x(path.frames());
+    for (std::int64_t f = 0; f < path.frames(); ++f) x[f] = path.present(f, m) ? path.x(f, m)[axis] : kNaN;
+    return x;
+  };
+  for (const auto& level : paper_set().levels)
+    for (const auto& landmark : level)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto* name = kAxis[static_cast<std::size_t>(axis)];
+        FigurePanel panel{.title = fmt::format("{}, {}", landmark, name),
+                          .x_label = landmark == paper_set().levels.back().back() ? "time, s" : "",
+                          .y_label = "m",
+                          .tight = true};
+        const VectorXd goal = along(drawing.goals, drawing.goals.find(landmark), axis),
+                       tracked = along(four, four.find(landmark), axis);
+        panel.lines.push_back({.colour = kGoal, .x = goal_time, .y = goal, .width = 4.5});
+        panel.lines.push_back({.colour = "#000000", .x = time, .y = tracked, .width = 1.2});
+        out.figure.panels.push_back(std::move(panel));
+        out.curves.push_back(curve_of(fmt::format("{} {}, goal", landmark, name), {goal_time, goal}));
+        out.curves.push_back(curve_of(fmt::format("{} {}, tracked", landmark, name), {time, tracked}));
+      }
+  out.figure.columns = 3;
+  out.figure.panel_height = 80.0;
+  out.figure.keys = {{.name = "goal", .colour = kGoal, .width = 4.5},
+                     {.name = "tracked", .colour = "#000000", .width = 1.4}};
+  out.numbers = numbers_of(table, {"the paper's four landmarks, 1 ms: landmarks to goals, RMS",
+                                   "the paper's four landmarks, 1 ms: landmarks to goals, largest"});
+  return out;
+}
+
+/// Largest and smallest of a frame's joint errors, deg; NaN where no joint is determined.
+struct JointErrors {
+  VectorXd largest, smallest;
+};
+
+/// Equation 17: the largest and the smallest over the joints of each frame of what equation 16 allows their
+/// angles. The root is no joint.
+JointErrors joint_errors(const motion::TrackResult& track) {
+  const auto& motion = track.motion;
+  JointErrors out{VectorXd::Constant(motion.frames(), kNaN), VectorXd::Constant(motion.frames(), kNaN)};
+  for (std::int64_t f = 0; f < motion.frames() && !track.goal_bound.empty(); ++f)
+    for (std::int64_t c = 0; c < motion.size(); ++c) {
+      const auto& name = motion.coordinates[static_cast<std::size_t>(c)];
+      const double error = track.goal_bound[motion.index(f, c)] * kDegPerRad;
+      // 0 where it is locked or held at a limit: no joint that errs; NaN where it is not determined.
+      if (name.starts_with("pelvis_") || !(error > 0.0)) continue;
+      if (!(out.largest[f] >= error)) out.largest[f] = error;
+      if (!(out.smallest[f] <= error)) out.smallest[f] = error;
+    }
+  return out;
+}
+
+/// Figure 4: margins of the landmarks' errors, and the largest and smallest joint error.
+StudyFigure margins(const TaiChiDrawing& drawing, const StudyTable& table) {
+  StudyFigure out{
+      .paper = kDemircan,
+      .number = 4,
+      .name = "margins of the landmarks' errors, and largest and smallest joint error (equation 17)"};
+  constexpr std::array<const char*, 4> kFourInks{"#000000", "#0072b2", "#d55e00", "#009e73"};
+  const std::array<std::pair<const motion::TrackResult*, const char*>, 2> runs{
+      {{&drawing.paper, "the four landmarks"}, {&drawing.whole, "all 21 landmarks"}}};
+  for (const auto& [track, set] : runs) {
+    FigurePanel panel{
+        .title = fmt::format("Landmark to goal, {}", set), .y_label = "error, mm", .tight = true};
+    const VectorXd time = times(track->motion.time);
+    const auto count = static_cast<std::int64_t>(track->motion.markers.size());
+    std::size_t ink = 0;
+    for (const auto& landmark : paper_set().all()) {
+      const auto m = std::ranges::find(track->motion.markers, landmark) - track->motion.markers.begin();
+      VectorXd mm(time.size());
+      for (std::int64_t f = 0; f < track->motion.frames(); ++f)
+        mm[f] =
+            1e3 *
+            Eigen::Map<const Eigen::Vector3d>(track->motion.marker_error.data() + 3 * (f * count + m)).norm();
+      panel.lines.push_back(
+          {.name = track == &drawing.paper ? landmark : "", .colour = kFourInks[ink++], .x = time, .y = mm});
+      out.curves.push_back(curve_of(fmt::format("{}, {}, mm", landmark, set), {time, mm}));
+    }
+    out.figure.panels.push_back(std::move(panel));
+  }
+  for (const auto& [track, set] : runs) {
+    const VectorXd time = times(track->motion.time);
+    const auto errors = joint_errors(*track);
+    FigurePanel panel{.title = fmt::format("Joint error, {}", set),
+                      .x_label = "time, s",
+                      .y_label = "error, deg",
+                      .tight = true,
+                      .logarithmic = true};
+    panel.lines.push_back({.name = "largest", .colour = kFour, .x = time, .y = errors.largest});
+    panel.lines.push_back({.name = "smallest", .colour = kWhole, .x = time, .y = errors.smallest});
+    out.figure.panels.push_back(std::move(panel));
+    out.curves.push_back(curve_of(fmt::format("largest joint error, {}, deg", set), {time, errors.largest}));
+    out.curves.push_back(
+        curve_of(fmt::format("smallest joint error, {}, deg", set), {time, errors.smallest}));
+  }
+  out.figure.columns = 2;
+  out.figure.panel_height = 150.0;
+  out.numbers = numbers_of(table, {"the paper's four landmarks, 1 ms: landmarks to goals, RMS",
+                                   "whole body, 1 ms: landmarks to goals, RMS"});
+  return out;
 }
 
 }  // namespace
@@ -148,7 +231,7 @@ StudyPage taichi_page(const TaiChiStudy& study) {
   const auto& subject = study.subjects.front();
   const auto& drawing = *subject.drawing;
   const auto& paper = subject.paper.recorded_fine;
-  StudyPage out{
+  return {
       .title = "Study: Demircan, Sentis, De Sapio and Khatib 2008",
       .heading = "Tai chi by direct marker control",
       .description = fmt::format(
@@ -166,22 +249,9 @@ StudyPage taichi_page(const TaiChiStudy& study) {
           1e3 * subject.forearm_max_m, 1e3 * paper.control_rms_m, subject.whole.recorded_fine.determined,
           subject.whole.recorded_fine.coordinates),
       .classic = "least squares",
-      .figures = {},
+      .figures = {controlled_body(drawing), joint_angles(drawing), goals_followed(drawing, study.table),
+                  margins(drawing, study.table)},
       .table = study.table};
-  for (const char* coordinate : {"arm_flex_r", "arm_add_r", "elbow_flex_r", "elbow_flex_l"})
-    out.figures.push_back({fmt::format("Figure 2: joint angles, {}", coordinate),
-                           angles(drawing, coordinate) + determined_text(drawing, coordinate)});
-  for (const char* landmark : {"RShoulder", "LWrist", "LElbow", "RWrist"})
-    out.figures.push_back(
-        {fmt::format("Figure 3: tracked against goal, {}", landmark), path(drawing, landmark, 1)});
-  out.figures.push_back(
-      {"Figure 4: margin of landmark error, the four alone", margins(drawing.paper.motion, "2 + 2")});
-  out.figures.push_back(
-      {"Figure 4: margin of landmark error, whole body", margins(drawing.whole.motion, "whole body")});
-  for (const char* coordinate : {"arm_flex_r", "elbow_flex_l"})
-    out.figures.push_back(
-        {fmt::format("Figure 4: margin of joint error, {}", coordinate), joint_margin(drawing, coordinate)});
-  return out;
 }
 
 }  // namespace kinemark::studies

@@ -7,9 +7,9 @@
 
 namespace kinemark::studies {
 
-/// The paper's figures 2 to 4 drawn again from the first subject, and the table: joint angles by control of
-/// the whole and the upper body and of four landmarks beside least squares; landmarks beside their goals;
-/// margins of landmark error and of joint error with its bound. The study needs one subject or more.
+/// The paper's figures 1 to 4 from the first subject, and the table: the controlled body with both subsets of
+/// landmarks, angles of both arms, the four landmarks beside their goals along all axes, margins of landmark
+/// error and the largest and smallest joint error of equation 17. The study needs one subject or more.
 [[nodiscard]] StudyPage taichi_page(const TaiChiStudy& study);
 
 }  // namespace kinemark::studies

@@ -167,7 +167,8 @@ class FullDiskAndUnwritableFolder(CommandTest):
             self.refused(4, f"{path}: cannot be written", *self.ik(output=path))
             self.refused(4, f"{path}: cannot be written", "convert", self.truth, path)
         self.refused(4, "file", "simulate", "subject", "-o", "file/sub")
-        self.refused(4, "is a folder", "study", "macaque", "--figures", ".")
+        (self.folder / "full/study.html").mkdir(parents=True)
+        self.refused(4, "study.html", "study", "macaque", "--figures", "full")
 
     def test_a_page_that_cannot_be_written_stops_the_rest(self):
         for page in ("no/r.html", "/proc/r.html"):

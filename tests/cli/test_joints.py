@@ -235,7 +235,7 @@ class Joints(CommandTest):
         self.assertEqual((self.folder / "again/centres.csv").read_text().splitlines()[-1], (self.folder / "out/centres.csv").read_text().splitlines()[-1])
         picture = (self.folder / "arm.svg").read_text()
         self.assertTrue(picture.startswith("<svg xmlns="))
-        self.assertEqual(picture.count('stroke="#000"'), 8)
+        self.assertEqual(picture.count('stroke="#000000"'), 8)
         self.assertGreater(picture.count("<circle"), 4 * 6)
         self.refused(4, ["arm.svg", "--force"], *of_arm, "--figures", "arm.svg")
         self.refused(2, "figures are .svg", *of_arm, "--figures", "arm.png")

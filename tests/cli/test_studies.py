@@ -65,6 +65,18 @@ class Poizner(CommandTest):
             self.assertNotRegex(figure["body"], r"(?:src|href)=|\bnan\b")
         self.refused(4, ["p.html", "--force"], "study", "poizner", "--figures", "p.html")
 
+    def test_a_folder_gets_the_page_and_the_papers_figures_by_number(self):
+        self.good("study", "poizner", "--figures", "study")
+        names = {path.name for path in (self.folder / "study").iterdir()}
+        for number in range(1, 7):
+            for ending in ("svg", "png", "csv"):
+                self.assertIn(f"poizner-1986-figure-{number}.{ending}", names)
+        self.assertIn("study.html", names)
+        picture = (self.folder / "study/poizner-1986-figure-5.svg").read_text()
+        self.assertIn("Poizner 1986, figure 5", picture)
+        self.assertIn("Scatter of the diameter: 0.5 mm in the paper", picture.replace("Wheel at 8 deg: scatter", "Scatter"))
+        self.refused(4, ["study.html", "--force"], "study", "poizner", "--figures", "study")
+
     def test_rigs_as_built_err_as_the_paper_reports(self):
         ran = self.good("study", "poizner", "--as-built", "--seeds", "1-3", "--json", "--figures", "b.html")
         rows = {row["quantity"]: row for row in json.loads(ran.out)["rows"]}
@@ -73,7 +85,7 @@ class Poizner(CommandTest):
         self.assertGreater(worst["classic"], 10)
         best = rows["tree, best of ten places: largest error of a distance, median of rigs"]
         self.assertLess(best["ours"], 0.3 * best["classic"])
-        self.assertIn("Errors of the tree's distances over the room", (self.folder / "b.html").read_text())
+        self.assertIn("errors of the tree's distances over the room", (self.folder / "b.html").read_text())
 
     def test_the_macaque_reports_numbers_come_out_as_published(self):
         ran = self.good("study", "macaque", "--as-published", "--seeds", "1-6", "--json", "--figures", "m.html")
@@ -82,7 +94,7 @@ class Poizner(CommandTest):
         self.assertEqual(noisy["paper"], 30)
         self.assertLess(abs(noisy["classic"] - 30), 10)
         self.assertLess(noisy["ours"], 3)
-        self.assertIn("Mean error against missing data", (self.folder / "m.html").read_text())
+        self.assertIn("Macaque report, figure 6: mean error of the elbow against missing data", (self.folder / "m.html").read_text())
 
     def test_a_rig_that_misses_bounds_is_shown_whole_and_says_which(self):
         ran = run("study", "poizner", "--seeds", "0", "--json", cwd=self.folder)

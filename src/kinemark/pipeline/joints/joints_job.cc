@@ -14,6 +14,7 @@
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/result_files.h"
 #include "kinemark/pipeline/joints/joints_json.h"
+#include "kinemark/pipeline/joints/limb_figure.h"
 #include "kinemark/pipeline/joints/segments_file.h"
 #include "kinemark/workflow/prepare/screen_axes.h"
 
@@ -81,7 +82,7 @@ std::vector<ResultFile> list_files(const JointsJob& job, const JointsOutcome& ou
     }
     if (outcome.skeleton.joints.empty() && target.extension() != ".json") continue;
     if (target == job.figures) {
-      files.push_back(text_file(target, [&] { return job.draw(outcome.used, outcome.skeleton, up); }));
+      files.push_back(text_file(target, [&] { return limb_figure(outcome.used, outcome.skeleton, up); }));
       continue;
     }
     files.push_back(target.extension() == ".json"

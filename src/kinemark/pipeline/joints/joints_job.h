@@ -3,9 +3,7 @@
 // Joint centres and axes of a recording of markers, from file to files.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "kinemark/core/result.h"
@@ -27,9 +25,7 @@ struct JointsJob : JobSettings, RecordingOptions, workflow::JointsMethod {
   /// JSON alone.
   std::filesystem::path output;
   std::filesystem::path report;   ///< page to write as well, .html
-  std::filesystem::path figures;  ///< picture to write as well, .svg, as `draw` makes it
-  /// The limb from the markers that were used and what was found, up along an axis, as SVG.
-  std::function<std::string(const data::Trajectories&, const data::Skeleton&, const Eigen::Vector3d&)> draw;
+  std::filesystem::path figures;  ///< picture to write as well, .svg: limb_figure()
 };
 
 /// Warnings and gates are the remarks of workflow::joints(), which are empty here.

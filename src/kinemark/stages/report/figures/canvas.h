@@ -19,6 +19,7 @@ struct Stroke {
   double width = 1.2;              ///< pixels
   bool dashed = false;             ///< 6 pixels drawn, 4 left out
   bool dotted = false;             ///< as long as wide drawn, twice that left out
+  bool round = false;              ///< ends and corners
 };
 
 /// Where a text's position lies in it.
@@ -31,6 +32,13 @@ struct Lettering {
   std::string colour = "#000000";  ///< of the letters
   bool upwards = false;            ///< reads from below to above
   bool bold = false;               ///< heavy letters
+  bool halo = false;               ///< a white rim, to be read above lines
+};
+
+/// A rectangle of a picture, pixels.
+struct CanvasRoom {
+  double left = 0.0, right = 0.0;  ///< across
+  double top = 0.0, bottom = 0.0;  ///< down
 };
 
 /// A picture that is being drawn.

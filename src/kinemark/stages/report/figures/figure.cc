@@ -24,6 +24,7 @@ using internal::PanelFrame;
 constexpr double kTitle = 34.0, kCaption = 30.0, kNoteLine = 14.0, kNoteSize = 11.0, kPanelNoteSize = 10.0,
                  kBeforeNotes = 6.0;
 constexpr double kPlain = 210.0, kSquare = 400.0;  // heights of panels one below the other
+constexpr double kBeside = 8.0;                    // left free beside a picture
 constexpr double kPngScale = 3.0;
 const std::string kTitleInk = "#1a1a1a", kCaptionInk = "#6b6b6b";
 
@@ -114,7 +115,12 @@ class FigureDrawing {
   [[nodiscard]] std::vector<std::string> note_lines(const FigurePanel& panel) const {
     return internal::broken_text(panel.note, kPanelNoteSize, panel_width());
   }
+  [[nodiscard]] static bool are_pictures(Row row) {
+    return std::ranges::all_of(
+        row, [](const FigurePanel& p) { return p.picture && p.title.empty() && p.note.empty(); });
+  }
   [[nodiscard]] double above(Row row) const {
+    if (are_pictures(row)) return kBeside;
     double legend = 0.0;
     bool title = false;
     std::size_t note = 0;  // lines
@@ -127,12 +133,15 @@ class FigureDrawing {
            layout_.note * static_cast<double>(note);
   }
   [[nodiscard]] double inner(Row row) const {
+    const double own = std::ranges::max(row, {}, &FigurePanel::height).height;
+    if (own > 0.0) return own;
     if (figure_.panel_height > 0.0) return figure_.panel_height;
     const bool equal = std::ranges::any_of(row, &FigurePanel::equal);
     if (figure_.columns > 1) return equal ? panel_width() : 0.6 * panel_width();
     return equal ? kSquare : kPlain;
   }
   [[nodiscard]] double below(Row row) const {
+    if (are_pictures(row)) return kBeside;
     const bool labelled = std::ranges::any_of(row, [](const FigurePanel& p) { return !p.x_label.empty(); });
     return labelled ? layout_.below : layout_.below_bare;
   }
@@ -156,6 +165,13 @@ class FigureDrawing {
           line += layout_.note;
         }
       Legend(panel, panel_width()).draw(canvas, {left, axes - legend_height(panel) - layout_.legend_to_axes});
+      if (panel.picture) {
+        panel.picture(canvas, {.left = cell_ * static_cast<double>(c) + kBeside,
+                               .right = cell_ * static_cast<double>(c + 1) - kBeside,
+                               .top = axes,
+                               .bottom = axes + inner(row)});
+        continue;
+      }
       PanelDrawing(panel,
                    {.left = left,
                     .right = left + panel_width(),

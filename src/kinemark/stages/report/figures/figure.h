@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/stages/report/figures/canvas.h"
 
 namespace kinemark::report {
 
@@ -69,14 +71,18 @@ struct FigureSymbol {
 
 /// One pair of axes and what is drawn in it.
 struct FigurePanel {
-  std::string title;                  ///< above it; empty: none
-  std::string note;                   ///< small, below its title; empty: none
-  std::string x_label, y_label;       ///< with units in brackets
-  std::string y_up, y_down;           ///< what the ends of the vertical axis mean: "flexion", "extension"
-  bool equal = false;                 ///< a unit is as long on both axes
-  bool tight = false;                 ///< the horizontal axis ends where its curves do
-  bool zero = false;                  ///< a darker line at 0
-  bool blank = false;                 ///< a place in the grid that stays free
+  std::string title;             ///< above it; empty: none
+  std::string note;              ///< small, below its title; empty: none
+  std::string x_label, y_label;  ///< with units in brackets
+  std::string y_up, y_down;      ///< what the ends of the vertical axis mean: "flexion", "extension"
+  bool equal = false;            ///< a unit is as long on both axes
+  bool tight = false;            ///< the horizontal axis ends where its curves do
+  bool zero = false;             ///< a darker line at 0
+  bool blank = false;            ///< a place in the grid that stays free
+  bool logarithmic = false;      ///< the vertical axis; what is not positive is left out
+  double height = 0.0;           ///< pixels between its axes; 0: the figure's. The highest of a row counts
+  /// Draws what stands in the place of axes and curves, such as a SpaceDrawing; empty: these.
+  std::function<void(Canvas& canvas, const CanvasRoom& room)> picture;
   std::vector<FigureArea> areas;      ///< below all else
   std::vector<FigureBand> bands;      ///< above them
   std::vector<FigureLine> lines;      ///< in this order

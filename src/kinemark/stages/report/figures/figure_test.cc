@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "kinemark/stages/report/figures/canvas.h"
 
@@ -240,6 +241,40 @@ TEST(Figure, TintsAreColoursOnWhitePaper) {
   EXPECT_EQ(tint("#000000", 0.0), "#ffffff");
   EXPECT_EQ(tint("#ff8000", 0.5), "#ffc080");
   EXPECT_EQ(tint("#123456", 7.0), "#123456");
+}
+
+TEST(Figure, APictureStandsInThePlaceOfAxes) {
+  Figure figure;
+  FigurePanel panel;
+  panel.height = 100.0;
+  CanvasRoom seen;
+  panel.picture = [&seen](Canvas& canvas, const CanvasRoom& room) {
+    seen = room;
+    canvas.text({room.left, room.bottom}, "drawn by itself", {.halo = true});
+  };
+  figure.panels.push_back(panel);
+  const auto svg = figure_svg(figure);
+  EXPECT_NE(svg.find(">drawn by itself<"), std::string::npos);
+  EXPECT_NE(svg.find("paint-order=\"stroke\""), std::string::npos) << "a halo";
+  EXPECT_EQ(svg.find("<path"), std::string::npos) << "no axes";
+  EXPECT_DOUBLE_EQ(seen.bottom - seen.top, 100.0);
+  EXPECT_GT(seen.right - seen.left, 600.0);
+}
+
+TEST(Figure, ALogarithmicPanelLeavesOutWhatIsNotPositive) {
+  Figure figure;
+  FigurePanel panel{.logarithmic = true};
+  panel.lines.push_back(
+      {.colour = "#123456", .x = Eigen::Vector4d(0, 1, 2, 3), .y = Eigen::Vector4d(0, 1, 10, 100)});
+  figure.panels.push_back(panel);
+  const auto svg = figure_svg(figure);
+  const auto line = svg.substr(svg.find("#123456"), 200);
+  double y[3], x[3];
+  const auto d = line.find(" d=\"M");
+  ASSERT_EQ(std::sscanf(line.c_str() + d, " d=\"M%lf %lfL%lf %lfL%lf %lf", &x[0], &y[0], &x[1], &y[1], &x[2],
+                        &y[2]),
+            6);
+  EXPECT_NEAR(y[0] - y[1], y[1] - y[2], 0.02) << "ten times as much is as far each time";
 }
 
 }  // namespace

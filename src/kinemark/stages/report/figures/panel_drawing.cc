@@ -40,7 +40,7 @@ void for_each_run(Eigen::Index count, const Shown& shown, const Visit& visit) {
 PanelDrawing::PanelDrawing(const FigurePanel& panel, const PanelFrame& frame, Canvas& canvas)
     : panel_(panel), frame_(frame), canvas_(canvas) {
   x_ = {.from = frame.left, .to = frame.right};
-  y_ = {.from = frame.bottom, .to = frame.top};
+  y_ = {.from = frame.bottom, .to = frame.top, .logarithmic = panel.logarithmic};
   for (const auto& area : panel.areas) include(area.x, area.y);
   for (const auto& band : panel.bands) include(band.x, band.low), include(band.x, band.high);
   for (const auto& line : panel.lines) include(line.x, line.y);

@@ -38,10 +38,14 @@ std::vector<double> PlotAxis::ticks(double count) const {
       out.push_back(std::abs(v) < 1e-9 * step ? 0.0 : v);
     return out;
   }
-  for (double power = std::floor(low); power <= high; power += 1.0)
+  // Three to a power of ten where there is room for them, else one, or one of several.
+  constexpr double kEach = 3.0, kCrowded = 2.0;
+  const double step = std::max(1.0, std::ceil((high - low) / (kCrowded * count)));
+  const bool crowded = kEach * (high - low) > kCrowded * count;
+  for (double power = step * std::floor(low / step); power <= high; power += step)
     for (const double m : {1.0, 2.0, 5.0}) {
       const double v = std::log10(m) + power;
-      if (v >= low && v <= high) out.push_back(m * std::pow(10.0, power));
+      if (v >= low && v <= high && (m == 1.0 || !crowded)) out.push_back(m * std::pow(10.0, power));
     }
   return out;
 }

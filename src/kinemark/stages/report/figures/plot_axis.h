@@ -23,7 +23,8 @@ struct PlotAxis {
   void settle();
   /// Pixels of a value.
   [[nodiscard]] double at(double value) const;
-  /// Where grid lines go: 1, 2 or 5 times a power of ten, about `count` of them.
+  /// Where grid lines go: 1, 2 or 5 times a power of ten, about `count` of them; twice that at most where
+  /// logarithmic.
   [[nodiscard]] std::vector<double> ticks(double count = 6.0) const;
 };
 

@@ -44,6 +44,14 @@ TEST(PlotAxis, LogarithmsShowPositiveValuesAlone) {
   EXPECT_THAT(axis.ticks(), ElementsAre(1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0));
 }
 
+TEST(PlotAxis, ManyPowersOfTenAreNotCrowded) {
+  PlotAxis axis{.low = -5.0, .high = 1.0, .logarithmic = true};
+  EXPECT_EQ(axis.ticks(5.0).size(), 7U) << "one to a power";
+  axis.low = -30.0;
+  EXPECT_LE(axis.ticks(5.0).size(), 10U);
+  EXPECT_DOUBLE_EQ(axis.ticks(5.0).back(), 1.0);
+}
+
 TEST(PlotAxis, EqualUnitsWidenTheNarrowAxisAboutItsMiddle) {
   PlotAxis x{.low = 0.0, .high = 10.0, .from = 0.0, .to = 100.0},
       y{.low = 0.0, .high = 10.0, .from = 50.0, .to = 0.0};

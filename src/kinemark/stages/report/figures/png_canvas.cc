@@ -52,6 +52,8 @@ class PngCanvas final : public Canvas {
     const std::array dashes =
         stroke.dotted ? std::array{stroke.width, 2.0 * stroke.width} : std::array{6.0, 4.0};
     cairo_set_dash(context_.get(), dashes.data(), stroke.dashed || stroke.dotted ? 2 : 0, 0.0);
+    cairo_set_line_cap(context_.get(), stroke.round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_join(context_.get(), stroke.round ? CAIRO_LINE_JOIN_ROUND : CAIRO_LINE_JOIN_MITER);
     cairo_set_line_width(context_.get(), stroke.width);
     set_colour(stroke.colour, 1.0);
     cairo_stroke(context_.get());
@@ -82,6 +84,15 @@ class PngCanvas final : public Canvas {
     const double part = lettering.anchor == Anchor::start    ? 0.0
                         : lettering.anchor == Anchor::middle ? 0.5
                                                              : 1.0;
+    if (lettering.halo) {
+      constexpr double kRim = 3.0;
+      cairo_move_to(c, -part * extents.x_advance, 0.0);
+      cairo_text_path(c, text.c_str());
+      set_colour("#ffffff", 1.0);
+      cairo_set_dash(c, nullptr, 0, 0.0);
+      cairo_set_line_width(c, kRim);
+      cairo_stroke(c);
+    }
     set_colour(lettering.colour, 1.0);
     cairo_move_to(c, -part * extents.x_advance, 0.0);
     cairo_show_text(c, text.c_str());

@@ -31,8 +31,10 @@ class SvgCanvas final : public Canvas {
 
   void line(std::span<const Eigen::Vector2d> points, const Stroke& stroke) override {
     if (points.size() < 2) return;
-    out_ += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} d=\"{}\"/>\n",
-                        stroke.colour, stroke.width, dashes_of(stroke), path_of(points));
+    out_ += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{}{} d=\"{}\"/>\n",
+                        stroke.colour, stroke.width, dashes_of(stroke),
+                        stroke.round ? " stroke-linecap=\"round\" stroke-linejoin=\"round\"" : "",
+                        path_of(points));
   }
   void area(std::span<const Eigen::Vector2d> points, const std::string& colour, double opacity) override {
     if (points.size() < 3) return;
@@ -51,8 +53,10 @@ class SvgCanvas final : public Canvas {
         lettering.upwards
             ? fmt::format("transform=\"translate({:.2f} {:.2f}) rotate(-90)\"", position.x(), position.y())
             : fmt::format("x=\"{:.2f}\" y=\"{:.2f}\"", position.x(), position.y());
-    out_ += fmt::format("<text {} font-size=\"{:g}\"{} text-anchor=\"{}\" fill=\"{}\">{}</text>\n", place,
-                        lettering.size, lettering.bold ? " font-weight=\"bold\"" : "", anchor,
+    const char* halo =
+        lettering.halo ? " class=\"halo\" paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\"" : "";
+    out_ += fmt::format("<text {} font-size=\"{:g}\"{}{} text-anchor=\"{}\" fill=\"{}\">{}</text>\n", place,
+                        lettering.size, lettering.bold ? " font-weight=\"bold\"" : "", halo, anchor,
                         lettering.colour, html_text(text));
   }
   Result<std::string> finish() override { return out_ + "</svg>\n"; }

@@ -14,18 +14,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<std::array<double, 3>, 6> kCameras_m{{{0.7, 0.5, 0.5},
-                                                           {0.8, -0.3, 0.4},
-                                                           {0.3, 0.9, 0.2},
-                                                           {0.5, -0.8, 0.3},
-                                                           {-0.1, 0.3, 0.9},
-                                                           {0.9, 0.2, -0.2}}};
 constexpr double kNear_m = 0.055;  // from the wrist to the mouth, while head and hand hide LEDs
 
-/// True when the line from x along `to_camera` meets a ball about `centre`.
-bool meets_ball(const Vector3d& x, const Vector3d& to_camera, const Vector3d& centre, double radius_m) {
-  const double along = std::clamp((centre - x).dot(to_camera) / to_camera.squaredNorm(), 0.0, 1.0);
-  return (x + along * to_camera - centre).norm() < radius_m;
+/// True when the line from x along `to_camera` meets a ball.
+bool meets_ball(const Vector3d& x, const Vector3d& to_camera, const SleeveBall& ball) {
+  const double along = std::clamp((ball.centre - x).dot(to_camera) / to_camera.squaredNorm(), 0.0, 1.0);
+  return (x + along * to_camera - ball.centre).norm() < ball.radius_m;
 }
 
 /// Upright bars of the cage, in front of the animal.
@@ -37,9 +31,8 @@ bool meets_bar(const Vector3d& x, const Vector3d& to_camera) {
   return std::abs(y - kSpacing_m * std::round(y / kSpacing_m)) < kRadius_m;
 }
 
-bool blocked(const Vector3d& x, const Vector3d& to_camera) {
-  const Vector3d head = mouth_in_world() + Vector3d(-0.050, 0.0, 0.015), trunk(-0.060, 0.110, -0.140);
-  return meets_ball(x, to_camera, head, 0.045) || meets_ball(x, to_camera, trunk, 0.090) ||
+bool blocked(const SleeveRoom& room, const Vector3d& x, const Vector3d& to_camera) {
+  return meets_ball(x, to_camera, room.head) || meets_ball(x, to_camera, room.trunk) ||
          meets_bar(x, to_camera);
 }
 
@@ -73,12 +66,29 @@ bool SleeveSight::sees(int led, const Vector3d& x, const Vector3d& normal) const
   const auto of_sleeve = static_cast<std::size_t>(led);
   if (of_sleeve < hidden_.size() ? hidden_[of_sleeve] != 0 : tip_hidden_) return false;
   int seen = 0;
-  for (const auto& camera : kCameras_m) {
-    const Vector3d to_camera = Eigen::Map<const Vector3d>(camera.data()) - x;
+  for (const auto& camera : room_.cameras) {
+    const Vector3d to_camera = camera - x;
     if (!(to_camera.dot(normal) > cosine_ * to_camera.norm())) continue;
-    if (!obstacles_ || !blocked(x, to_camera)) ++seen;
+    if (!obstacles_ || !blocked(room_, x, to_camera)) ++seen;
   }
   return seen >= cameras_;
 }
 
 }  // namespace kinemark::simulation::internal
+
+namespace kinemark::simulation {
+
+SleeveRoom sleeve_room() {
+  const Eigen::Vector3d mouth = internal::mouth_in_world();
+  return {.cameras = {{{0.7, 0.5, 0.5},
+                       {0.8, -0.3, 0.4},
+                       {0.3, 0.9, 0.2},
+                       {0.5, -0.8, 0.3},
+                       {-0.1, 0.3, 0.9},
+                       {0.9, 0.2, -0.2}}},
+          .mouth = mouth,
+          .head = {.centre = mouth + Eigen::Vector3d(-0.050, 0.0, 0.015), .radius_m = 0.045},
+          .trunk = {.centre = {-0.060, 0.110, -0.140}, .radius_m = 0.090}};
+}
+
+}  // namespace kinemark::simulation

@@ -8,6 +8,7 @@
 
 #include "kinemark/core/random.h"
 #include "kinemark/stages/simulation/limb.h"
+#include "kinemark/stages/simulation/sleeve_room.h"
 
 namespace kinemark::simulation::internal {
 
@@ -24,6 +25,7 @@ class SleeveSight {
  private:
   double cosine_, mouth_loss_;
   int cameras_;
+  SleeveRoom room_ = sleeve_room();
   bool obstacles_;
   std::vector<std::uint8_t> hidden_;  // per LED, by the visit that goes on
   bool at_mouth_ = false, tip_hidden_ = false;

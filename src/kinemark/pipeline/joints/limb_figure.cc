@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "studies/macaque/limb_figure.h"
+#include "kinemark/pipeline/joints/limb_figure.h"
 
 #include <fmt/core.h>
 
@@ -10,9 +10,9 @@
 #include <limits>
 
 #include "kinemark/core/index.h"
-#include "studies/common/svg_scene.h"
+#include "kinemark/stages/report/figures/space_drawing.h"
 
-namespace kinemark::studies {
+namespace kinemark::pipeline {
 namespace {
 
 using data::CentreState;
@@ -92,17 +92,6 @@ Matrix3Xd bone_of(const data::Trajectories& markers, const data::Skeleton& skele
   return out;
 }
 
-/// A file of its own: what a page gives a picture otherwise.
-std::string as_file(std::string svg, const std::string& description) {
-  const std::string begin = "<svg ";
-  svg.replace(0, begin.size(),
-              "<svg xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\" font-size=\"14\" ");
-  const std::string after = "</title>";
-  svg.insert(svg.find(after) + after.size(),
-             fmt::format("<desc>{}</desc><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>", description));
-  return svg + "\n";
-}
-
 }  // namespace
 
 std::vector<std::int64_t> choose_poses(const data::Trajectories& markers, const data::Skeleton& skeleton,
@@ -138,12 +127,12 @@ std::vector<std::int64_t> choose_poses(const data::Trajectories& markers, const 
   return chosen;
 }
 
-std::string limb_figure(const data::Trajectories& markers, const data::Skeleton& skeleton, const Vector3d& up,
-                        int poses) {
+LimbPicture limb_picture(const data::Trajectories& markers, const data::Skeleton& skeleton,
+                         const Vector3d& up, int poses) {
   const Eigen::Matrix3d upright =
       Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
   const auto frames = choose_poses(markers, skeleton, poses);
-  SvgScene scene("The limb from its markers", 40.0, 18.0);
+  report::SpaceDrawing scene(40.0, 18.0);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto note = [&](const Matrix3Xd& x) {
     low = std::min(low, x.row(2).minCoeff());
@@ -156,7 +145,7 @@ std::string limb_figure(const data::Trajectories& markers, const data::Skeleton&
   for (const auto f : frames) {
     for (int s = 0; s < static_cast<int>(skeleton.segments.size()); ++s)
       if (const Matrix3Xd bone = upright * bone_of(markers, skeleton, s, f); bone.cols() > 1)
-        scene.line("#000", bone, 5.0, true);
+        scene.line(bone, {.colour = "#000000", .width = 5.0, .shadow = true});
     for (std::size_t s = 0; s < skeleton.segments.size(); ++s)
       for (const int m : skeleton.segments[s].markers)
         if (markers.present(f, m)) scene.dot(kColours[s % kColours.size()], upright * markers.x(f, m), 4.0);
@@ -170,8 +159,25 @@ std::string limb_figure(const data::Trajectories& markers, const data::Skeleton&
   std::string numbers;
   for (const auto f : frames)
     numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", skeleton.time.number(f));
-  return as_file(scene.svg(),
-                 fmt::format("Frames {}. Squares of the floor: {:.0f} mm.", numbers, 1e3 * scene.square()));
+  report::FigurePanel panel;
+  panel.height = 440.0;
+  panel.picture = [scene](report::Canvas& canvas, const report::CanvasRoom& room) {
+    scene.draw(canvas, room);
+  };
+  LimbPicture out{.figure = {.title = "The limb from its markers",
+                             .caption = fmt::format("Frames {}. Squares of the floor: {:.0f} mm.", numbers,
+                                                    1e3 * scene.square()),
+                             .panels = {},
+                             .keys = {},
+                             .notes = {}},
+                  .frames = frames};
+  out.figure.panels.push_back(std::move(panel));
+  return out;
 }
 
-}  // namespace kinemark::studies
+std::string limb_figure(const data::Trajectories& markers, const data::Skeleton& skeleton, const Vector3d& up,
+                        int poses) {
+  return report::figure_svg(limb_picture(markers, skeleton, up, poses).figure);
+}
+
+}  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "studies/macaque/limb_figure.h"
+#include "kinemark/pipeline/joints/limb_figure.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include "kinemark/stages/skeleton/articulated/articulated.h"
 #include "kinemark/stages/skeleton/articulated/ends.h"
 
-namespace kinemark::studies {
+namespace kinemark::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
@@ -54,7 +54,7 @@ TEST_F(LimbFigure, HoldsDotsLinesAndShadowsOfEveryPose) {
   for (const auto f : choose_poses(limb.markers, skeleton, 4))
     for (std::int64_t m = 0; m < limb.markers.markers(); ++m) seen += limb.markers.present(f, m) ? 1 : 0;
   EXPECT_EQ(count(svg, "<circle"), seen);
-  EXPECT_EQ(count(svg, "stroke=\"#000\""), 8U) << "two segments in four poses";
+  EXPECT_EQ(count(svg, "stroke=\"#000000\""), 8U) << "two segments in four poses";
   EXPECT_THAT(svg, HasSubstr("<svg xmlns=\"http://www.w3.org/2000/svg\""));
   EXPECT_THAT(svg, HasSubstr(">shoulder</text>"));
   EXPECT_THAT(svg, HasSubstr(">wrist</text>"));
@@ -64,7 +64,7 @@ TEST_F(LimbFigure, HoldsDotsLinesAndShadowsOfEveryPose) {
 TEST_F(LimbFigure, AnotherAxisUpIsTheSamePicture) {
   const auto svg = limb_figure(limb.markers, skeleton, Eigen::Vector3d::UnitZ(), 2);
   EXPECT_THAT(svg, Not(HasSubstr("shoulder"))) << "no ends were asked for";
-  EXPECT_EQ(count(svg, "stroke=\"#000\""), 4U) << "the forearm as far as its markers reach";
+  EXPECT_EQ(count(svg, "stroke=\"#000000\""), 4U) << "the forearm as far as its markers reach";
   // y up: x, y, z become x, -z, y and back.
   const auto turn = [](double* x) {
     const double y = x[1];
@@ -79,4 +79,4 @@ TEST_F(LimbFigure, AnotherAxisUpIsTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace kinemark::studies
+}  // namespace kinemark::pipeline
