@@ -197,14 +197,15 @@ export class LanePlot {
       if (u % every === 0) this.#name(pen, unit.id, y + Math.max(row, 11) / 2);
       pen.fillStyle = palette().line;
       const [first, last] = binsIn(from, to, startS, binS, unit.counts.length);
-      // Where several bins share a pixel, a mark is as strong as the share of them that hold spikes.
+      // A mark is full at a spike a bin, or at twice the unit's mean where this is more; bins that share a pixel are drawn together.
+      const full = Math.max(1, (2 * unit.spikes) / unit.counts.length);
       const together = Math.max(1, Math.round(binS > 0 ? (1.5 * (to - from)) / (this.#width - this.#gutter) / binS : 1));
       for (let b = first; b < last; b += together) {
-        const firing = unit.counts.subarray(b, Math.min(last, b + together)).reduce((n, c) => n + (c > 0 ? 1 : 0), 0);
-        if (firing === 0) continue;
+        const spikes = unit.counts.subarray(b, Math.min(last, b + together)).reduce((n, c) => n + c, 0);
+        if (spikes === 0) continue;
         const x = Math.max(this.#gutter, this.#xOf(startS + b * binS));
         const width = Math.max(1, Math.min(3, this.#xOf(startS + (b + together) * binS) - x));
-        pen.globalAlpha = together === 1 ? 1 : 0.25 + (0.75 * firing) / together;
+        pen.globalAlpha = Math.min(1, 0.3 + (0.7 * spikes) / (together * full));
         pen.fillRect(x, y + (row > 4 ? 1 : 0), width, Math.max(1, row - (row > 4 ? 2 : 0)));
       }
       pen.globalAlpha = 1;

@@ -50,6 +50,6 @@ export function lanesInWords(lanes: Lanes, unitCount: number): string {
 export function neuralLanes(lanes: Lanes, unitCount: number, view: View): Part {
   const box = el("div", { class: "gap-map lanes", id: "lanes" });
   const plot = new LanePlot(box, view, lanes);
-  const lead = `${lanesInWords(lanes, unitCount)}, on the clock of the recording. A mark is a bin of ${number(1e3 * lanes.binS, 1)} ms with spikes; field potentials span from their least to their largest value.`;
+  const lead = `${lanesInWords(lanes, unitCount)}, on the clock of the recording. A mark is a bin of ${number(1e3 * lanes.binS, 1)} ms with spikes, the stronger the more; field potentials span from their least to their largest value.`;
   return { node: section("neural", "Beside the movement", lead, plot.readout, box), start: () => plot.draw() };
 }
