@@ -13,10 +13,12 @@
 #include "kinemark/io/nwb/internal/carry.h"
 #include "kinemark/io/nwb/internal/content_list.h"
 #include "kinemark/io/nwb/internal/reader.h"
+#include "kinemark/io/nwb/neural_file.h"
 #include "kinemark/io/nwb/nwb.h"
 #include "kinemark/io/nwb/nwb_tables.h"
 #include "kinemark/io/nwb/testing/others.h"
 #include "kinemark/io/nwb/testing/sample.h"
+#include "kinemark/io/nwb/testing/sample_session.h"
 #include "support/scratch.h"
 
 namespace kinemark::io {
@@ -140,6 +142,26 @@ TEST(NwbBeside, TwiceDoublesNothingAndGivesTheSameBytes) {
   EXPECT_EQ(list("three.nwb"), list("one.nwb"));
   expect_carried(source, scratch / "three.nwb");
   EXPECT_LT(std::filesystem::file_size(scratch / "three.nwb"), 3 * std::filesystem::file_size(source));
+}
+
+TEST(NwbBeside, NeuronsOfOurOwnSessionsGoAlong) {
+  const testing_support::ScratchFolder scratch;
+  const auto neural = testing::sample_neural();
+  ASSERT_TRUE(testing::write_session(scratch / "session.nwb", neural, {testing::sample_field()}));
+  const auto trial = read_nwb(scratch / "session.nwb").value().trial;
+  ASSERT_TRUE(write_nwb(scratch / "made.nwb", trial, nullptr, {}, {.beside = &trial.beside}));
+  const auto back = read_neural(scratch / "made.nwb");
+  ASSERT_TRUE(back) << back.error().message;
+  ASSERT_EQ(back->units.size(), neural.units.size());
+  EXPECT_TRUE(std::ranges::equal(back->units[0].times_s, neural.units[0].times_s));
+  EXPECT_EQ(back->intervals.size(), 1U) << "trials";
+  EXPECT_EQ(read_neural_lanes(scratch / "made.nwb").value().fields.size(), 1U);
+  const auto at = [](const std::filesystem::path& path, const char* object) {
+    return testing::content(path, object);
+  };
+  for (const char* object : {"/units/spike_times", "/intervals/trials/start_time"})
+    EXPECT_EQ(at(scratch / "made.nwb", object), at(scratch / "session.nwb", object)) << object;
+  EXPECT_THAT(read_nwb(scratch / "made.nwb").value().warnings, IsEmpty());
 }
 
 TEST(NwbBeside, PositionsOfOthersKeepTheirNames) {

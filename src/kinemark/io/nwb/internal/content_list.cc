@@ -70,6 +70,15 @@ bool is_known(const std::string& path) {
          path == std::string(kIntervals) + "/" + kUnloaded;
 }
 
+/// What write_neural() puts beside a movement: no result replaces it, and what is made from the file keeps
+/// it, as that of others.
+bool is_beside(const std::string& path) {
+  const std::string unloaded = std::string(kIntervals) + "/" + kUnloaded;
+  return path == "/units" || path == "/general/devices" || path == "/general/extracellular_ephys" ||
+         path.starts_with("/processing/ecephys/") ||
+         (path.starts_with(std::string(kIntervals) + "/") && path != unloaded);
+}
+
 }  // namespace
 
 std::string module_of(const Input& in) {
@@ -80,6 +89,7 @@ std::string module_of(const Input& in) {
 std::vector<std::string> all_content(const Input& in) {
   std::vector<std::string> out;
   add_children(in, "", out);
+  std::erase_if(out, is_beside);
   return out;
 }
 

@@ -22,7 +22,8 @@ inline constexpr const char* kModuleAttribute = "kinemark_module";
 /// The processing module that holds, or would hold, our positions.
 [[nodiscard]] std::string module_of(const Input& in);
 
-/// Every object of a file that we wrote alone, as the content list names it.
+/// Every object of a file that we wrote alone, as the content list names it; without units, intervals of
+/// trials, electrodes and potentials, which lie beside a movement and go along as those of others do.
 [[nodiscard]] std::vector<std::string> all_content(const Input& in);
 
 /// The list of a file; nothing where it has none.
