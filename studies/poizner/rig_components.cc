@@ -56,7 +56,7 @@ void draw_block(Canvas& canvas, const Block& block) {
 
 void draw_arrow(Canvas& canvas, const Points& along) {
   canvas.line(along, {.colour = kInk, .width = 1.4});
-  const Vector2d tip = along.back(), back = along[along.size() - 2];
+  const Vector2d &tip = along.back(), &back = along[along.size() - 2];
   const Vector2d d = (tip - back).normalized(), n(-d.y(), d.x());
   canvas.area(Points{tip, tip - 8.0 * d + 3.5 * n, tip - 8.0 * d - 3.5 * n}, kInk, 1.0);
 }

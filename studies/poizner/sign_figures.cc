@@ -49,7 +49,7 @@ report::SpaceDrawing line_drawing(const ArmOutcome& arm) {
   report::SpaceDrawing scene(-22.0, 10.0);
   draw_signer(scene, arm.our_paths.front().position.col(kFirst));
   constexpr int kPoses = 5;
-  for (int i = kPoses; i-- > 0;) {
+  for (int i = kPoses - 1; i >= 0; --i) {
     const Matrix3Xd pose = upright(arm_at(arm, kFirst + kRound * i / kPoses));
     scene.line(pose, {.colour = i == 0 ? kInk : kPast, .width = i == 0 ? 4.0 : 1.6});
     if (i == 0)

@@ -145,7 +145,7 @@ def check_sign(folder):
     rate = {f: (8 * (speed[f + 1] - speed[f - 1]) - speed[f + 2] + speed[f - 2]) / (12 * step) for f in inner}
     size = math.sqrt(sum(acceleration[f] ** 2 for f in inner) / len(inner))
     apart = math.sqrt(sum((rate[f] - acceleration[f]) ** 2 for f in inner) / len(inner)) / size
-    row(apart < 0.02, "6C, acceleration against d|v|/dt of the velocity beside it", "<= 2 % RMS", f"{100 * apart:.2f} %")
+    row(apart < 0.02, "6C, tangential acceleration against the rate of the speed", "<= 2 % RMS", f"{100 * apart:.2f} %")
     svg = (folder / "poizner-1986-figure-6.svg").read_text()
     off_by = max(drawn(svg, of[name]) for name in ("tangential velocity", "tangential acceleration"))
     row(off_by < 0.02, "6C, picture to its numbers", "<= 0.02 pixels", f"{off_by:.3f}")

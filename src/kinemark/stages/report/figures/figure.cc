@@ -19,7 +19,6 @@ namespace {
 
 using internal::Legend;
 using internal::PanelDrawing;
-using internal::PanelFrame;
 
 constexpr double kTitle = 34.0, kCaption = 30.0, kNoteLine = 14.0, kNoteSize = 11.0, kPanelNoteSize = 10.0,
                  kBeforeNotes = 6.0;
