@@ -75,6 +75,11 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   }
   options.step_s = 1e-3 * arguments.step_ms;
   options.level_bound_m = 1e-3 * arguments.level_bound_mm;
+  if (options.strict && options.levels.size() < 2)
+    return fail(Code::usage, fmt::format("--strict is for several levels; --level is given {} times",
+                                         options.levels.size()));
+  if (options.level_bound_m > 0.0 && !options.strict)
+    return fail(Code::usage, "--level-bound is for strict levels; --strict is not given");
   options.feed_forward = !arguments.no_feed_forward;
   options.lock = arguments.no_lock ? motion::LockMode::off : motion::LockMode::automatic;
   return {};

@@ -104,6 +104,8 @@ WITH = {
     ("clean", "--cutoff-rule"): ["--filter", "butterworth"], ("clean", "--uncorrected-cutoff"): ["--filter", "butterworth"],
     ("joints", "--sides"): ["--method", "score"], ("ik", "--loss-scale"): ["--loss", "huber"],
     ("ik", "--geometry"): ["--report", "page.html"], ("track", "--geometry"): ["--report", "page.html"],
+    ("track", "--strict"): ["--level", "LASI,RASI,LPSI,RPSI", "--level", "*"],
+    ("track", "--level-bound"): ["--level", "LASI,RASI,LPSI,RPSI", "--level", "*", "--strict"],
     ("simulate subject", "--soft-tissue-common"): ["--soft-tissue", 1],
     ("simulate arm", "--interpolation"): ["--upsample", 4], ("simulate macaque", "--interpolation"): ["--upsample", 4],
     ("simulate arm", "--planar"): ["--stagger", 10], ("simulate arm", "--pose-correlated"): ["--missing", 0.2],
@@ -130,6 +132,8 @@ SAME = {*((command, option) for command in ("convert", "clean", "joints", "ik", 
 
 # What is not for the others: words, the option that is refused, and what is said of it.
 REFUSED = [
+    ("track -m body.osim -t body.trc -o o.mot", "--strict", "is for several levels; --level is given 0 times"),
+    ("track -m body.osim -t body.trc -o o.mot", "--level-bound=5", "is for strict levels; --strict is not given"),
     *((f"simulate arm -o o --stagger {zero}", "--planar", f"is for markers beside the bone; --stagger is {zero}") for zero in ("0", "0.0", "0e3")),
     *((f"clean legs.trc o.csv --filter {name}", option, "is for") for name in ("none", "kalman", "gcv", "savgol", "classic")
       for option in ("--uncorrected-cutoff", "--cutoff-rule=challis")),

@@ -260,7 +260,7 @@ Result<AccuracyChoice> choose_by_accuracy(const Plan& plan, const JudgedRun& pil
   if (given == 0.0 && !(roughness(samples) > kSmoothedBefore * white.mean()))
     return fail(Code::bad_input,
                 "which accuracy can be had is not known: the samples were smoothed before, and "
-                "their noise cannot be told from movement; give it (--noise)");
+                "their noise cannot be distinguished from movement; give it (--noise)");
   const auto frames = frames_of(plan.problem);
   std::vector<Cutoff> cutoffs;
   for (const double hz : kCutoffs_hz) {
