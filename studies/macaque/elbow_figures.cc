@@ -239,6 +239,9 @@ Result<StudyFigure> simulated_arm(const MacaqueStudy& study, std::uint64_t seed)
   report::SpaceDrawing scene(35.0, 22.0);
   scene.floor(-0.20);
   draw_arm(scene, *limb, frame);
+  Matrix3Xd apart(3, 2);
+  apart << our_elbow, their_elbow;
+  scene.line(apart, {.colour = kReportInk, .width = 1.3, .dashed = true});
   scene.dot(kReportInk, their_elbow, 7.0);
   scene.label("elbow by the report's method", their_elbow, report::Anchor::start, {12.0, 4.0});
   scene.dot(kOursInk, our_elbow, 7.0);

@@ -87,7 +87,7 @@ void draw_body(report::SpaceDrawing& scene) {
   }
 }
 
-/// A lens as a small pyramid that looks at the arm.
+/// A lens as the tip of a small pyramid that opens towards the arm.
 void draw_camera(report::SpaceDrawing& scene, const Vector3d& lens, const Vector3d& target) {
   constexpr double kDeep = 0.07, kHalf = 0.03;
   const Vector3d z = (target - lens).normalized(), x = z.cross(Vector3d::UnitZ()).normalized(),
@@ -96,7 +96,7 @@ void draw_camera(report::SpaceDrawing& scene, const Vector3d& lens, const Vector
   int corner = 0;
   for (const auto& [a, b] : {std::pair{-1.0, -1.0}, std::pair{1.0, -1.0}, std::pair{1.0, 1.0},
                              std::pair{-1.0, 1.0}, std::pair{-1.0, -1.0}})
-    rim.col(corner++) = lens - kDeep * z + kHalf * (a * x + b * y);
+    rim.col(corner++) = lens + kDeep * z + kHalf * (a * x + b * y);
   const report::SpaceLine ink{.colour = kInk, .width = 1.3};
   scene.line(rim, ink);
   for (int i = 0; i < 4; ++i) scene.line(between(rim.col(i), lens), ink);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kinemark/core/check.h"
@@ -19,6 +20,7 @@ using data::Trajectories;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
+constexpr std::array kShares{0.12, 0.5, 0.82};          // of the recording: the postures
 constexpr double kAzimuth_deg = 32.0, kApart_m = 1.15;  // where the viewer stands; postures beside each other
 const std::string kBone = "#8c8c8c", kInk = "#1a1a1a", kLight = "#9ec3e6", kTrail = "#bdbdbd";
 
@@ -46,12 +48,12 @@ void draw_body(report::SpaceDrawing& scene, const Trajectories& body, std::int64
     for (std::size_t i = 0; i < limb.size(); ++i) line.col(static_cast<Eigen::Index>(i)) = at(limb[i]);
     scene.line(line, bone);
   }
-  Matrix3Xd trunk(3, 3);
-  trunk << at("Pelvis"), at("Thorax"), at("Neck");
-  scene.line(trunk, bone);
   const Vector3d front = at("FHead"), back = at("BHead"), middle = 0.5 * (front + back),
                  along = 0.5 * (front - back), up = 1.25 * along.norm() * Vector3d::UnitZ();
   const Vector3d across = along.cross(Vector3d::UnitZ()).normalized() * 0.8 * along.norm();
+  Matrix3Xd trunk(3, 4);
+  trunk << at("Pelvis"), at("Thorax"), at("Neck"), middle - up;
+  scene.line(trunk, bone);
   constexpr int kCorners = 32;
   for (const auto& half : {along, across}) {
     Matrix3Xd head(3, kCorners + 1);
@@ -87,7 +89,14 @@ StudyFigure controlled_body(const TaiChiDrawing& drawing) {
   const double azimuth = kAzimuth_deg * std::numbers::pi / 180.0;
   const Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0.0);
   report::SpaceDrawing scene(kAzimuth_deg, 12.0);
-  scene.floor(-0.02);
+  std::array<std::int64_t, 3> frames{};
+  double lowest = std::numeric_limits<double>::infinity();  // the feet stand on the floor
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i] = static_cast<std::int64_t>(kShares[i] * static_cast<double>(body.frames() - 1));
+    for (std::int64_t m = 0; m < body.markers(); ++m)
+      if (body.present(frames[i], m)) lowest = std::min(lowest, upright(body.x(frames[i], m)).z());
+  }
+  scene.floor(lowest);
   const auto half = static_cast<std::int64_t>(std::llround(0.5 * body.time.rate_hz));
   StudyFigure out{.paper = kDemircan,
                   .number = 1,
@@ -96,8 +105,7 @@ StudyFigure controlled_body(const TaiChiDrawing& drawing) {
                       "(left elbow, right wrist)"};
   const auto subsets = paper_set().levels;
   int posture = 0;
-  for (const double share : {0.12, 0.5, 0.82}) {
-    const auto frame = static_cast<std::int64_t>(share * static_cast<double>(body.frames() - 1));
+  for (const std::int64_t frame : frames) {
     const Vector3d pelvis = place(body, frame, "Pelvis");
     const Vector3d shift = kApart_m * (posture - 1) * right - Vector3d(pelvis.x(), pelvis.y(), 0.0);
     draw_body(scene, body, frame, shift);

@@ -204,7 +204,7 @@ StudyFigure margins(const TaiChiDrawing& drawing, const StudyTable& table) {
   for (const auto& [track, set] : runs) {
     const VectorXd time = times(track->motion.time);
     const auto errors = joint_errors(*track);
-    FigurePanel panel{.title = fmt::format("Joint error, {}", set),
+    FigurePanel panel{.title = fmt::format("Bound of joint error, {}", set),
                       .x_label = "time, s",
                       .y_label = "error, deg",
                       .tight = true,
