@@ -214,8 +214,11 @@ TEST(MarkerFile, ANwbKeepsWhoRecordedAndSaysWhatNoTrialHolds) {
   rates.velocity.assign(trial.markers.x_in_world.size(), 0.5);
   rates.filters.resize(2);
   ASSERT_TRUE(write_nwb(scratch / "b.nwb", trial, &rates, {.subject_id = "M1"}));
-  EXPECT_THAT(read_markers(scratch / "b.nwb").value().unread,
-              testing::ElementsAre("derivatives of markers", "subject and session"));
+  const auto named = read_markers(scratch / "b.nwb").value();
+  EXPECT_THAT(named.unread, testing::ElementsAre("derivatives of markers"));
+  EXPECT_THAT(named.beside.objects,
+              testing::ElementsAre(testing::Field(&data::BesideObject::path, "/general/subject")));
+  EXPECT_THAT(back.beside.objects, testing::IsEmpty()) << "nobody is named";
 }
 
 TEST(MarkerFile, ProvenanceSurvivesEveryFormatThatCanHoldIt) {
