@@ -20,7 +20,7 @@ using ::testing::Not;
 
 constexpr TimeBase kTime{.rate_hz = 100.0, .t0_s = 2.0, .frames = 1001, .first_number = 1};
 
-data::IntervalTable table_of(std::vector<std::array<double, 2>> spans) {
+data::IntervalTable table_of(const std::vector<std::array<double, 2>>& spans) {
   data::IntervalTable out{.name = "trials", .rows = {}};
   for (const auto& [start_s, stop_s] : spans)
     out.rows.push_back({.start_s = start_s,
