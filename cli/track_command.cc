@@ -101,7 +101,8 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
   if (result.accuracy) {
     const auto& a = *result.accuracy;
     say(common,
-        fmt::format("Expected error of the angles: {:.2g} deg RMS ({:g} wanted), by a cut-off of {:g} Hz and "
+        fmt::format("Expected error of the angles for this model: {:.2g} deg RMS ({:g} wanted), by a cut-off "
+                    "of {:g} Hz and "
                     "omega {:.3g} rad/s; from {:.2g} deg in {} to {:.2g} deg in {}.",
                     kDegPerRad * a.predicted_rad, kDegPerRad * a.wanted_rad, a.cutoff_hz, a.omega_rad_s,
                     kDegPerRad * a.smallest_rad, a.smallest, kDegPerRad * a.largest_rad, a.largest));

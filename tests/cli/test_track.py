@@ -80,7 +80,7 @@ class Track(CommandTest):
         self.refused(2, "is no angle above 0, as 0.5deg", *self.track(accuracy="fine"))
         self.refused(2, "--accuracy", *self.track(accuracy="5deg"), "--cutoff", 6)
         ran = self.good(*self.track(accuracy="20deg"))
-        self.assertIn("Expected error of the angles", ran.err)
+        self.assertIn("Expected error of the angles for this model", ran.err)
         report = (self.folder / "q_report.json").read_text()
         self.assertIn(", lost movement ", report)
         self.assertNotIn(" mm RMS from its goals, ", report)

@@ -171,6 +171,7 @@ TEST(NwbBeside, PositionsOfOthersKeepTheirNames) {
     internal::Output out((scratch / "in.nwb").string(), "others");
     out.declare(out.file(), "NWBFile");
     out.text(out.file(), "identifier", "monkey");
+    out.attribute(out.file(), "kinemark_set", "a");  // no mark of ours: these bytes stay wherever they are
     out.group(out.file(), "processing");
     const Handle module = out.group(out.file(), "/processing/behavior", "ProcessingModule");
     const Handle position = out.group(module.id(), "Position", "Position");

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
 #include "kinemark/core/index.h"
 #include "kinemark/core/units.h"
@@ -26,9 +28,30 @@ std::vector<double> times_of(const data::Trajectories& markers, std::int64_t mar
   return out;
 }
 
-/// Columns of lengths, as OpenSim names them.
-bool is_length(std::string_view column) {
-  return column.ends_with("_tx") || column.ends_with("_ty") || column.ends_with("_tz");
+/// What a column of a motion or of forces holds, by the names that OpenSim gives; an angle where they say
+/// nothing else.
+data::Quantity quantity_of(std::string_view column) {
+  const auto ends = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) { return column.ends_with(word); });
+  };
+  if (column.find("_moment") != std::string_view::npos || column.find("_torque") != std::string_view::npos)
+    return data::Quantity::moment;
+  if (ends({"_vx", "_vy", "_vz", "_force"})) return data::Quantity::force;
+  if (ends({"_tx", "_ty", "_tz", "_px", "_py", "_pz"})) return data::Quantity::length;
+  return data::Quantity::angle;
+}
+
+std::string_view id_of(data::Quantity quantity) {
+  switch (quantity) {
+    case data::Quantity::moment:
+      return "moment";
+    case data::Quantity::force:
+      return "force";
+    case data::Quantity::length:
+      return "position";
+    default:
+      return "angle";
+  }
 }
 
 }  // namespace
@@ -66,13 +89,13 @@ std::vector<SampledCurve> curves_of(const data::Trajectories& markers, const dat
 std::vector<SampledCurve> curves_of(const data::Table& motion, bool degrees) {
   std::vector<SampledCurve> out;
   for (std::size_t c = 0; c < motion.columns.size(); ++c) {
-    const bool length = is_length(motion.columns[c]);
+    const auto quantity = quantity_of(motion.columns[c]);
     SampledCurve one{.subject = motion.columns[c],
-                     .id = length ? "position" : "angle",
-                     .quantity = length ? data::Quantity::length : data::Quantity::angle,
+                     .id = std::string(id_of(quantity)),
+                     .quantity = quantity,
                      .time_s = {motion.time_s.begin(), motion.time_s.end()},
                      .value = {}};
-    const double si = length || !degrees ? 1.0 : kRadPerDeg;
+    const double si = quantity == data::Quantity::angle && degrees ? kRadPerDeg : 1.0;
     for (std::int64_t r = 0; r < motion.rows(); ++r)
       one.value.push_back(si * motion(r, static_cast<std::int64_t>(c)));
     out.push_back(std::move(one));

@@ -65,6 +65,18 @@ TEST(AroundCurves, ColumnsOfAMotionAreAnglesOrLengths) {
   EXPECT_EQ(curves_of(table, false)[0].value[0], 90.0) << "in rad as it stands";
 }
 
+TEST(AroundCurves, ForcesAndMomentsOfAFileInDegreesAreNoAngles) {
+  data::Table table{.columns = {"knee_angle_r_moment", "ground_force_vy", "ground_force_px"},
+                    .time_s = {0.0},
+                    .values = {2.0, 700.0, 0.3}};
+  const auto curves = curves_of(table, true);
+  EXPECT_EQ(curves[0].quantity, data::Quantity::moment);
+  EXPECT_EQ(curves[0].id, "moment");
+  EXPECT_EQ(curves[1].quantity, data::Quantity::force);
+  EXPECT_EQ(curves[2].quantity, data::Quantity::length);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(curves[c].value[0], table.values[c]);
+}
+
 TEST(AroundCurves, TheSpanIsThatOfAllSamples) {
   EXPECT_TRUE(std::isnan(span_of({}).start_s));
   const auto span = span_of(curves_of(two_markers()));

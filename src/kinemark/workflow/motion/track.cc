@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/control/camera_task.h"
@@ -86,6 +87,22 @@ void add_level_gate(Gates& gates, const motion::TrackResult& result) {
       fmt::format("In {} of {} frames a strict level is beyond its bound.", beyond, result.motion.frames()));
 }
 
+/// The accuracy that was chosen for knows noise, filter and steps: said where the markers lie farther from
+/// the model than noise puts them.
+std::string note_on_accuracy(const motion::TrackResult& result) {
+  constexpr double kBeyondNoise = 2.0;
+  if (!result.accuracy) return {};
+  const double noise_m = std::sqrt(3.0) * result.accuracy->noise_sd_m, off_m = result.fit.rms_error_m;
+  if (!(off_m > kBeyondNoise * noise_m)) return {};
+  return fmt::format(
+      "the expected error is that of noise, filter and steps: markers lie {:.1f} mm RMS from this model, of "
+      "which "
+      "noise makes {:.1f} mm; what the model's sizes and skin put into the angles is not in it, and "
+      "deviations of "
+      "the angles hold what the residuals show of it",
+      1e3 * off_m, 1e3 * noise_m);
+}
+
 void add_gates(Gates& gates, const MarkerBounds& bounds, const motion::TrackResult& result) {
   const double offset_m = result.fit.mean_error_m.norm();
   add_marker_gates(gates, bounds, offset_m,
@@ -117,6 +134,13 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   warnings = fit.warnings;
   std::ranges::move(data::describe_all(fit.findings, found.result.motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
+  if (const auto& calibration = recording.trial.calibration_error;
+      calibration.known() && options.track.error_bars)
+    warnings.push_back(fmt::format(
+        "Deviations of coordinates do not hold what the calibration leaves unknown of all positions: "
+        "{:.2g} mm (RMS); those of ik do",
+        1e3 * data::rms_of(calibration, markers)));
+  if (auto note = note_on_accuracy(found.result); !note.empty()) warnings.push_back(std::move(note));
   add_gates(found.remarks.gates, options.bounds, found.result);
   std::ranges::copy(found.torques.gates, std::back_inserter(found.remarks.gates));
   add_contradictions(recording.contradicted, found.remarks.gates);

@@ -36,6 +36,37 @@ TEST(Track, FollowsTheMarkersAndSaysHowWell) {
   EXPECT_FALSE(strict.remarks.passed());
 }
 
+TEST(Track, AnExpectedAccuracyIsThatOfTheModelAndSaidWhereMarkersLieFarFromIt) {
+  Followed followed;
+  TrackOptions options;
+  options.track.accuracy_rad = 0.1;
+  options.track.marker_noise_sd_m = 0.002;
+  const auto near = track(followed.model, followed.recording, options).value();
+  ASSERT_TRUE(near.result.accuracy.has_value());
+  EXPECT_EQ(near.result.accuracy->noise_sd_m, 0.002);
+  EXPECT_THAT(near.remarks.warnings, Not(Contains(HasSubstr("put into the angles is not in it"))));
+  auto& markers = followed.recording.trial.markers;
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m)
+      if (markers.present(f, m))
+        markers.x(f, m) += 0.02 * (m % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::UnitX();
+  EXPECT_THAT(track(followed.model, followed.recording, options).value().remarks.warnings,
+              Contains(HasSubstr("what the model's sizes and skin put into the angles is not in it")));
+}
+
+TEST(Track, WhatDeviationsDoNotHoldIsSaid) {
+  Followed followed;
+  EXPECT_THAT(track(followed.model, followed.recording).value().remarks.warnings,
+              Not(Contains(HasSubstr("Deviations of coordinates do not hold what the calibration"))));
+  auto& error = followed.recording.trial.calibration_error;
+  error.fields = {data::CalibrationError::Field::Zero()};
+  error.fields[0](0, 0) = 2e-3;
+  EXPECT_THAT(
+      track(followed.model, followed.recording).value().remarks.warnings,
+      Contains("Deviations of coordinates do not hold what the calibration leaves unknown of all positions: "
+               "2 mm (RMS); those of ik do"));
+}
+
 TEST(Track, WithForcesTorquesAreThoseOfTheMotionAndTheForces) {
   Followed followed;
   const auto& time = followed.recording.trial.markers.time;

@@ -48,20 +48,33 @@ struct Mixture {
   std::array<double, 4> weight{};
 };
 
+/// The frame whose sample lies about where this frame's time is: its own unless offsets are of a frame or
+/// more.
+std::int64_t nearest_frame(const Trajectories& t, std::int64_t f, std::int64_t m) {
+  const double late = offset_s(t, f, m) * t.time.rate_hz;
+  return std::abs(late) < 1.0 ? f : f - std::llround(late);
+}
+
 /// Lagrange's polynomial through up to two samples before the frame's time and two behind it; the line
-/// through the nearest two where one side has none.
+/// through the nearest two where one side has none; the sample itself where it was measured at that time.
 Mixture mixture_at(const Trajectories& t, std::int64_t f, std::int64_t m) {
-  std::array<std::int64_t, 2> before{}, after{};
-  int n_before = 0, n_after = 0;
   const auto instant = [&](std::int64_t g) {  // in frames from the frame's time
     return static_cast<double>(g - f) + offset_s(t, g, m) * t.time.rate_hz;
   };
-  const std::int64_t first = std::max<std::int64_t>(f - kReach, 0),
-                     last = std::min(f + kReach, t.frames() - 1);
-  for (std::int64_t g = last; g >= first && n_before < 2; --g)
-    if (t.present(g, m) && instant(g) <= 0.0) before[at(n_before++)] = g;
-  for (std::int64_t g = first; g <= last && n_after < 2; ++g)
-    if (t.present(g, m) && instant(g) > 0.0) after[at(n_after++)] = g;
+  const double same = kSameInstant_s * t.time.rate_hz;
+  const std::int64_t middle = nearest_frame(t, f, m), first = std::max<std::int64_t>(middle - kReach, 0),
+                     last = std::min(middle + kReach, t.frames() - 1);
+  std::array<std::int64_t, 2> before{}, after{};
+  int n_before = 0, n_after = 0;
+  const auto add = [&](std::int64_t g, std::array<std::int64_t, 2>& side, int& count) {
+    if (count < 2 && (count == 0 || std::abs(instant(g) - instant(side[0])) > same)) side[at(count++)] = g;
+  };
+  for (std::int64_t g = first; g <= last; ++g)
+    if (t.present(g, m) && std::abs(instant(g)) <= same) return {.count = 1, .frame = {g}, .weight = {1.0}};
+  for (std::int64_t g = last; g >= first; --g)
+    if (t.present(g, m) && instant(g) < 0.0) add(g, before, n_before);
+  for (std::int64_t g = first; g <= last; ++g)
+    if (t.present(g, m) && instant(g) > 0.0) add(g, after, n_after);
   Mixture out;
   if (n_before == 0 || n_after == 0) {  // a line from one side
     const auto& side = n_before == 0 ? after : before;
@@ -105,13 +118,20 @@ std::string bring_to_one_time(Trajectories& markers) {
   for (std::int64_t m = 0; m < own.markers(); ++m) {
     const bool filtered = data::was_filtered(own, m);
     for (std::int64_t f = 0; f < own.frames(); ++f) {
-      if (!own.present(f, m)) continue;
+      const std::int64_t about = nearest_frame(own, f, m);
+      if (about < 0 || about >= own.frames() || !own.present(about, m)) {
+        if (own.present(f, m)) markers.set_missing(f, m);
+        continue;
+      }
       const Mixture mixture = mixture_at(own, f, m);
       if (mixture.count == 0) {
         markers.set_missing(f, m);
         ++alone;
         continue;
       }
+      const std::size_t to = own.index(f, m), from = own.index(about, m);
+      markers.state[to] = own.state[from];
+      if (!own.method.empty()) markers.method[to] = own.method[from];
       mix(mixture, own, f, m, 3, false, own.x_in_world, markers.x_in_world);
       if (!own.unfiltered_in_world.empty())
         mix(mixture, own, f, m, 3, false, own.unfiltered_in_world, markers.unfiltered_in_world);

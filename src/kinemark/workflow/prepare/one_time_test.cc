@@ -94,6 +94,27 @@ TEST(OneTime, BesideGapsALineServesAndASampleAloneIsLeftOut) {
   EXPECT_THAT(bring_to_one_time(whole), Not(HasSubstr("samples without another beside them were left out")));
 }
 
+TEST(OneTime, ASampleAtTheFramesTimeStaysThoughItIsAlone) {
+  auto markers = in_turns({0.0, 0.005});
+  for (std::int64_t f = 0; f < kFrames; ++f)
+    if (f != 20) markers.set_missing(f, 0);
+  const Eigen::Vector3d before = markers.x(20, 0);
+  EXPECT_THAT(bring_to_one_time(markers), Not(HasSubstr("were left out")));
+  ASSERT_TRUE(markers.present(20, 0));
+  EXPECT_EQ(markers.x(20, 0), before);
+}
+
+TEST(OneTime, OffsetsOfSeveralFramesFindTheirSamples) {
+  auto markers = in_turns({0.0, 0.054, -0.04});
+  markers.set_missing(30, 1);
+  static_cast<void>(bring_to_one_time(markers));
+  EXPECT_LT(worst(markers), 1.5e-3);
+  EXPECT_FALSE(markers.present(2, 1)) << "before its first sample";
+  EXPECT_FALSE(markers.present(35, 1)) << "what was measured then is missing";
+  EXPECT_TRUE(markers.present(30, 1)) << "another sample serves there";
+  EXPECT_TRUE(markers.present(20, 2));
+}
+
 TEST(OneTime, CovariancesAreThoseOfTheMixtureAndStayThoseOfFilteredSamples) {
   auto markers = in_turns({0.0, 0.005});
   markers.covariance.assign(6 * markers.state.size(), 0.0);

@@ -179,6 +179,15 @@ Status blank(const std::filesystem::path& path, const std::string& text) {
   return file ? Status() : fail(Code::io, "cannot be written");
 }
 
+/// Our mark, and nothing that somebody else called so.
+bool is_mark(std::string_view text) {
+  constexpr std::size_t kDigits = 16;
+  if (text.size() != kSetKey.size() + 1 + kDigits || !text.starts_with(kSetKey) ||
+      text[kSetKey.size()] != '=')
+    return false;
+  return text.find_first_not_of("0123456789abcdef", kSetKey.size() + 1) == std::string_view::npos;
+}
+
 Status copy_bytes(const std::filesystem::path& source, OutputFile& out) {
   const auto in = InputFile::open(source);
   if (!in) return std::unexpected(in.error());
@@ -207,7 +216,7 @@ Result<Carried> carry_here(const std::filesystem::path& copy, const std::filesys
   const auto before = Input::of(file.id()).text_attribute(file.id(), std::string(kSetKey).c_str());
   const auto now = results.text_attribute(results.file(), std::string(kSetKey).c_str());
   auto carried = Carrier(std::move(file), results).put();
-  if (carried && before && !before->empty() && before != now)
+  if (carried && before && is_mark(*before) && before != now)
     if (auto s = blank(copy, *before); !s) return std::unexpected(s.error());
   return carried;
 }

@@ -89,7 +89,8 @@ TEST(Accuracy, OfSamplesThatWereSmoothedBeforeItIsNotKnownUnlessTheirNoiseIsGive
   const auto smooth = control_goals(record(model, 400, 2e-3, 6), {.cutoff_hz = 12.0}).value();
   const auto refused = to_accuracy(model, smooth, 2.0);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("the samples were smoothed before"));
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("the samples show no noise of their own (they were smoothed before"));
   EXPECT_TRUE(to_accuracy(model, smooth, 5.0, {.marker_noise_sd_m = 2e-3}));
 }
 

@@ -34,7 +34,8 @@ struct LevelAccount {
 /// this model: that it has the wrong size shows in no recording.
 struct AccuracyChoice {
   double wanted_rad = 0.0;                                 ///< as asked for
-  double predicted_rad = 0.0;                              ///< of the choice
+  double predicted_rad = 0.0;                              ///< of the choice, for this model
+  double noise_sd_m = 0.0;                                 ///< of a sample per axis, as given or found
   double noise_rad = 0.0, lost_rad = 0.0, step_rad = 0.0;  ///< its parts: noise, lost movement, steps
   double cutoff_hz = 0.0;                                  ///< at which noise and lost movement are least
   double step_s = 0.0, omega_rad_s = 0.0;                  ///< the longest step that does, and its gains

@@ -69,7 +69,7 @@ struct ArticulatedFit {
 /// not follow each other (their innovations say so) nothing is smoothed and a warning says it. The noise of
 /// markers that went through a filter (Trajectories::filters) follows itself, and smoothing once more takes
 /// nothing of it: their determined frames keep their own centre, and the geometry rests on no more frames
-/// than the filter lets differ.
+/// than the filter lets differ (50 at least).
 ///
 /// Fails with one sentence where the geometry cannot be known at all: no frame that shows two segments, fewer
 /// than two markers on a segment, a joint that never moves. What the recording shows about each joint is in

@@ -259,8 +259,8 @@ Result<AccuracyChoice> choose_by_accuracy(const Plan& plan, const JudgedRun& pil
                                                    options.threads, result.motion);
   if (given == 0.0 && !(roughness(samples) > kSmoothedBefore * white.mean()))
     return fail(Code::bad_input,
-                "which accuracy can be had is not known: the samples were smoothed before, and "
-                "their noise cannot be distinguished from movement; give it (--noise)");
+                "which accuracy can be had is not known: the samples show no noise of their own (they were "
+                "smoothed before, or are never seen in seven frames on end); give it (--noise)");
   const auto frames = frames_of(plan.problem);
   std::vector<Cutoff> cutoffs;
   for (const double hz : kCutoffs_hz) {
@@ -278,6 +278,7 @@ Result<AccuracyChoice> choose_by_accuracy(const Plan& plan, const JudgedRun& pil
       cutoffs, {}, [&](const Cutoff& cutoff) { return parts_of(angles, cutoff).sum(); });
   const Parts parts = parts_of(angles, *best);
   AccuracyChoice choice{.wanted_rad = options.accuracy_rad,
+                        .noise_sd_m = std::sqrt(white.mean()),
                         .noise_rad = std::sqrt(parts.noise),
                         .lost_rad = std::sqrt(parts.lost),
                         .cutoff_hz = best->hz};
@@ -290,7 +291,7 @@ Result<AccuracyChoice> choose_by_accuracy(const Plan& plan, const JudgedRun& pil
     choice.predicted_rad = std::sqrt(parts.sum() + choice.step_rad * choice.step_rad);
     if (kMargin * choice.predicted_rad <= choice.wanted_rad) return choice;
   }
-  return refuse(choice, std::sqrt(white.mean()), plan.rate_hz);
+  return refuse(choice, choice.noise_sd_m, plan.rate_hz);
 }
 
 }  // namespace kinemark::motion::internal
