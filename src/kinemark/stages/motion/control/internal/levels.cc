@@ -81,7 +81,8 @@ void join_levels(Plan& plan, const std::vector<double>& weights) {
     all.task_rows += level.task_rows;
   }
   std::ranges::sort(all.markers);
-  plan.levels.assign(1, std::move(all));
+  plan.levels.clear();
+  plan.levels.push_back(std::move(all));
   plan.one_sum = plan.levels.front().tasks.empty();
 }
 
