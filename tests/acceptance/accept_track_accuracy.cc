@@ -83,15 +83,7 @@ void compare(const model::Model& model, int subjects, std::uint64_t seed) {
 
 /// accept_motion track_accuracy [SUBJECTS] [seed=N]
 int run_check(int argc, char** argv) {
-  int subjects = 2;
-  std::uint64_t seed = 1;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.starts_with("seed="))
-      seed = std::stoull(word.substr(5));
-    else
-      subjects = std::max(1, std::stoi(word));
-  }
+  const auto [subjects, seed] = track_subject::Asked(argc, argv, 2);
   compare(human(), subjects, seed);
   return testing_support::exit_status();
 }

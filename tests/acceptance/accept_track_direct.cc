@@ -136,15 +136,7 @@ void compare(const model::Model& model, int subjects, std::uint64_t seed, bool s
 
 /// accept_motion track_direct [SUBJECTS] [seed=N]
 int run_check(int argc, char** argv) {
-  int subjects = 3;
-  std::uint64_t seed = 1;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.starts_with("seed="))
-      seed = std::stoull(word.substr(5));
-    else
-      subjects = std::max(1, std::stoi(word));
-  }
+  const auto [subjects, seed] = track_subject::Asked(argc, argv, 3);
   const auto model = human();
   compare(model, subjects, seed, false);
   compare(model, std::max(1, subjects / 3), seed, true);

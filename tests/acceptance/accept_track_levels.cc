@@ -262,15 +262,7 @@ void strict(const model::Model& model, int subjects, std::uint64_t seed) {
 
 /// accept_motion track_levels [SUBJECTS] [seed=N]
 int run_check(int argc, char** argv) {
-  int subjects = 2;
-  std::uint64_t seed = 1;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.starts_with("seed="))
-      seed = std::stoull(word.substr(5));
-    else
-      subjects = std::max(1, std::stoi(word));
-  }
+  const auto [subjects, seed] = track_subject::Asked(argc, argv, 2);
   const auto model = human();
   weighted(model, subjects, seed);
   strict(model, std::max(1, subjects / 2), seed);

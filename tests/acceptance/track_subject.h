@@ -41,6 +41,22 @@ inline simulation::SimulatedSubject subject(const model::Model& model, double no
   return simulation::simulate_subject(model, options).value();
 }
 
+/// How many subjects, and the seed of the first: "[SUBJECTS] [seed=N]" of a command line.
+struct Asked {
+  int subjects = 1;
+  std::uint64_t seed = 1;
+
+  Asked(int argc, char** argv, int by_itself) : subjects(by_itself) {
+    for (int i = 1; i < argc; ++i) {
+      const std::string word = argv[i];
+      if (word.starts_with("seed="))
+        seed = std::stoull(word.substr(5));
+      else
+        subjects = std::max(1, std::stoi(word));
+    }
+  }
+};
+
 struct DrawnSubject {
   simulation::SimulatedSubject recording;
   std::string what;
