@@ -63,8 +63,9 @@ struct ControlComparison {
   /// The same coordinates against the simulated subject's own; NaN without one.
   double control_truth_rms_rad = kNaN, least_squares_truth_rms_rad = kNaN;
   /// Values of those coordinates in frames whose every coordinate is determined, which both equations
-  /// require, and how many of them lie no farther from least squares than equation 15, and 16, says; equation
-  /// 15, the first order alone, has 0.01 deg for the rest.
+  /// require, and how many of them lie no farther from least squares, solved apart, than equation 15, and 16,
+  /// says; equation 15 as track_markers() follows it to the best fit (TrackResult::goal_error), 0.01 deg for
+  /// where that ends.
   std::int64_t bounded = 0, held_15 = 0, held_16 = 0;
   int determined = 0, coordinates = 0;
   int rank_min = 0, rank_max = 0, free_speeds = 0;

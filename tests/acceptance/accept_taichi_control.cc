@@ -72,6 +72,15 @@ void check_reachable(const ControlComparison& c, const std::string& step, double
             describe(c));
 }
 
+/// Least squares, solved apart, beside what control itself says of its distance to it.
+void check_bounds(const ControlComparison& c, const std::string& what) {
+  print_row(c.bounded > 0 && c.held_15 == c.bounded && c.held_16 == c.bounded,
+            "whole body, distance of angles to least squares, " + what,
+            "as control says, by equations 15 (0.01 deg) and 16, in every frame that determines all",
+            fmt::format("{} and {} of {}; {:.2f} deg RMS, {:.2f} at most", c.held_15, c.held_16, c.bounded,
+                        kDegPerRad * c.angle_rms_rad, kDegPerRad * c.angle_max_rad));
+}
+
 void whole(const Scene& scene) {
   const auto body =
       studies::study_set(scene.model, scene.landmarks, scene.made, studies::whole_body_set(), true).value();
@@ -79,6 +88,10 @@ void whole(const Scene& scene) {
   check_recorded(body.recorded_coarse, "1/60 s", 1.0);
   check_reachable(body.reachable_fine, "1 ms", 0.05);
   check_reachable(*body.reachable_coarse, "1/60 s", 1.0);
+  check_bounds(body.recorded_fine, "recorded goals, 1 ms");
+  check_bounds(body.recorded_coarse, "recorded goals, 1/60 s");
+  check_bounds(body.reachable_fine, "made goals, 1 ms");
+  check_bounds(*body.reachable_coarse, "made goals, 1/60 s");
 }
 
 void sets(const Scene& scene) {

@@ -53,8 +53,10 @@ struct TrackResult {
   /// Per frame: smallest pivot over all levels, near the smallest singular value of what they fix, kg^-1/2; 0
   /// where they fix nothing. Without error bars NaN where one level fixes everything: not computed.
   std::vector<double> smallest_singular;
-  /// F x n, with error bars: equation 15, the coordinates that the goals ask for, level by level, minus those
-  /// of the body, to first order. NaN where not determined.
+  /// F x n, with error bars: the coordinates that the goals ask for, level by level, minus those of the body.
+  /// Equation 15, the first order; where the goals are one sum of squares that fixes all coordinates,
+  /// followed to its best fit (a frame in which that is not found determines nothing). NaN where not
+  /// determined.
   Array<double> goal_error;
   /// F x n, with error bars: bound of equation 16 on the distance to the coordinates that the goals ask for,
   /// level by level. It takes goals for exact and knows norms only; motion.q_bound is the bound on the error.

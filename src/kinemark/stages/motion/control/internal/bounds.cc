@@ -25,6 +25,7 @@ constexpr double kUnknownShare = 1e-6;          // of the squared gains that goa
 Bounds::Bounds(const Plan& plan)
     : plan_(plan),
       w_(plan.problem.model),
+      fit_(plan.problem),
       levels_(plan.levels.size()),
       determined_(at(plan.problem.model.coordinate_count()), 0) {
   const int n = plan.problem.model.speed_count();
@@ -39,7 +40,7 @@ Bounds::Bounds(const Plan& plan)
   z_.setZero(n);
   still_.setZero(n);
   sd_.setZero(plan.problem.model.coordinate_count());
-  bound_ = goal_error_ = goal_bound_ = sd_;
+  bound_ = goal_error_ = goal_bound_ = beyond_ = sd_;
   force_.setZero(n);
   held_ = plan.problem.fixed_speed;
 }
@@ -135,13 +136,27 @@ void Bounds::find_coordinates(const Eigen::VectorXd& q) {
   llt_.matrixL().solveInPlace(C_);  // columns: coordinates in whitened space
 }
 
-void Bounds::measure() {
+void Bounds::measure(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal) {
   goal_error_.noalias() = C_.transpose() * z_;
   goal_bound_.setZero();
   for (const auto& level : levels_) {
     G_.noalias() = C_.transpose() * level.inverse;
     goal_bound_ += level.dx.norm() * G_.rowwise().norm();
   }
+  find_way(x, q, goal);
+}
+
+void Bounds::find_way(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal) {
+  beyond_.setZero();
+  is_way_known_ = true;
+  // Directions that no goal fixes have no best fit.
+  const auto held = std::ranges::count(held_, std::uint8_t{1});
+  if (!plan_.one_sum || rank_ + held < std::ssize(held_)) return;
+  is_way_known_ = fit_.find(x, q, goal);
+  if (!is_way_known_) return;
+  goal_error_ = fit_.way();
+  beyond_ = fit_.left().cwiseAbs();
+  goal_bound_ = goal_bound_.cwiseMax(goal_error_.cwiseAbs() + beyond_);
 }
 
 void Bounds::judge(const MarkerVariances& noise) {
@@ -176,8 +191,8 @@ void Bounds::judge(const MarkerVariances& noise) {
       variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
     const double lag = goal_error_[c];
     sd_[c] = std::sqrt(variance + lag * lag);
-    sure = sure && sd_[c] <= kLargestSd;
-    bound_[c] = sure ? std::abs(lag) + kNoiseSds * std::sqrt(variance) : nan;
+    sure = sure && is_way_known_ && sd_[c] <= kLargestSd;
+    bound_[c] = sure ? std::abs(lag) + beyond_[c] + kNoiseSds * std::sqrt(variance) : nan;
     if (!sure) goal_error_[c] = goal_bound_[c] = nan;
     // Fixed only by goals without a standard deviation.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
@@ -223,11 +238,11 @@ void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goal
   solve_levels(q, goal, time_s, noise);
   if (hold_pressed(x)) {
     solve_levels(q, goal, time_s, noise);
-    measure();
+    measure(x, q, goal);
     held_ = plan_.problem.fixed_speed;
     solve_levels(q, goal, time_s, noise);
   } else {
-    measure();
+    measure(x, q, goal);
   }
   judge(noise);
 }

@@ -11,8 +11,10 @@
 // and with norms in place of the products the bound of equation 16. The same matrices turn the covariance of
 // the goals into that of the angles. Equation 15 determines dq_c uniquely: the difference of the body's
 // angles to those that its goals require, zero at the best fit and large while the body still approaches the
-// goals. A coordinate that its goals press against a limit has an error of 0 there and takes no part in those
-// of the others; its standard deviation is that of a free one.
+// goals. It is the first order of that way, exact for goals that a pose reaches; where the goals are one sum
+// of squares that fixes all coordinates, the way itself is taken (best_fit.h), and a frame in which it is not
+// found determines nothing. A coordinate that its goals press against a limit has an error of 0 there and
+// takes no part in those of the others; its standard deviation is that of a free one.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "kinemark/model/workspace.h"
+#include "kinemark/stages/motion/control/internal/best_fit.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
 #include "kinemark/stages/motion/control/internal/plan.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
@@ -46,7 +49,8 @@ class Bounds {
   [[nodiscard]] const Eigen::VectorXd& sd() const { return sd_; }
   /// Bound on the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }
-  /// Equation 15: the coordinate that the goals require minus that of the body. NaN where not determined.
+  /// The coordinate that the goals require minus that of the body: the way to the best fit, or its first
+  /// order, equation 15. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_error() const { return goal_error_; }
   /// Equation 16: bound on the distance to the coordinate that the goals require. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
@@ -75,7 +79,10 @@ class Bounds {
   /// Hold the coordinates that the goals press against a limit; false: there is none.
   bool hold_pressed(const Eigen::VectorXd& x);
   /// Equations 15 and 16 from the levels as they are.
-  void measure();
+  void measure(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal);
+  /// Where the goals are one sum of squares that fixes everything: the way to its best fit in place of the
+  /// first order.
+  void find_way(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal);
   void find_coordinates(const Eigen::VectorXd& q);
   void judge(const MarkerVariances& noise);
   /// Rows of all levels in one vector; 0 where a row is no marker that is seen.
@@ -83,13 +90,15 @@ class Bounds {
 
   const Plan& plan_;
   model::Workspace w_;
+  BestFit fit_;
   std::vector<Level> levels_;
   std::vector<Eigen::Index> first_column_;
   TaskRows rows_;
   Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, force_, stacked_;
+  Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, beyond_, force_, stacked_;
   std::vector<std::uint8_t> determined_, held_;
+  bool is_way_known_ = true;
   int rank_ = 0;
   double smallest_ = 0.0;
 };
