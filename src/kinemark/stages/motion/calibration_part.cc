@@ -22,6 +22,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kBoundSds = 5.0;  // that bounds count of what is unknown, as those of direct control do
+
 /// One thread's linear map of a frame: from displacements of its markers to the coordinates.
 class FrameMap {
  public:
@@ -94,10 +96,13 @@ Status add_calibration_error(const model::Model& model, const data::Trajectories
       for (std::int64_t c = 0; c < motion.size(); ++c) {
         const auto i = motion.index(f, c);
         if (motion.determined[i] == 0) continue;
-        motion.q_sd[i] = std::hypot(motion.q_sd[i], std::sqrt(more[c]));
+        const double without = motion.q_sd[i];
+        motion.q_sd[i] = std::hypot(without, std::sqrt(more[c]));
+        if (!motion.q_bound.empty()) motion.q_bound[i] += kBoundSds * (motion.q_sd[i] - without);
         if (motion.q_sd[i] <= internal::kLargestSd) continue;
         motion.determined[i] = 0;
         motion.q_sd[i] = kNaN;
+        if (!motion.q_bound.empty()) motion.q_bound[i] = kNaN;
       }
     }
   });

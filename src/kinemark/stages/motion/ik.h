@@ -54,8 +54,9 @@ struct CommonOffset {
 /// Adds to q_sd of a motion of these markers what a calibration leaves unknown of all positions alike: each
 /// of its fields displaces the markers, and the coordinates by the least squares of `options`, to first order
 /// (a frame's markers, their weights, its tasks and loops; limits do not count). The residuals that q_sd
-/// comes from show hardly anything of it. What becomes wider than a linear error bar is valid is no longer
-/// determined. Nothing is done where the calibration is not known. Fails as solve_ik() does.
+/// comes from show hardly anything of it. Bounds (q_bound) grow by five times as much. What becomes wider
+/// than a linear error bar is valid is no longer determined. Nothing is done where the calibration is not
+/// known. Fails as solve_ik() does.
 [[nodiscard]] Status add_calibration_error(const model::Model& model, const data::Trajectories& markers,
                                            const data::CalibrationError& error, const IkOptions& options,
                                            data::JointMotion& motion);

@@ -11,11 +11,12 @@
 #include <string>
 #include <utility>
 
-#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
+#include "kinemark/stages/motion/ik.h"
+#include "kinemark/workflow/motion/internal/calibration_note.h"
 #include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/used_markers.h"
 #include "kinemark/workflow/prepare/contradictions.h"
@@ -46,6 +47,36 @@ Status add_images(const model::Model& model, const data::ImageTracks* images, mo
   auto& lowest = options.levels.back().tasks;
   lowest.insert(lowest.end(), tasks->begin(), tasks->end());
   return {};
+}
+
+/// Weight of a marker's squared errors among all that are followed: its own times that of its level.
+double weight_of(const std::string& marker, const motion::TrackOptions& asked,
+                 const motion::TrackResult& result) {
+  const auto own = std::ranges::find(asked.marker_weights, marker, &motion::MarkerWeight::marker);
+  double weight = own != asked.marker_weights.end() ? own->weight : 1.0;
+  const auto names = [&](const std::string& name) {
+    return std::ranges::find_if(
+        asked.levels, [&](const auto& level) { return std::ranges::count(level.markers, name) > 0; });
+  };
+  auto level = names(marker);
+  if (level == asked.levels.end()) level = names("*");
+  const auto index = static_cast<std::size_t>(level - asked.levels.begin());
+  if (index < result.levels.size() && result.levels[index].weight > 0.0)
+    weight *= result.levels[index].weight;
+  return weight;
+}
+
+/// The body follows displaced markers as least squares of the same weights does, to first order.
+Status add_calibration_part(const model::Model& model, const data::Recording& recording,
+                            const motion::TrackOptions& asked, motion::TrackResult& result) {
+  motion::IkOptions ik{.default_marker_weight = 0.0,
+                       .first_time_s = asked.first_time_s,
+                       .last_time_s = asked.last_time_s,
+                       .threads = asked.threads};
+  for (const auto& marker : result.fit.markers)
+    ik.marker_weights.push_back({.marker = marker.name, .weight = weight_of(marker.name, asked, result)});
+  return motion::add_calibration_error(model, recording.trial.markers, recording.trial.calibration_error, ik,
+                                       result.motion);
 }
 
 Status find_torques(const model::Model& model, const data::Recording& recording, const TrackOptions& options,
@@ -127,6 +158,8 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   if (!result) return std::unexpected(result.error());
   TrackFound found;
   found.result = std::move(*result);
+  if (auto s = add_calibration_part(model, recording, options.track, found.result); !s)
+    return std::unexpected(s.error());
   if (auto s = find_torques(model, recording, options, found); !s) return std::unexpected(s.error());
   const auto& fit = found.result.fit;
   found.used = markers_of(markers, found.result);
@@ -134,12 +167,8 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   warnings = fit.warnings;
   std::ranges::move(data::describe_all(fit.findings, found.result.motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
-  if (const auto& calibration = recording.trial.calibration_error;
-      calibration.known() && options.track.error_bars)
-    warnings.push_back(fmt::format(
-        "Deviations of coordinates do not hold what the calibration leaves unknown of all positions: "
-        "{:.2g} mm (RMS); those of ik do",
-        1e3 * data::rms_of(calibration, markers)));
+  if (auto note = internal::note_on_calibration(recording.trial, options.track.error_bars); !note.empty())
+    warnings.push_back(std::move(note));
   if (auto note = note_on_accuracy(found.result); !note.empty()) warnings.push_back(std::move(note));
   add_gates(found.remarks.gates, options.bounds, found.result);
   std::ranges::copy(found.torques.gates, std::back_inserter(found.remarks.gates));

@@ -54,17 +54,32 @@ TEST(Track, AnExpectedAccuracyIsThatOfTheModelAndSaidWhereMarkersLieFarFromIt) {
               Contains(HasSubstr("what the model's sizes and skin put into the angles is not in it")));
 }
 
-TEST(Track, WhatDeviationsDoNotHoldIsSaid) {
+TEST(Track, WhatTheCalibrationLeavesUnknownWidensDeviationsAndBounds) {
   Followed followed;
-  EXPECT_THAT(track(followed.model, followed.recording).value().remarks.warnings,
-              Not(Contains(HasSubstr("Deviations of coordinates do not hold what the calibration"))));
   auto& error = followed.recording.trial.calibration_error;
-  error.fields = {data::CalibrationError::Field::Zero()};
-  error.fields[0](0, 0) = 2e-3;
-  EXPECT_THAT(
-      track(followed.model, followed.recording).value().remarks.warnings,
-      Contains("Deviations of coordinates do not hold what the calibration leaves unknown of all positions: "
-               "2 mm (RMS); those of ik do"));
+  const std::string other = followed.recording.trial.markers.names.front();
+  for (const auto& levels : {std::vector<motion::TrackLevel>{},
+                             std::vector<motion::TrackLevel>{{.markers = {other}}, {.markers = {"*"}}}}) {
+    TrackOptions options;
+    options.track.levels = levels;
+    error.fields.clear();
+    const auto without = track(followed.model, followed.recording, options).value();
+    error.fields = {data::CalibrationError::Field::Zero()};
+    error.fields[0](0, 0) = 2e-3;  // the whole room alike, which moves the root alone
+    const auto with = track(followed.model, followed.recording, options).value();
+    EXPECT_THAT(without.remarks.warnings,
+                Not(Contains(HasSubstr("Deviations of coordinates hold what the calibration"))));
+    EXPECT_THAT(with.remarks.warnings, Contains("Deviations of coordinates hold what the calibration leaves "
+                                                "unknown of all positions: 2 mm (RMS)"));
+    const auto &a = without.result.motion, &b = with.result.motion;
+    const auto forward = a.index(15, a.find("pelvis_tx")), knee = a.index(15, a.find("knee_angle_r"));
+    EXPECT_NEAR(b.q_sd[forward], std::hypot(a.q_sd[forward], 2e-3), 1e-6);
+    EXPECT_NEAR(b.q_bound[forward] - a.q_bound[forward], 5.0 * (b.q_sd[forward] - a.q_sd[forward]), 1e-9);
+    EXPECT_NEAR(b.q_sd[knee], a.q_sd[knee], 1e-6);
+    options.track.error_bars = false;
+    EXPECT_THAT(track(followed.model, followed.recording, options).value().remarks.warnings,
+                Not(Contains(HasSubstr("Deviations of coordinates hold what the calibration"))));
+  }
 }
 
 TEST(Track, WithForcesTorquesAreThoseOfTheMotionAndTheForces) {
