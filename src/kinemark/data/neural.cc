@@ -29,7 +29,7 @@ bool same_columns(const std::vector<LabelledValue>& a, const std::vector<Labelle
 
 Status check_intervals(const IntervalTable& table) {
   for (const auto& row : table.rows) {
-    if (!(row.start_s <= row.stop_s) || !std::isfinite(row.start_s) || !std::isfinite(row.stop_s))
+    if (row.start_s > row.stop_s || std::isinf(row.start_s) || std::isinf(row.stop_s))
       return fail(Code::bad_input, fmt::format("intervals '{}': one goes from {} to {} s; need an interval",
                                                table.name, row.start_s, row.stop_s));
     if (!same_columns(row.labels, table.rows.front().labels))

@@ -30,8 +30,8 @@ struct SpikeTrain {
 
 /// A row of a table of intervals.
 struct LabelledInterval {
-  double start_s = kNaN;              ///< its first instant
-  double stop_s = kNaN;               ///< its last instant, not before the first
+  double start_s = kNaN;              ///< its first instant; NaN: the file does not say
+  double stop_s = kNaN;               ///< its last instant, not before the first; NaN: the file does not say
   std::vector<LabelledValue> labels;  ///< its conditions
 };
 

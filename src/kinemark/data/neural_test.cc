@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace kinemark::data {
 namespace {
 
@@ -64,6 +66,10 @@ TEST(Neural, IntervalsHaveAStopAndTheSameColumns) {
   auto neural = session();
   neural.intervals[0].rows[1].stop_s = 0.5;
   EXPECT_THAT(fault_of(neural), HasSubstr("one goes from 1 to 0.5 s"));
+  neural.intervals[0].rows[1].stop_s = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(fault_of(neural), HasSubstr("one goes from 1 to inf s"));
+  neural.intervals[0].rows[1].stop_s = kNaN;
+  EXPECT_TRUE(neural.validate()) << "a trial that was broken off has no end";
   neural = session();
   neural.intervals[0].rows[1].labels[0].column = "side";
   EXPECT_THAT(fault_of(neural), HasSubstr("rows have different columns"));

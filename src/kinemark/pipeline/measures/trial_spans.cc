@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "kinemark/core/counted.h"
@@ -38,14 +39,18 @@ std::unexpected<Error> no_table(const data::Neural& neural, const std::string& n
 TrialSpans spans_of(const data::IntervalTable& table, const TimeBase& time) {
   TrialSpans out;
   const std::string one = one_of(table.name);
-  std::int64_t left_out = 0;
+  std::int64_t left_out = 0, timeless = 0, short_ones = 0;
   if (!table.rows.empty())
     for (const auto& label : table.rows.front().labels) out.labels.columns.push_back(label.column);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto& row = table.rows[i];
+    if (std::isnan(row.start_s) || std::isnan(row.stop_s)) {
+      ++timeless;
+      continue;
+    }
     const auto first = time.nearest_frame(row.start_s), last = time.nearest_frame(row.stop_s);
     if (first < 0 || last >= time.frames || last <= first) {
-      ++left_out;
+      ++(first < 0 || last >= time.frames ? left_out : short_ones);
       continue;
     }
     const std::string name = fmt::format("{} {}", one, i + 1);
@@ -57,9 +62,14 @@ TrialSpans spans_of(const data::IntervalTable& table, const TimeBase& time) {
   if (kept > 0)
     out.notes.push_back(fmt::format("each of {} of the file is measured (--trials none: the whole recording)",
                                     counted(kept, one)));
+  const std::string all = counted(std::ssize(table.rows), one);
   if (left_out > 0)
-    out.notes.push_back(fmt::format("{} of {} are not wholly in the recording and not measured", left_out,
-                                    counted(kept + left_out, one)));
+    out.notes.push_back(
+        fmt::format("{} of {} are not wholly in the recording and not measured", left_out, all));
+  if (short_ones > 0)
+    out.notes.push_back(fmt::format("{} of {} are shorter than a frame and not measured", short_ones, all));
+  if (timeless > 0)
+    out.notes.push_back(fmt::format("{} of {} have no start or no stop and are not measured", timeless, all));
   return out;
 }
 

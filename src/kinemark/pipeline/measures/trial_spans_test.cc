@@ -53,6 +53,17 @@ TEST(TrialSpans, ThoseThatLeaveTheRecordingAreCounted) {
               Not(Contains(HasSubstr("of the file is measured (--trials none: the whole recording)"))));
 }
 
+TEST(TrialSpans, ShortOnesAndThoseWithoutTimesAreCountedApart) {
+  const auto spans = spans_of(table_of({{2.0, 3.0}, {4.0, 4.004}, {5.0, kNaN}, {kNaN, 7.0}}), kTime);
+  ASSERT_EQ(spans.regions.size(), 1U);
+  EXPECT_THAT(spans.notes, Contains("1 of 4 trials are shorter than a frame and not measured"));
+  EXPECT_THAT(spans.notes, Contains("2 of 4 trials have no start or no stop and are not measured"));
+  EXPECT_THAT(spans.notes, Not(Contains(HasSubstr("are not wholly in the recording and not measured"))));
+  const auto whole = spans_of(table_of({{2.0, 3.0}, {11.0, 13.0}}), kTime);
+  EXPECT_THAT(whole.notes, Not(Contains(HasSubstr("are shorter than a frame and not measured"))));
+  EXPECT_THAT(whole.notes, Not(Contains(HasSubstr("have no start or no stop and are not measured"))));
+}
+
 TEST(TrialSpans, OnlyAnNwbHasThem) {
   const auto none = trial_spans("walk.c3d", "", kTime);
   ASSERT_TRUE(none);

@@ -45,7 +45,7 @@ Json trials_json(const data::Neural& neural, double start_s, double end_s) {
   const auto* trials = neural.find_intervals("trials");
   if (trials == nullptr) return out;
   for (const auto& row : trials->rows) {
-    if (row.stop_s < start_s || row.start_s > end_s || out.size() == kMostTrials) continue;
+    if (!(row.stop_s >= start_s && row.start_s <= end_s) || out.size() == kMostTrials) continue;
     std::string label;
     for (const auto& one : row.labels) label += (label.empty() ? "" : ", ") + one.column + " " + one.value;
     out.push_back({{"label", label},

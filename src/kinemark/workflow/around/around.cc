@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -59,6 +60,7 @@ Result<std::vector<NamedEvents>> starts_of(const data::IntervalTable& table, con
     at->times_s.push_back(time_s);
   };
   for (const auto& row : table.rows) {
+    if (std::isnan(row.start_s)) continue;
     if (column.empty()) {
       add(table.name, row.start_s);
       continue;

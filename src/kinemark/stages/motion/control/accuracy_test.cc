@@ -70,8 +70,26 @@ TEST(Accuracy, BelowTheNoiseItIsRefusedWithWhatWouldDo) {
   EXPECT_EQ(refused.error().code, Code::bad_input);
   EXPECT_THAT(refused.error().message, HasSubstr("an accuracy of 0.01 deg cannot be had: "));
   EXPECT_THAT(refused.error().message, HasSubstr(" mm would do, it is "));
+  EXPECT_THAT(refused.error().message, Not(HasSubstr("without steps it could: the movement is too fast")));
   EXPECT_THAT(refused.error().message, HasSubstr("Hz instead of 100 Hz"));
   EXPECT_THAT(refused.error().message, Not(HasSubstr("nan")));
+}
+
+TEST(Accuracy, WhereStepsAloneAreInTheWayNoLessNoiseIsAskedFor) {
+  const auto model = body();
+  // Every fourth frame, as if it were the next: a movement four times as fast.
+  const auto slow = record(model, 1600);
+  auto markers = record(model, 400);
+  for (std::int64_t f = 0; f < markers.frames(); ++f)
+    for (std::int64_t m = 0; m < markers.markers(); ++m) markers.x(f, m) = slow.x(4 * f, m);
+  const TrackOptions quiet{.marker_noise_sd_m = 1e-6};
+  const auto had = to_accuracy(model, markers, 20.0, quiet).value();
+  const double floor_deg = kDegPerRad * std::hypot(had.accuracy->noise_rad, had.accuracy->lost_rad);
+  const auto refused = to_accuracy(model, markers, 1.1 * floor_deg * (1.0 + 1e-9), quiet);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("without steps it could: the movement is too fast for those"));
+  EXPECT_THAT(refused.error().message, Not(HasSubstr(" mm would do, it is ")));
 }
 
 TEST(Accuracy, StrictLevelsHaveTheirOwnMatrices) {

@@ -224,17 +224,28 @@ void add_extremes(const model::Model& model, const Angles& angles, const Cutoff&
   }
 }
 
-std::unexpected<Error> refuse(const AccuracyChoice& c, double noise_sd_m, double rate_hz) {
+/// What it would take.
+std::string way_out(const AccuracyChoice& c, double rate_hz) {
   const double floor = std::hypot(c.noise_rad, c.lost_rad), share = c.wanted_rad / (kMargin * floor);
+  if (share >= 1.0)
+    return fmt::format(
+        "without steps it could: the movement is too fast for those of {:.2g} ms, the shortest that are "
+        "tried",
+        1e3 * c.step_s);
+  return fmt::format("noise of {:.2g} mm would do, it is {:.2g} mm, or {:.0f} Hz instead of {:g} Hz",
+                     1e3 * c.noise_sd_m * share, 1e3 * c.noise_sd_m, std::ceil(rate_hz / (share * share)),
+                     rate_hz);
+}
+
+std::unexpected<Error> refuse(const AccuracyChoice& c, double rate_hz) {
   return fail(
       Code::bad_input,
       fmt::format(
           "an accuracy of {:g} deg cannot be had: {:.2g} deg are expected at best (noise {:.2g}, lost "
-          "movement {:.2g}, steps {:.2g} deg; the most in '{}', {:.2g} deg); noise of {:.2g} mm would "
-          "do, it is {:.2g} mm, or {:.0f} Hz instead of {:g} Hz",
+          "movement {:.2g}, steps {:.2g} deg; the most in '{}', {:.2g} deg); {}",
           kDegPerRad * c.wanted_rad, kDegPerRad * c.predicted_rad, kDegPerRad * c.noise_rad,
           kDegPerRad * c.lost_rad, kDegPerRad * c.step_rad, c.largest, kDegPerRad * c.largest_rad,
-          1e3 * noise_sd_m * share, 1e3 * noise_sd_m, std::ceil(rate_hz / (share * share)), rate_hz));
+          way_out(c, rate_hz)));
 }
 
 }  // namespace
@@ -291,7 +302,7 @@ Result<AccuracyChoice> choose_by_accuracy(const Plan& plan, const JudgedRun& pil
     choice.predicted_rad = std::sqrt(parts.sum() + choice.step_rad * choice.step_rad);
     if (kMargin * choice.predicted_rad <= choice.wanted_rad) return choice;
   }
-  return refuse(choice, choice.noise_sd_m, plan.rate_hz);
+  return refuse(choice, plan.rate_hz);
 }
 
 }  // namespace kinemark::motion::internal

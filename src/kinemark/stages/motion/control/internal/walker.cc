@@ -127,6 +127,8 @@ void Walker::begin(const Eigen::VectorXd& x, std::int64_t first) {
   cell_.at(0.0, goal_);
   usual_cost_ = -1.0;
   settled_ = x;
+  guard_ = LevelGuard(plan_.level_bounds_m, plan_.rate_hz, plan_.levels_given_up);
+  controller_.join(guard_.joined());
   if (plan_.settle && any_goal()) settler_.solve(goal_.x, goal_.weight, 0, settled_);
   controller_.start(settled_, goal_, time_s());
   returning_.start(goal_.weight);
