@@ -85,6 +85,21 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   return {};
 }
 
+void print_adapted(const CommonOptions& common, const motion::AdaptResult& adapted) {
+  say(common,
+      fmt::format("Sizes from {} frames: marker error {:.2f} mm RMS at the best fit, {:.2f} mm before.",
+                  adapted.frames, 1e3 * adapted.rms_after_m, 1e3 * adapted.rms_before_m));
+  std::vector<std::string> open;
+  for (const auto& length : adapted.lengths)
+    if (length.determined)
+      say(common, fmt::format("  {}: {:.1f} +- {:.1f} mm, {:.1f} before", length.name, 1e3 * length.length_m,
+                              1e3 * length.sd_m, 1e3 * length.initial_m));
+    else
+      open.push_back(length.name);
+  if (!open.empty())
+    say(common, fmt::format("note: Lengths that these markers do not determine: {}", join(open)));
+}
+
 void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutcome& outcome) {
   const auto& result = outcome.result;
   const auto& motion = result.motion;
@@ -115,6 +130,7 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
                                              : fmt::format("weight {:.3g}", level.weight),
                     1e3 * level.rms_error_m, 1e3 * level.max_error_m));
   }
+  if (outcome.adapted) print_adapted(common, *outcome.adapted);
   if (!result.locked_coordinates.empty())
     say(common, fmt::format("note: Held at rest because no tracked marker moves them: {}",
                             join(result.locked_coordinates)));
@@ -185,6 +201,11 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("--level-bound", a.level_bound_mm,
                    "Largest RMS distance of a strict level to its goals, mm; 0: from a first run")
       ->capture_default_str()
+      ->group("Tasks");
+  command
+      ->add_flag("--adapt", a.job.adapt,
+                 "Adapt sizes of segments and places of markers to these markers first; also writes "
+                 "Q_model.osim, with the lengths and their deviations in the report")
       ->group("Tasks");
   command->add_option("--lock", options.locked, "Coordinate to hold at the rest pose. Repeatable.")
       ->group("Tasks");

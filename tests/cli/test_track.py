@@ -74,6 +74,16 @@ class Track(CommandTest):
         self.assertIn("was farther from its goals than its bound of 0.0 mm", ran.err)
         self.assertTrue(any(row[-1] == 1 for row in table(self.folder / "q_levels.sto")[1]))
 
+    def test_the_body_is_adapted_to_the_recording(self):
+        ran = self.good(*self.track(), "--adapt")
+        self.assertRegex(ran.err, r"Sizes from \d+ frames: marker error [\d.]+ mm RMS")
+        self.assertRegex(ran.err, r"femur_r: hip_r to knee_r: [\d.]+ \+- [\d.]+ mm, [\d.]+ before")
+        self.assertTrue((self.folder / "q_model.osim").is_file())
+        lengths = json.loads((self.folder / "q_report.json").read_text())["adapted"]["lengths"]
+        self.assertIn("femur_r: hip_r to knee_r", [one["name"] for one in lengths])
+        self.good("ik", "-m", "q_model.osim", "-t", self.c3d, "-o", "i.mot")
+        self.refused(4, ["q_model.osim", "use --force"], "track", "-m", self.model, "-t", self.c3d, "-o", "q.mot", "--adapt")
+
     def test_an_accuracy_is_met_or_refused_before_anything_is_written(self):
         self.refused(3, ["an accuracy of 0.001 deg cannot be had", "would do"], *self.track(accuracy="0.001deg"))
         self.assertFalse((self.folder / "q.mot").exists())

@@ -13,8 +13,10 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/motion/internal/adapted_body.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
 #include "kinemark/pipeline/motion/internal/motion_run.h"
+#include "kinemark/pipeline/scale/scale_json.h"
 #include "kinemark/workflow/motion/track.h"
 
 namespace kinemark::pipeline {
@@ -112,10 +114,22 @@ data::Table levels_table(const motion::TrackResult& result) {
   return table;
 }
 
+/// What the sizes are worth belongs to the run; gates of one name count once.
+void add_adapted(const internal::AdaptedBody& body, workflow::TrackFound& found) {
+  motion::add_geometry_error(body.result, found.result.motion);
+  auto& [warnings, gates] = found.remarks;
+  std::ranges::copy(body.remarks.warnings, std::back_inserter(warnings));
+  std::ranges::copy(body.result.recommendations, std::back_inserter(warnings));
+  std::ranges::copy(body.lost, std::back_inserter(warnings));
+  for (const auto& gate : body.remarks.gates)
+    if (std::ranges::find(gates, gate.name, &data::Gate::name) == gates.end()) gates.push_back(gate);
+}
+
 Result<Staging> stage_files(const TrackJob& job) {
   std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
   if (job.options.levels.size() > 1) files.emplace_back("_levels.sto");
   if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
+  if (job.adapt) files.emplace_back(internal::kAdaptedModel);
   files.push_back("_report.json");
   std::vector<std::filesystem::path> further;
   if (!job.report.empty()) further.push_back(job.report);
@@ -135,9 +149,15 @@ Result<TrackOutcome> run_track(TrackJob job) {
   if (auto s = job.options.check(); !s) return std::unexpected(s.error());
   auto staging = stage_files(job);
   if (!staging) return std::unexpected(staging.error());
-  const auto inputs = internal::read_inputs(job);
+  auto inputs = internal::read_inputs(job);
   if (!inputs) return std::unexpected(inputs.error());
   // Solve.
+  std::optional<internal::AdaptedBody> body;
+  if (job.adapt) {
+    auto adapted = internal::adapt_body(job, *inputs);
+    if (!adapted) return std::unexpected(adapted.error());
+    body = std::move(*adapted);
+  }
   auto found = workflow::track(
       inputs->model, inputs->recording,
       {.track = job.options, .bounds = job, .images = inputs->image_tracks(), .progress = job.progress});
@@ -146,6 +166,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
     return fail_at(job.markers.string(), found.error());
   }
   // Judge.
+  if (body) add_adapted(*body, *found);
   auto run = describe_run(job, *inputs, *found);
   if (!run) return std::unexpected(run.error());
   TrackOutcome outcome;
@@ -154,7 +175,10 @@ Result<TrackOutcome> run_track(TrackJob job) {
   if (auto s = internal::judge(std::move(*run), motion, nullptr, outcome); !s)
     return std::unexpected(s.error());
   // Write.
-  auto files = internal::motion_files(job, motion, outcome.summary);
+  nlohmann::ordered_json more;
+  if (body) more = {{"adapted", adapted_json(body->result, true)}};
+  auto files = internal::motion_files(job, motion, outcome.summary, more);
+  if (body) files.push_back(model_file(beside(job.output, internal::kAdaptedModel), body->text));
   internal::add_nwb_file(job, motion, outcome.summary, inputs->recording.trial.beside, files);
   files.push_back(table_file(beside(job.output, "_rank.sto"), [&] { return rank_table(outcome.result); }));
   if (!outcome.result.levels.empty())
@@ -167,6 +191,7 @@ Result<TrackOutcome> run_track(TrackJob job) {
     }));
   if (auto s = internal::write(job, *staging, files, "direct marker control", motion, outcome); !s)
     return std::unexpected(s.error());
+  if (body) outcome.adapted = std::move(body->result);
   return outcome;
 }
 

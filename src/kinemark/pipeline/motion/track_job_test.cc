@@ -8,8 +8,10 @@
 
 #include "kinemark/io/file.h"
 #include "kinemark/io/markers/marker_file.h"
+#include "kinemark/io/osim/osim_model.h"
 #include "kinemark/io/text/table_file.h"
 #include "kinemark/pipeline/testing/recorded_test.h"
+#include "kinemark/stages/motion/scaling/geometry.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -64,6 +66,33 @@ TEST_F(RunTrack, TorquesHaveDeviationsThatGrowWithTheNoise) {
     sum_loud += loud.values[i];
   }
   EXPECT_GT(sum_loud, sum_quiet);
+}
+
+TEST_F(RunTrack, AnAdaptedBodyIsWrittenWithItsLengths) {
+  auto plain = job("given.mot"), adapted = job("adapted.mot");
+  adapted.adapt = true;
+  const auto without = run_track(plain).value(), with = run_track(adapted).value();
+  EXPECT_FALSE(without.adapted);
+  EXPECT_FALSE(fs::exists(at("given_model.osim")));
+  ASSERT_TRUE(with.adapted);
+  const auto report = nlohmann::json::parse(io::read_text(at("adapted_report.json")).value());
+  const auto lengths = report.at("adapted").at("lengths");
+  ASSERT_EQ(lengths.size(), with.adapted->lengths.size());
+  const auto given = motion::segment_lengths(io::read_osim(at("in/model.osim")).value());
+  const auto written = motion::segment_lengths(io::read_osim(at("adapted_model.osim")).value());
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto& length = with.adapted->lengths[i];
+    EXPECT_NEAR(lengths[i].at("length_m").get<double>(), length.length_m, 1e-9);
+    EXPECT_NEAR(length.initial_m, given[i].length_m, 1e-9) << "that of the model that was given";
+    EXPECT_NEAR(length.length_m, written[i].length_m, 1e-6) << length.name;
+    if (length.determined)
+      EXPECT_NEAR(length.length_m, length.initial_m, 0.01) << length.name << ": it had its size";
+  }
+  // What is not known of the sizes is part of the angles' deviations.
+  const auto &a = without.result.motion, &b = with.result.motion;
+  const auto i = a.index(20, a.find("knee_angle_r"));
+  EXPECT_GT(b.q_sd[i], a.q_sd[i]);
+  EXPECT_GT(b.q_bound[i], a.q_bound[i]);
 }
 
 TEST_F(RunTrack, TheRankOfEveryFrameIsWritten) {

@@ -76,8 +76,9 @@ ordered_json muscles(const std::vector<data::PathScale>& scales) {
   return list;
 }
 
-/// @param moved  whether there was more than one posture: one cannot tell what follows it
-ordered_json adapted(const motion::AdaptResult& result, bool moved) {
+}  // namespace
+
+ordered_json adapted_json(const motion::AdaptResult& result, bool moved) {
   ordered_json parameters = ordered_json::array(), lengths = ordered_json::array();
   for (const auto& p : result.parameters)
     parameters.push_back({{"name", p.name},
@@ -105,8 +106,6 @@ ordered_json adapted(const motion::AdaptResult& result, bool moved) {
           {"not_determined", result.not_determined},
           {"recommendations", result.recommendations}};
 }
-
-}  // namespace
 
 std::string scale_page(const ScaleJob& job, const ScaleOutcome& outcome) {
   return report::result_report_html({.kind = "scale",
@@ -154,8 +153,8 @@ ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome) {
                         {"not_in_static_trial", outcome.placed->unseen},
                         {"markers", std::move(placed)}};
   }
-  if (outcome.from_static) report["static"] = adapted(*outcome.from_static, false);
-  if (outcome.from_motion) report["motion"] = adapted(*outcome.from_motion, true);
+  if (outcome.from_static) report["static"] = adapted_json(*outcome.from_static, false);
+  if (outcome.from_motion) report["motion"] = adapted_json(*outcome.from_motion, true);
   return report;
 }
 

@@ -14,6 +14,10 @@ namespace kinemark::pipeline {
 /// determine, how far markers moved.
 [[nodiscard]] std::string scale_page(const ScaleJob& job, const ScaleOutcome& outcome);
 
+/// Sizes, lengths and positions that were found from markers, each with its standard deviation.
+/// @param moved  whether there was more than one posture: one cannot tell what follows it
+[[nodiscard]] nlohmann::ordered_json adapted_json(const motion::AdaptResult& result, bool moved);
+
 /// JSON of a scaling: format "kinemark-scale", version 1; docs/stages/scale.md says what stands where.
 [[nodiscard]] nlohmann::ordered_json scale_json(const ScaleJob& job, const ScaleOutcome& outcome);
 

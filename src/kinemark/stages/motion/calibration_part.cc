@@ -13,6 +13,7 @@
 #include "kinemark/model/weighted_normal.h"
 #include "kinemark/stages/motion/ik.h"
 #include "kinemark/stages/motion/internal/bar_limits.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/internal/normal_inverse.h"
 #include "kinemark/stages/motion/internal/problem.h"
 
@@ -21,8 +22,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kBoundSds = 5.0;  // that bounds count of what is unknown, as those of direct control do
 
 /// One thread's linear map of a frame: from displacements of its markers to the coordinates.
 class FrameMap {
@@ -96,13 +95,7 @@ Status add_calibration_error(const model::Model& model, const data::Trajectories
       for (std::int64_t c = 0; c < motion.size(); ++c) {
         const auto i = motion.index(f, c);
         if (motion.determined[i] == 0) continue;
-        const double without = motion.q_sd[i];
-        motion.q_sd[i] = std::hypot(without, std::sqrt(more[c]));
-        if (!motion.q_bound.empty()) motion.q_bound[i] += kBoundSds * (motion.q_sd[i] - without);
-        if (motion.q_sd[i] <= internal::kLargestSd) continue;
-        motion.determined[i] = 0;
-        motion.q_sd[i] = kNaN;
-        if (!motion.q_bound.empty()) motion.q_bound[i] = kNaN;
+        internal::widen(motion, i, more[c]);
       }
     }
   });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/parallel.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/math/nonnegative_least_squares.h"
@@ -339,5 +340,19 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
   motion.open_frames.assign(at(n), 0);
   for (std::size_t i = 0; i < open.size(); ++i) motion.open_frames[i % at(n)] += open[i];
 }
+
+namespace internal {
+
+void widen(data::JointMotion& motion, std::size_t index, double variance) {
+  constexpr double kBoundSds = 5.0;  // that bounds count, as those of direct control do
+  const double before = motion.q_sd[index], sd = std::hypot(before, std::sqrt(variance));
+  const bool sure = sd <= kLargestSd;
+  motion.q_sd[index] = sure ? sd : kNaN;
+  if (!motion.q_bound.empty())
+    motion.q_bound[index] = sure ? motion.q_bound[index] + kBoundSds * (sd - before) : kNaN;
+  if (!sure) motion.determined[index] = 0;
+}
+
+}  // namespace internal
 
 }  // namespace kinemark::motion

@@ -76,4 +76,12 @@ void compute_error_bars(const internal::Problem& problem, const data::Trajectori
                         const Eigen::MatrixXd& states, const MarkerVariances& variances, int threads,
                         data::JointMotion& motion);
 
+namespace internal {
+
+/// Adds a further variance to the deviation of one number of a motion, and five times what it grows by to its
+/// bound where there is one. What becomes wider than a linear error bar is valid is no longer determined.
+void widen(data::JointMotion& motion, std::size_t index, double variance);
+
+}  // namespace internal
+
 }  // namespace kinemark::motion

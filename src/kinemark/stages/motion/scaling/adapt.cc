@@ -9,10 +9,12 @@
 #include <iterator>
 #include <utility>
 
+#include "kinemark/core/check.h"
 #include "kinemark/core/index.h"
 #include "kinemark/model/model.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/ik.h"
+#include "kinemark/stages/motion/internal/error_bars.h"
 #include "kinemark/stages/motion/scaling/internal/adapt_report.h"
 #include "kinemark/stages/motion/scaling/internal/adaptation.h"
 #include "kinemark/stages/motion/scaling/internal/moving_joint.h"
@@ -140,10 +142,26 @@ Result<AdaptResult> adapt_model(const data::ModelDescription& model, const data:
   internal::Adaptation adaptation(model, *picked, parameters, options, std::move(*problem), std::move(states),
                                   progress);
   if (auto s = adaptation.run(result); !s) return std::unexpected(s.error());
+  for (std::int64_t f = 0; f < picked->frames(); ++f) result.time_s.push_back(picked->time.time_s(f));
   internal::describe(model, parameters, adaptation.change(), adaptation.data_covariance(), result);
   result.recommendations =
       internal::recommend_joints(adaptation.problem(), *picked, adaptation.states(), result.noise_sd_m);
   return result;
+}
+
+void add_geometry_error(const AdaptResult& adapted, data::JointMotion& motion) {
+  if (motion.q_sd.empty() || adapted.time_s.empty()) return;
+  check(adapted.coordinate_sd.rows() == motion.size(), "the motion has the coordinates of the adapted model");
+  for (std::int64_t f = 0; f < motion.frames(); ++f) {
+    const double now = motion.time.time_s(f);
+    auto after = std::ranges::lower_bound(adapted.time_s, now);
+    if (after == adapted.time_s.end() || (after != adapted.time_s.begin() && now - after[-1] < *after - now))
+      --after;
+    const auto sd = adapted.coordinate_sd.col(after - adapted.time_s.begin());
+    for (std::int64_t c = 0; c < motion.size(); ++c)
+      if (const auto i = motion.index(f, c); motion.determined[i] != 0)
+        internal::widen(motion, i, sd[c] * sd[c]);
+  }
 }
 
 }  // namespace kinemark::motion

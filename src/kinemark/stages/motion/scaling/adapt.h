@@ -12,6 +12,7 @@
 
 #include "kinemark/core/progress.h"
 #include "kinemark/core/result.h"
+#include "kinemark/data/joint_motion.h"
 #include "kinemark/data/model_description.h"
 #include "kinemark/data/trajectories.h"
 #include "kinemark/stages/motion/ik_options.h"
@@ -73,7 +74,9 @@ struct AdaptResult {
   int iterations = 0;                            ///< of Gauss-Newton
   bool converged = false;                        ///< false: the iteration limit was reached
   double rms_before_m = 0.0, rms_after_m = 0.0;  ///< distance of measured and model markers on these frames
-  double noise_sd_m = 0.0;  ///< per axis, marker of mean weight: from residuals, or as given
+  std::vector<double> time_s;                    ///< of these frames
+  Eigen::MatrixXd coordinate_sd;  ///< n x frames: what the covariance makes unknown of each coordinate there
+  double noise_sd_m = 0.0;        ///< per axis, marker of mean weight: from residuals, or as given
   double tissue_sd_m =
       0.0;  ///< per axis: part of the residual that follows the posture, 0 when none is found
 };
@@ -98,5 +101,10 @@ struct AdaptResult {
                                               const std::vector<GeometryParameter>& parameters,
                                               const AdaptOptions& options = {},
                                               const Progress& progress = {});
+
+/// Adds to q_sd (and five times as much to q_bound) of a motion of the adapted model what the adaptation
+/// leaves unknown of its geometry: that of the nearest frame that took part. What becomes wider than a linear
+/// error bar is valid is no longer determined. The motion has the coordinates of the model.
+void add_geometry_error(const AdaptResult& adapted, data::JointMotion& motion);
 
 }  // namespace kinemark::motion

@@ -11,6 +11,7 @@
 
 #include "kinemark/core/index.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
+#include "kinemark/stages/motion/scaling/internal/geometry_part.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -245,6 +246,8 @@ Status Adaptation::find_covariance(AdaptResult& result) {
   };
   result.covariance = covariance(0.0);
   data_covariance_ = covariance(kNoPositionPrior_m);
+  result.coordinate_sd = geometry_part(projection_.problem(), projection_.layout(), markers_, states_,
+                                       result.covariance, options_.threads);
   if (!result.covariance.allFinite() || !data_covariance_.allFinite())
     return fail(Code::bad_input,
                 "these data give no finite deviations of sizes; give more frames or markers");
