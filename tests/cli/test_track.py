@@ -82,7 +82,8 @@ class Track(CommandTest):
         lengths = json.loads((self.folder / "q_report.json").read_text())["adapted"]["lengths"]
         self.assertIn("femur_r: hip_r to knee_r", [one["name"] for one in lengths])
         self.good("ik", "-m", "q_model.osim", "-t", self.c3d, "-o", "i.mot")
-        self.refused(4, ["q_model.osim", "use --force"], "track", "-m", self.model, "-t", self.c3d, "-o", "q.mot", "--adapt")
+        (self.folder / "r_model.osim").write_text("mine")
+        self.refused(4, ["r_model.osim", "use --force"], "track", "-m", self.model, "-t", self.c3d, "-o", "r.mot", "--adapt")
 
     def test_an_accuracy_is_met_or_refused_before_anything_is_written(self):
         self.refused(3, ["an accuracy of 0.001 deg cannot be had", "would do"], *self.track(accuracy="0.001deg"))
