@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/level_arguments.h"
 #include "cli/motion_arguments.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/pipeline/files/edit_job.h"
@@ -39,6 +40,8 @@ struct ServeArguments {
   pipeline::IkJob asked;                   ///< of all solutions: tasks, folders of meshes
   std::vector<std::string> weights;        ///< of markers, NAME=W
   std::filesystem::path record;            ///< of a live source
+  std::vector<std::string> levels;         ///< of a live source, MARKER,MARKER,...
+  motion::TrackOptions track;              ///< how the model follows a live source
   std::filesystem::path certificate, key;  ///< of TLS; empty: none
 
   /// The live source that was given, if one was.
@@ -54,6 +57,10 @@ Status check_together(const ServeArguments& arguments) {
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
   if (!arguments.is_live() && !arguments.record.empty())
     return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
+  const bool tracks = !arguments.levels.empty() || arguments.track.strict ||
+                      arguments.track.omega_rad_s != motion::TrackOptions().omega_rad_s;
+  if (!arguments.is_live() && tracks)
+    return fail(Code::usage, "--level, --strict and --omega are for a live source (sim:... or replay:FILE)");
   const char* of_files = !arguments.asked.geometry.empty() ? "geometry"
                          : !arguments.asked.tasks.empty()  ? "tasks"
                          : !arguments.weights.empty()      ? "weight"
@@ -111,16 +118,21 @@ struct LiveParts {
 Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, const ServeArguments& arguments) {
   auto input = pipeline::open_live_input(arguments.given.front().string(), arguments.model, common.seed);
   if (!input) return std::unexpected(input.error());
+  auto track = arguments.track;
+  if (auto s = take_levels(arguments.levels, track); !s) return std::unexpected(s.error());
+  if (!input->model && !track.levels.empty())
+    return fail(Code::usage, "--level needs the body model that follows the source; give --model");
   if (auto s = pipeline::check_apart({arguments.record}, {input->file}); !s)
     return std::unexpected(s.error());
   if (auto s = pipeline::check_apart({arguments.record}, common.kept); !s) return std::unexpected(s.error());
   auto nonce = server::new_secret();
   if (!nonce) return std::unexpected(nonce.error());
   auto parts = std::make_unique<LiveParts>();
-  parts->page = pipeline::live_page(*input, arguments.record);
+  parts->page = pipeline::live_page(*input, arguments.record, track);
   parts->nonce = std::move(*nonce);
   parts->feed = {.source = std::move(input->source),
                  .model = std::move(input->model),
+                 .track = std::move(track),
                  .record = arguments.record,
                  .force = common.force,
                  .clock = std::make_shared<server::SteadyClock>(),
@@ -218,6 +230,14 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
                       "weights that recordings are solved with after edits");
   command->add_option("--weight", arguments->weights,
                       "Marker weight NAME=W for these solutions; 0 leaves the marker out. Repeatable.");
+  command->add_option("--level", arguments->levels,
+                      "Markers of one level of the model that follows a live source, A,B,...; '*' takes the "
+                      "rest. Repeatable; as of track");
+  command->add_flag("--strict", arguments->track.strict, "Levels are strict priorities, the highest first");
+  command
+      ->add_option("--omega", arguments->track.omega_rad_s,
+                   "Stiffness by which the model follows a live source, rad/s: how far a push moves it")
+      ->capture_default_str();
   command->add_option("--record", arguments->record,
                       "Recording to write, .mcap: every frame of a live source");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/level_arguments.h"
 #include "cli/many_inputs.h"
 #include "cli/motion_arguments.h"
 #include "kinemark/core/number.h"
@@ -42,15 +43,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   auto& options = job.options;
-  for (const auto& text : arguments.levels) {
-    motion::TrackLevel level;
-    for (const auto& name : split(text, ',')) {
-      if (name.empty())
-        return fail(Code::usage, fmt::format("level '{}' has an empty name; need MARKER,MARKER,...", text));
-      level.markers.push_back(name);
-    }
-    options.levels.push_back(std::move(level));
-  }
+  if (auto s = take_levels(arguments.levels, options); !s) return s;
   for (const auto& text : arguments.rest) {
     const auto value = parse_pair(text, "VALUE");
     if (!value) return std::unexpected(value.error());
@@ -75,9 +68,6 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   }
   options.step_s = 1e-3 * arguments.step_ms;
   options.level_bound_m = 1e-3 * arguments.level_bound_mm;
-  if (options.strict && options.levels.size() < 2)
-    return fail(Code::usage, fmt::format("--strict is for several levels; --level is given {} times",
-                                         options.levels.size()));
   if (options.level_bound_m > 0.0 && !options.strict)
     return fail(Code::usage, "--level-bound is for strict levels; --strict is not given");
   options.feed_forward = !arguments.no_feed_forward;

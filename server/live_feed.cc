@@ -83,15 +83,17 @@ Result<std::unique_ptr<LiveFeed>> LiveFeed::create(LiveFeedOptions options) {
   std::unique_ptr<LiveFeed> feed(new LiveFeed(std::move(options)));
   const auto& given = feed->options_;
   const auto& facts = given.source->facts();
-  std::unique_ptr<workflow::LiveAngles> angles;
+  std::unique_ptr<stream::Sink> angles;
   if (given.model) {
-    const auto to_viewers = [self = feed.get(), units = message_units(*given.model)](const auto& pose) {
+    const auto to_viewers = [self = feed.get(), units = message_units(*given.model),
+                             places = std::make_shared<BodyPlaces>(given.model)](const auto& pose) {
       const double when_s = self->due_s(pose.frame);
-      self->send(angles_message(pose, units, when_s), LiveKind::angles, when_s);
+      self->send(angles_message(pose, units, when_s, places->find(pose)), LiveKind::angles, when_s);
     };
-    auto made = workflow::live(*given.model, facts, to_viewers);
+    auto made = workflow::live(*given.model, facts, to_viewers, given.track);
     if (!made) return std::unexpected(made.error());
-    angles = std::move(*made);
+    feed->push_ = std::make_shared<LivePush>(given.model->bodies().size());
+    angles = std::make_unique<PushedAngles>(std::move(*made), feed->push_, given.clock);
   }
   if (!given.record.empty()) {
     auto made = pipeline::LiveRecorder::create(given.record, facts, given.force);
@@ -205,7 +207,7 @@ std::vector<std::shared_ptr<LiveViewer>> LiveFeed::living() {
 std::shared_ptr<LiveViewer> LiveFeed::add_viewer() {
   const std::scoped_lock lock(mutex_);
   if (living().size() >= options_.most_viewers) return nullptr;
-  auto viewer = std::make_shared<LiveViewer>(options_.limits, options_.clock);
+  auto viewer = std::make_shared<LiveViewer>(options_.limits, options_.clock, push_);
   if (ended_) viewer->finish(*ended_);
   viewers_.push_back(viewer);
   return viewer;

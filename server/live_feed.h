@@ -70,6 +70,7 @@ class SinkThread {
 struct LiveFeedOptions {
   std::unique_ptr<stream::Source> source;     ///< never nullptr
   std::shared_ptr<const model::Model> model;  ///< whose angles are wanted; may be absent
+  motion::TrackOptions track;                 ///< how it follows: its levels and its stiffness
   std::filesystem::path record;               ///< file that keeps every frame; empty: none
   bool force = false;                         ///< replace that file
   LiveLimits limits;                          ///< of each viewer
@@ -134,6 +135,7 @@ class LiveFeed {
   // The threads last: they end before what they use does.
   pipeline::LiveRecorder* kept_by_ = nullptr;  ///< the sink of recorder_
   std::unique_ptr<SinkThread> recorder_, follower_;
+  std::shared_ptr<LivePush> push_;  ///< of the model's body; nullptr without one
   std::thread feeder_;
 };
 

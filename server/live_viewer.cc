@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/core/units.h"
 
 namespace kinemark::server {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::uint8_t kLiveVersion = 1;
 constexpr std::size_t kDroppedAt = 4, kAnswerAt = 32;
+constexpr double kMmPerM = 1e3;
 constexpr double kMostCounted = 9e15;  // whole numbers that a float64 holds
 
 template <class Bits>
@@ -33,7 +35,7 @@ void put(std::string& out, double value) { put_bits(out, std::bit_cast<std::uint
 void put(std::string& out, float value) { put_bits(out, std::bit_cast<std::uint32_t>(value)); }
 
 std::string head(LiveKind kind, std::size_t count, double frame, double time_s, double due_s,
-                 std::size_t body_bytes) {
+                 std::size_t body_bytes, std::uint32_t more = 0) {
   std::string out{static_cast<char>(kind), static_cast<char>(kLiveVersion)};
   out.reserve(kLiveHeadBytes + body_bytes);
   put_bits(out, static_cast<std::uint16_t>(count));
@@ -42,7 +44,7 @@ std::string head(LiveKind kind, std::size_t count, double frame, double time_s, 
   put(out, time_s);
   put(out, due_s);
   put(out, std::numeric_limits<float>::quiet_NaN());
-  put_bits(out, std::uint32_t{0});
+  put_bits(out, more);
   return out;
 }
 
@@ -58,23 +60,30 @@ std::string markers_message(std::int64_t frame, double time_s, double due_s, std
 }
 
 std::vector<double> message_units(const model::Model& model) {
-  constexpr double kMmPerM = 1e3;
   std::vector<double> out;
   for (const auto& coordinate : model.description().coordinates)
     out.push_back(coordinate.is_rotation ? kDegPerRad : kMmPerM);
   return out;
 }
 
-std::string angles_message(const motion::LivePose& pose, std::span<const double> units, double due_s) {
-  const auto count = units.size();
+std::string angles_message(const motion::LivePose& pose, std::span<const double> units, double due_s,
+                           std::span<const double> places) {
+  const auto count = units.size(), bodies = places.size() / kPlaceNumbers;
+  const auto goals = places.empty() ? 0 : static_cast<std::size_t>(pose.goal.cols());
   check(std::cmp_equal(pose.q.size(), count) && pose.q_sd.size() == pose.q.size() &&
             pose.determined.size() == count,
         "angles and their deviations, one of each coordinate");
-  auto out = head(LiveKind::angles, count, static_cast<double>(pose.frame), pose.time_s, due_s, 9 * count);
+  const auto more = static_cast<std::uint32_t>(bodies | goals << 16);
+  auto out = head(LiveKind::angles, count, static_cast<double>(pose.frame), pose.time_s, due_s,
+                  9 * count + 4 * (places.size() + 3 * goals + 1), more);
   for (const auto* numbers : {&pose.q, &pose.q_sd})
     for (std::size_t c = 0; c < count; ++c)
       put(out, static_cast<float>(units[c] * (*numbers)[static_cast<Eigen::Index>(c)]));
   for (const auto one : pose.determined) out += static_cast<char>(one);
+  if (places.empty()) return out;
+  for (const double value : places) put(out, static_cast<float>(value));
+  for (std::size_t i = 0; i < 3 * goals; ++i) put(out, static_cast<float>(pose.goal.data()[i]));
+  put(out, static_cast<float>(pose.pushed_q.size() > 0 ? kMmPerM * pose.pushed_m : kNaN));
   return out;
 }
 
@@ -118,8 +127,12 @@ double Durations::share_ms(double share) const {
   return longest_ms();
 }
 
-LiveViewer::LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock)
-    : limits_(limits), clock_(std::move(clock)), answer_s_(std::numeric_limits<float>::quiet_NaN()) {}
+LiveViewer::LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock,
+                       std::shared_ptr<LivePush> push)
+    : limits_(limits),
+      clock_(std::move(clock)),
+      push_(std::move(push)),
+      answer_s_(std::numeric_limits<float>::quiet_NaN()) {}
 
 void LiveViewer::drop_beyond_limit(LiveKind kind) {
   // What people should know is not dropped: there are few of those. Each kind has room of its own, so that
@@ -205,8 +218,24 @@ std::optional<SocketEnd> LiveViewer::end() {
   return SocketEnd{.code = 1000, .reason = finished_->substr(0, 120)};
 }
 
+// One sentence waits at a time: who is refused often hears it no more often than it can take.
+void LiveViewer::wish(const BodyPush& push) {
+  const auto refused = push_->take(this, push, clock_->now_s());
+  if (refused.empty() || gone_ || finished_) return;
+  if (std::ranges::any_of(waiting_, [](const auto& one) { return one.kind == LiveKind::sentence; })) return;
+  waiting_.push_back({std::make_shared<const std::string>(sentence_message(refused, clock_->now_s())),
+                      LiveKind::sentence, clock_->now_s()});
+  if (wake_) wake_();
+}
+
 bool LiveViewer::heard(std::string_view bytes) {
   const double now_s = clock_->now_s();
+  if (bytes.size() == kPushBytes) {
+    const auto push = push_ ? push_->read(bytes) : std::nullopt;
+    const std::scoped_lock lock(mutex_);
+    if (push) wish(*push);
+    return push.has_value();
+  }
   const auto drawn = drawn_count(bytes);
   const std::scoped_lock lock(mutex_);
   if (!drawn || *drawn < drawn_ || *drawn - drawn_ > under_way_.size()) return false;
@@ -223,6 +252,7 @@ bool LiveViewer::heard(std::string_view bytes) {
 void LiveViewer::closed() {
   const std::scoped_lock lock(mutex_);
   gone_ = true;
+  if (push_) push_->let_go(this);
   wake_ = nullptr;
   waiting_.clear();
 }

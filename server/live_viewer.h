@@ -22,6 +22,7 @@
 #include "kinemark/model/model.h"
 #include "kinemark/workflow/live/live.h"
 #include "server/live_clock.h"
+#include "server/live_push.h"
 #include "server/socket_peer.h"
 
 namespace kinemark::server {
@@ -29,12 +30,16 @@ namespace kinemark::server {
 /// What a message holds behind its head.
 enum class LiveKind : std::uint8_t {
   markers = 1,   ///< float32 x[count][3] in m, NaN where there is none; uint8 state[count]
-  angles = 2,    ///< float32 value[count], float32 sd[count] in deg or mm; uint8 determined[count]
+  angles = 2,    ///< float32 value[count], float32 sd[count] in deg or mm; uint8 determined[count]; with
+                 ///< bodies: float32 place[bodies][7], origin in m and quaternion w x y z, float32
+                 ///< goal[goals][3] in m, NaN where there is none, float32 pushed_mm, NaN: nobody pushes. The
+                 ///< angles are those of the tracked body; the places those of the pushed one while there is
+                 ///< one
   sentence = 3,  ///< count bytes of UTF-8
 };
 
 /// Bytes of the head: uint8 kind, uint8 version (1), uint16 count, uint32 dropped, float64 frame, float64
-/// time_s, float64 due_s, float32 answer_s, 4 bytes of 0. `dropped`: messages of this kind that this viewer
+/// time_s, float64 due_s, float32 answer_s, uint16 bodies, uint16 goals (of angles, else 0). `dropped`: messages of this kind that this viewer
 /// did not get so far; `due_s`: when the frame was due, by the steady clock of the server's machine;
 /// `answer_s`: how long after its due time the last message was known to be drawn, NaN where that is not
 /// known.
@@ -47,8 +52,9 @@ inline constexpr std::size_t kLiveHeadBytes = 40;
 /// By what each coordinate of a model is multiplied in messages: degrees of a radian, millimetres of a metre.
 [[nodiscard]] std::vector<double> message_units(const model::Model& model);
 /// Angles of a frame. @param pose  of workflow::live()  @param units  of its coordinates
+/// @param places  7 numbers of each body, as LiveKind::angles; empty: they are not shown
 [[nodiscard]] std::string angles_message(const motion::LivePose& pose, std::span<const double> units,
-                                         double due_s);
+                                         double due_s, std::span<const double> places = {});
 /// Something that people should know; more than 65,535 bytes are cut off.
 [[nodiscard]] std::string sentence_message(std::string_view sentence, double due_s);
 
@@ -97,7 +103,9 @@ struct LiveViewerState {
 /// oldest ones, and holds nobody else back. Threads may call at once.
 class LiveViewer final : public SocketPeer {
  public:
-  LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock);
+  /// @param push  what it may push; nullptr: there is no body
+  LiveViewer(const LiveLimits& limits, std::shared_ptr<LiveClock> clock,
+             std::shared_ptr<LivePush> push = nullptr);
 
   /// A message, of which this viewer gets its own head. Never waits.
   void offer(std::shared_ptr<const std::string> message, LiveKind kind, double due_s);
@@ -125,6 +133,8 @@ class LiveViewer final : public SocketPeer {
     double due_s, given_s;
   };
   void drop_beyond_limit(LiveKind kind);
+  /// A wish to push, and its answer: a sentence where it is refused. Called with mutex_ held.
+  void wish(const BodyPush& push);
   [[nodiscard]] bool is_behind();
   /// Messages that may be under way: a quarter more than were drawn within ahead_s. So many wait in the
   /// network for a viewer as it takes in that time, however slow it is.
@@ -145,6 +155,7 @@ class LiveViewer final : public SocketPeer {
   std::deque<Drawn> drawn_lately_;
   std::uint64_t drawn_ = 0;
   std::int64_t sent_ = 0;
+  std::shared_ptr<LivePush> push_;
   std::array<std::uint32_t, 4> dropped_{};  ///< by kind
   float answer_s_;
   Durations to_socket_;

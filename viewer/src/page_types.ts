@@ -511,6 +511,26 @@ export interface LiveSummary {
   /** Who says so; empty: nobody. */ up_from: string;
   /** Smallest and largest coordinates, m; null: not known. */ extent_m: [Vec, Vec] | null;
   /** Of the model; none without one. */ coordinates: LiveCoordinate[];
+  /** Bodies of the model, those that carry others first; none without one. */ bodies: LiveBody[];
+  /** Markers of the model that follow markers of the source; none without a model. */ targets: LiveTarget[];
+  /** Markers of each level, in words. */ levels: string[];
+  /** Levels are priorities, the highest first; else weights. */ strict: boolean;
+}
+
+/** A body of the model. */
+export interface LiveBody {
+  /** Its name. */ name: string;
+  /** Body that carries it, from 0; -1: the ground. */ parent: number;
+  /** Mass, kg. */ mass_kg: number;
+  /** Mass centre in the body, m. */ com_m: Vec;
+}
+
+/** A marker of the model that follows one of the source. */
+export interface LiveTarget {
+  /** Marker of the source, from 0. */ marker: number;
+  /** Body that carries it, from 0. */ body: number;
+  /** Where it is in the body, m. */ point_m: Vec;
+  /** Level of its goal, from 0. */ level: number;
 }
 
 /** A coordinate of the model. */

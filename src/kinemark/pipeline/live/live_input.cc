@@ -5,8 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/core/version.h"
+#include "kinemark/data/name_index.h"
 #include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/rate.h"
 #include "kinemark/pipeline/files/model_input.h"
@@ -142,6 +146,39 @@ Result<LiveInput> open_replay(std::string_view argument, const fs::path& model_f
   return out;
 }
 
+/// Bodies, levels and the markers that the model follows.
+void add_body(const model::Model& model, const motion::TrackOptions& track, report::LiveReport& report) {
+  const auto& description = model.description();
+  for (const auto& body : model.bodies())
+    report.bodies.push_back(
+        {.name = description.bodies[static_cast<std::size_t>(body.description_idx)].name,
+         .parent = body.parent,
+         .mass_kg = body.mass,
+         .com_in_body = body.com_in_body});
+  report.strict = track.strict;
+  std::map<std::string, int, std::less<>> level_of;
+  for (const auto& level : track.levels) {
+    const auto index = static_cast<int>(report.levels.size());
+    for (const auto& name : level.markers) level_of.emplace(name, index);
+    report.levels.push_back(level.markers == std::vector<std::string>{"*"} ? "all others" : join(level.markers));
+  }
+  if (track.levels.empty()) {
+    report.levels.emplace_back("all markers");
+    level_of.emplace("*", 0);
+  }
+  const data::NameIndex source(report.markers);
+  for (std::size_t m = 0; m < description.markers.size(); ++m) {
+    const auto& name = description.markers[m].name;
+    const auto marker = source.find(name);
+    const auto named = level_of.find(name), level = named != level_of.end() ? named : level_of.find("*");
+    if (marker < 0 || level == level_of.end()) continue;
+    report.targets.push_back({.marker = static_cast<int>(marker),
+                              .body = model.markers()[m].body,
+                              .x_in_body = model.markers()[m].x_in_body,
+                              .level = level->second});
+  }
+}
+
 }  // namespace
 
 bool names_live_input(std::string_view argument) {
@@ -155,7 +192,7 @@ Result<LiveInput> open_live_input(std::string_view argument, const fs::path& mod
               fmt::format("{}: is no live source; need sim:MOTION or replay:FILE", printable(argument, 200)));
 }
 
-std::string live_page(const LiveInput& input, const fs::path& recording) {
+std::string live_page(const LiveInput& input, const fs::path& recording, const motion::TrackOptions& track) {
   const auto& facts = input.source->facts();
   report::LiveReport report{.title = input.title,
                             .source = facts.name,
@@ -166,9 +203,11 @@ std::string live_page(const LiveInput& input, const fs::path& recording) {
                             .up = facts.up,
                             .up_from = facts.up_from,
                             .extent_m = facts.extent_m};
-  if (input.model)
+  if (input.model) {
     for (const auto& coordinate : input.model->description().coordinates)
       report.coordinates.push_back({.name = coordinate.name, .is_rotation = coordinate.is_rotation});
+    add_body(*input.model, track, report);
+  }
   return report::live_report_html(report);
 }
 

@@ -17,6 +17,17 @@ Json live_report_json(const LiveReport& report) {
   Json coordinates = Json::array();
   for (const auto& [name, is_rotation] : report.coordinates)
     coordinates.push_back({{"name", name}, {"unit", is_rotation ? "deg" : "mm"}});
+  Json bodies = Json::array(), targets = Json::array();
+  for (const auto& body : report.bodies)
+    bodies.push_back({{"name", body.name},
+                      {"parent", body.parent},
+                      {"mass_kg", body.mass_kg},
+                      {"com_m", vector_json(body.com_in_body)}});
+  for (const auto& target : report.targets)
+    targets.push_back({{"marker", target.marker},
+                       {"body", target.body},
+                       {"point_m", vector_json(target.x_in_body)},
+                       {"level", target.level}});
   Json extent = nullptr;
   if (report.extent_m) {
     extent = Json::array();
@@ -34,7 +45,11 @@ Json live_report_json(const LiveReport& report) {
             {"up", vector_json(report.up)},
             {"up_from", report.up_from},
             {"extent_m", extent},
-            {"coordinates", coordinates}}}};
+            {"coordinates", coordinates},
+            {"bodies", bodies},
+            {"targets", targets},
+            {"levels", report.levels},
+            {"strict", report.strict}}}};
 }
 
 std::string live_report_html(const LiveReport& report) {

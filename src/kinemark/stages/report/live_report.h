@@ -18,6 +18,22 @@ struct LiveCoordinate {
   bool is_rotation = true;  ///< shown in degrees; else in mm
 };
 
+/// A body of the model.
+struct LiveBody {
+  std::string name;                                      ///< as in the model
+  int parent = -1;                                       ///< that carries it; -1: the ground
+  double mass_kg = 0.0;                                  ///< as in the model
+  Eigen::Vector3d com_in_body = Eigen::Vector3d::Zero();  ///< m
+};
+
+/// A marker of the model that follows one of the source.
+struct LiveTarget {
+  int marker = 0;                                       ///< of the source
+  int body = 0;                                         ///< that carries it
+  Eigen::Vector3d x_in_body = Eigen::Vector3d::Zero();  ///< m
+  int level = 0;                                        ///< of its goal
+};
+
 /// A source and what is known of its laboratory.
 struct LiveReport {
   std::string title;                              ///< for the heading
@@ -30,6 +46,10 @@ struct LiveReport {
   std::string up_from;                            ///< as Scene::up_from
   std::optional<std::array<Eigen::Vector3d, 2>> extent_m;  ///< smallest and largest coordinates; or not known
   std::vector<LiveCoordinate> coordinates;                 ///< none without a model
+  std::vector<LiveBody> bodies;                            ///< none without a model
+  std::vector<LiveTarget> targets;                         ///< none without a model
+  std::vector<std::string> levels;                         ///< markers of each, in words
+  bool strict = false;                                     ///< levels are priorities
 };
 
 /// LivePage of docs/formats/pages.md.

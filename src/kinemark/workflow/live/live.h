@@ -26,6 +26,12 @@ class LiveAngles final : public stream::Sink {
   /// Take a frame, and hand on the angles that are ready: those of the frame delay_frames() before it. Frames
   /// that are left out count as not seen. Fails as OnlineTracker::push() and next().
   [[nodiscard]] Status push(const stream::Frame& frame) override;
+  /// A force on the simulated body from the next frame on, as OnlineTracker::push_body(); what is tracked and
+  /// its numbers stay as they are.
+  [[nodiscard]] Status push_body(int body, const Eigen::Vector3d& point_in_body,
+                                 const Eigen::Vector3d& force_in_world) {
+    return tracker_.push_body(body, point_in_body, force_in_world);
+  }
   /// No more frames come: what is still inside is handed on.
   [[nodiscard]] Status finish() override;
   /// Frames by which angles come later than their markers.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/core/missing.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/bounds.h"
@@ -61,6 +62,7 @@ struct OnlineTracker::Impl {
         capacity(2 * filter.window_frames() + static_cast<std::int64_t>(kLongestGap_s * plan.rate_hz) + 4),
         samples(plan.problem.model.marker_count(), capacity),
         readout(plan.problem.model),
+        pushed_readout(plan.problem.model),
         out(Eigen::MatrixX<std::uint8_t>::Zero(plan.problem.model.marker_count(), capacity)),
         known_goal(plan.problem.model.marker_count()),
         y(3, plan.problem.model.marker_count()),
@@ -127,7 +129,22 @@ struct OnlineTracker::Impl {
     pose.tau = readout.tau();
   }
 
+  /// Goals, and the body that is pushed.
+  void describe_push() {
+    const auto& goal = walker->goal();
+    pose.goal.setConstant(3, columns, kNaN);
+    for (Eigen::Index m = 0; m < goal.weight.size(); ++m)
+      if (goal.weight[m] > 0.0) pose.goal.col(plan.problem.data_marker[at(m)]) = goal.x.col(m);
+    pose.pushed_q.resize(0);
+    pose.pushed_m = walker->pushed_m();
+    auto* body = walker->pushed();
+    if (body == nullptr) return;
+    pushed_readout.find(body->x(), body->v(), body->a());
+    pose.pushed_q = pushed_readout.q();
+  }
+
   void describe() {
+    describe_push();
     auto& body = walker->controller();
     read(body.x(), body.v(), body.a());
     pose.rank = body.rank();
@@ -196,7 +213,7 @@ struct OnlineTracker::Impl {
   std::int64_t capacity;
   internal::SampleWindow samples;  // until the walker has its own
   std::optional<internal::Walker> walker;
-  internal::Readout readout;
+  internal::Readout readout, pushed_readout;
   std::optional<internal::Bounds> bounds;
   std::optional<internal::StreamJudge> judge;
   Eigen::MatrixX<std::uint8_t> out;  // M x capacity; 1: the sample was not believed
@@ -271,6 +288,25 @@ Status OnlineTracker::push(double time_s, const Eigen::Matrix3Xd& x) {
   }
   s.last_time_s = time_s;
   s.take(&x);
+  return {};
+}
+
+Status OnlineTracker::push_body(int body, const Eigen::Vector3d& point_in_body,
+                                const Eigen::Vector3d& force_in_world) {
+  auto& s = *impl_;
+  const auto bodies = std::ssize(s.plan.problem.model.bodies());
+  if (body < 0 || body >= bodies)
+    return fail(Code::bad_input, fmt::format("body {} is pushed; the model has {}, from 0", body, bodies));
+  if (!point_in_body.allFinite() || !force_in_world.allFinite())
+    return fail(Code::bad_input, "the force on a body, or its point, is not a number");
+  if (force_in_world.norm() > kLargestPush_n)
+    return fail(Code::bad_input, fmt::format("a body is pushed by {:.0f} N; at most {:g} N are applied",
+                                             force_in_world.norm(), kLargestPush_n));
+  if (!s.walker) return {};
+  if (force_in_world.isZero(0.0))
+    s.walker->push({});
+  else
+    s.walker->push({.body = body, .point_in_body = point_in_body, .force_in_world = force_in_world});
   return {};
 }
 

@@ -26,6 +26,11 @@ struct LivePose {
   int rank = 0;                    ///< directions of motion that the markers hold
   double smallest_singular = 0.0;  ///< as TrackResult, kg^-1/2
   data::FrameStatus status = data::FrameStatus::no_markers;  ///< how well the frame was followed
+  Eigen::Matrix3Xd goal;  ///< of each marker of the stream, m; NaN where the body follows none
+  Eigen::VectorXd
+      pushed_q;           ///< coordinates (rad, m) of the body that is pushed and is no measurement; empty:
+                          ///< nobody pushes it, and it is back. All that is above knows nothing of it
+  double pushed_m = 0.0;  ///< how far the push has moved a marker of the model at most, m
 };
 
 /// track_markers() on a stream: poses are returned `delay_frames()` after their frames, with the same numbers
@@ -57,6 +62,15 @@ class OnlineTracker {
   /// than 2 s or falls more than half a second behind the count of frames, x has the wrong size, or poses
   /// wait to be fetched.
   [[nodiscard]] Status push(double time_s, const Eigen::Matrix3Xd& x);
+  /// A force at a point of a body from the next frame on, until the next call; no force lets go. It acts on a
+  /// second body, LivePose::pushed_q, that follows the same goals by the same control law, which does not
+  /// know the force: stiffness and mass decide how far it goes, and it comes back as (1 + omega t) exp(-omega
+  /// t). The tracked body stays as it is. Nothing happens before the first pose. Fails without effect for a
+  /// body that is none, a number that is not finite, and more than `kLargestPush_n`.
+  /// @param body  index into Model::bodies()  @param point_in_body  m  @param force_in_world  N
+  [[nodiscard]] Status push_body(int body, const Eigen::Vector3d& point_in_body,
+                                 const Eigen::Vector3d& force_in_world);
+  static constexpr double kLargestPush_n = 500.0;  ///< N
   /// End of the stream: poses still delayed become available.
   void finish();
   /// The next pose that is ready, valid until the next call, or nullptr: call it after every frame until

@@ -33,7 +33,8 @@ Controller::Controller(const Plan& plan)
   const auto K = 3 * static_cast<Eigen::Index>(model_.point_constraints().size());
   x_ = model_.default_state();
   kept_x_ = x_;
-  for (auto* v : {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_})
+  for (auto* v :
+       {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_, &outside_force_})
     v->setZero(n);
   bias_.setZero(3 * M);
   for (auto* m : {&command_, &marker_begun_, &marker_ended_}) m->setZero(3, M);
@@ -165,6 +166,7 @@ void Controller::close_loops() {
     row += 3;
   }
   solver_.add_level(loop_J_, loop_r_, kLoops);
+  loop_rank_ = solver_.rank();
 }
 
 void Controller::solve(const Eigen::VectorXd& weight) {
@@ -197,6 +199,13 @@ void Controller::solve_joined() {
   }
   solver_.add_level(joined_J_, joined_r_,
                     {.damping = kJoinedDamping, .truncation = plan_.damping.truncation});
+}
+
+void Controller::project_outside_force() {
+  model::clear_forces(w_);
+  model::add_force(w_, outside_.body, model::point_in_world(w_, outside_.body, outside_.point_in_body),
+                   outside_.force_in_world);
+  model::project_forces(model_, w_, outside_force_);
 }
 
 bool Controller::hold_at_limits() {
@@ -248,6 +257,7 @@ bool Controller::evaluate(const GoalValues& goal, double time_s, const Eigen::Ma
     model::marker_jacobian(model_, w_, J_);
     for (std::size_t i = 0; i < plan_.levels.size(); ++i) gather_level(plan_.levels[i], i, goal.weight);
   }
+  if (outside_.body >= 0) project_outside_force();
   held_ = plan_.problem.fixed_speed;
   held_a_.setZero();
   now_a_ = a_;
@@ -255,6 +265,7 @@ bool Controller::evaluate(const GoalValues& goal, double time_s, const Eigen::Ma
     if (!solver_.begin(M_, held_, held_a_)) return false;
     solve(goal.weight);
     solver_.add_posture(wished_);
+    if (outside_.body >= 0) solver_.add_outside_force(outside_force_, loop_rank_);
     a_ = solver_.acceleration();
     if (!hold_at_limits()) break;
   }

@@ -14,6 +14,13 @@
 
 namespace kinemark::motion::internal {
 
+/// A force from outside at a point of a body.
+struct OutsideForce {
+  int body = -1;                                            ///< index into Model::bodies(); -1: there is none
+  Eigen::Vector3d point_in_body = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d force_in_world = Eigen::Vector3d::Zero();  ///< N
+};
+
 /// The simulated body and its control law. It allocates in its constructor and in the first step only.
 class Controller {
  public:
@@ -43,6 +50,10 @@ class Controller {
 
   /// From the next evaluate() on follow all levels in one damped sum of squares, or one after the other.
   void join(bool joined) { joined_ = joined; }
+
+  /// From the next evaluate() on this force acts on the body. The control law does not know it: it cancels
+  /// nothing of it.
+  void push(const OutsideForce& force) { outside_ = force; }
 
   /// Keep the present state, for go_back().
   void keep();
@@ -77,6 +88,8 @@ class Controller {
   void close_loops();
   void solve(const Eigen::VectorXd& weight);
   void solve_joined();
+  /// The force from outside as forces of the speeds.
+  void project_outside_force();
   /// Hold coordinates that would exceed a limit; true when another coordinate is held.
   bool hold_at_limits();
 
@@ -88,6 +101,9 @@ class Controller {
   bool have_jacobian_ = false, joined_ = false;
   Eigen::VectorXd x_, v_, a_, now_a_, wished_, bias_, normal_force_, held_a_, move_;
   Eigen::VectorXd kept_x_, kept_v_, kept_a_;
+  OutsideForce outside_;
+  Eigen::VectorXd outside_force_;  // of the speeds
+  int loop_rank_ = 0;              // directions that the loops fix
   Eigen::Matrix3Xd command_;
   Eigen::Matrix3Xd marker_begun_, marker_ended_;  // of the step with a_: at its beginning and its end
   double step_s_ = 0.0;                           // length of the step that ends here; 0: there is none

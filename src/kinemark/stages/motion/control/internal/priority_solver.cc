@@ -158,6 +158,20 @@ void PrioritySolver::add_posture(const Eigen::VectorXd& wished) {
   z_ += projected_;
 }
 
+// With M = L L' and z = L' a, the acceleration M^-1 f is L^-1 f.
+void PrioritySolver::add_outside_force(const Eigen::VectorXd& force, int constrained) {
+  projected_ = force;
+  for (Eigen::Index k = 0; any_held_ && k < projected_.size(); ++k)
+    if (held_[static_cast<std::size_t>(k)] != 0) projected_[k] = 0.0;
+  llt_.matrixL().solveInPlace(projected_);
+  if (constrained > 0) {
+    auto along = part_.head(constrained);
+    along.noalias() = V_.leftCols(constrained).transpose() * projected_;
+    projected_.noalias() -= V_.leftCols(constrained) * along;
+  }
+  z_ += projected_;
+}
+
 const Eigen::VectorXd& PrioritySolver::acceleration() {
   result_ = z_;
   llt_.matrixL().transpose().solveInPlace(result_);

@@ -49,6 +49,10 @@ class PrioritySolver {
   /// share is 0.005^2 / (s^2 + 0.005^2).
   void add_posture(const Eigen::VectorXd& wished);
 
+  /// What a generalised force (nv) from outside adds to the acceleration, after all levels and the posture:
+  /// none of them knows it. The first `constrained` directions that levels fix stay as they are.
+  void add_outside_force(const Eigen::VectorXd& force, int constrained);
+
   /// q'' of all speeds, held ones included.
   [[nodiscard]] const Eigen::VectorXd& acceleration();
   /// Rank of all levels together.

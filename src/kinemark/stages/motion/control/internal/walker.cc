@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kinemark/core/index.h"
@@ -28,6 +29,9 @@ constexpr double kAtLimit = 1e-9;   // rad or m
 constexpr double kOffLimit = 0.1;   // rad or m: near a limit
 constexpr int kFiner[] = {4, 16, 64};  // steps for one, in frames in which the simulation diverges
 constexpr double kRemembered_s = 0.5;  // that a coordinate was at its limit
+constexpr double kTogether_m = 1e-4;   // a body that was pushed is back
+constexpr double kTogether_s = 0.02;   // if it stays so long
+constexpr double kNoReturn_s = 3.0;    // a body that hangs in another pose is taken back
 
 Problem without_tasks(Problem problem) {
   problem.coordinate_tasks.clear();
@@ -144,6 +148,7 @@ void Walker::next() {
   flagged_ = lost_ = false;
   build_cell(frame_);
   controller_.keep();
+  if (pushed_) pushed_->keep();
   kept_returning_ = returning_;
   flagged_ = !cross(plan_.steps_per_frame) && !cross_again();
   ++frame_;
@@ -154,6 +159,7 @@ void Walker::next() {
   flagged_ = flagged_ || lost_;
   judge();
   watch_levels();
+  end_push();
   if (!flagged_) last_good_ = controller_.x();
 }
 
@@ -168,6 +174,7 @@ bool Walker::cross(int steps) {
 bool Walker::cross_again() {
   for (const int finer : kFiner) {
     controller_.go_back();
+    if (pushed_) pushed_->go_back();
     returning_ = kept_returning_;
     lost_ = false;
     if (cross(finer * plan_.steps_per_frame)) return true;
@@ -185,12 +192,42 @@ bool Walker::step(int s, int steps) {
   returning_.apply(now, led_);
   if (s == steps && plan_.settle && !settle()) {
     lost_ = true;
+    pushed_.reset();
     return controller_.evaluate(goal_, now);
   }
   const double later = controller_.later_s(h);
   cell_.acceleration_at((s + later / h) / steps, later_a_);
   returning_.add_acceleration(now + later, later_a_);
+  step_pushed(h, now, later);
   return controller_.evaluate(led_, now, later_a_, later);
+}
+
+void Walker::push(const OutsideForce& force) {
+  const bool acts = force.body >= 0;
+  if (acts && !pushed_) pushed_.emplace(controller_);
+  if (!pushed_ || (!acts && !std::isinf(released_s_))) return;
+  pushed_->push(force);
+  released_s_ = acts ? std::numeric_limits<double>::infinity() : time_s();
+  frames_together_ = 0;
+}
+
+double Walker::pushed_m() {
+  if (!pushed_) return 0.0;
+  return (pushed_->workspace().marker - controller_.workspace().marker).colwise().norm().maxCoeff();
+}
+
+void Walker::step_pushed(double h, double now, double later) {
+  if (!pushed_) return;
+  pushed_->advance(h);
+  if (!pushed_->evaluate(led_, now, later_a_, later)) pushed_.reset();
+}
+
+void Walker::end_push() {
+  if (!pushed_ || std::isinf(released_s_)) return;
+  frames_together_ = pushed_m() < kTogether_m ? frames_together_ + 1 : 0;
+  if (static_cast<double>(frames_together_) >= kTogether_s * plan_.rate_hz ||
+      time_s() - released_s_ > kNoReturn_s)
+    pushed_.reset();
 }
 
 bool Walker::settle() {
@@ -330,6 +367,7 @@ void Walker::watch_levels() {
   if (plan_.level_bounds_m.empty()) return;
   guard_.look(pursued_errors_.find(controller_.workspace(), flagged_ ? goal_ : led_, time_s()));
   controller_.join(guard_.joined());
+  if (pushed_) pushed_->join(guard_.joined());
 }
 
 void Walker::judge() {

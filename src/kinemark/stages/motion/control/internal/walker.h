@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kinemark/data/derivatives.h"
@@ -64,6 +65,15 @@ class Walker {
   /// Go on to the next frame. Needs the cell that ends there.
   void next();
 
+  /// From the next step on this force acts on a second body that follows the same goals by the same law, made
+  /// from the first where there is none. A force of none (body -1) lets it come back; it is gone once it is
+  /// where the first one is. The first body knows nothing of it.
+  void push(const OutsideForce& force);
+  /// That second body; nullptr while nobody has pushed it or it has come back.
+  [[nodiscard]] Controller* pushed() { return pushed_ ? &*pushed_ : nullptr; }
+  /// Largest distance between the same model markers of both bodies, m; 0 without the second.
+  [[nodiscard]] double pushed_m();
+
   [[nodiscard]] std::int64_t frame() const { return frame_; }
   [[nodiscard]] double time_s() const { return t0_s_ + static_cast<double>(frame_) / plan_.rate_hz; }
   [[nodiscard]] Controller& controller() { return controller_; }
@@ -110,6 +120,10 @@ class Walker {
   void lead_new_markers(double time_s, double u);
   void judge();
   void watch_levels();
+  /// The same step for the body that is pushed.
+  void step_pushed(double h, double now, double later);
+  /// It is gone when it has come back.
+  void end_push();
 
   const Plan& plan_;
   GoalFilter filter_;
@@ -129,6 +143,9 @@ class Walker {
   double t0_s_ = 0.0;
   double usual_cost_ = -1.0;  // m^2, of frames whose goals are not eased in; below 0: none yet
   std::int64_t frame_ = 0, restarts_ = 0;
+  std::optional<Controller> pushed_;
+  double released_s_ = 0.0;           // when the force ended; infinity: it acts
+  std::int64_t frames_together_ = 0;  // in a row in which both bodies were at the same place
   LevelErrors level_errors_, pursued_errors_;
   LevelGuard guard_;
   bool flagged_ = false, lost_ = false, relaxed_ = false;
