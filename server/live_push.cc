@@ -104,7 +104,8 @@ const std::vector<double>& BodyPlaces::find(const motion::LivePose& pose) {
     const Eigen::Quaterniond turn(w_.rotation[b]);
     const auto& x = w_.position[b];
     const double place[kPlaceNumbers] = {x.x(), x.y(), x.z(), turn.w(), turn.x(), turn.y(), turn.z()};
-    std::copy(std::begin(place), std::end(place), places_.begin() + static_cast<std::ptrdiff_t>(kPlaceNumbers * b));
+    std::copy(std::begin(place), std::end(place),
+              places_.begin() + static_cast<std::ptrdiff_t>(kPlaceNumbers * b));
   }
   return places_;
 }

@@ -39,10 +39,10 @@ enum class LiveKind : std::uint8_t {
 };
 
 /// Bytes of the head: uint8 kind, uint8 version (1), uint16 count, uint32 dropped, float64 frame, float64
-/// time_s, float64 due_s, float32 answer_s, uint16 bodies, uint16 goals (of angles, else 0). `dropped`: messages of this kind that this viewer
-/// did not get so far; `due_s`: when the frame was due, by the steady clock of the server's machine;
-/// `answer_s`: how long after its due time the last message was known to be drawn, NaN where that is not
-/// known.
+/// time_s, float64 due_s, float32 answer_s, uint16 bodies, uint16 goals (of angles, else 0). `dropped`:
+/// messages of this kind that this viewer did not get so far; `due_s`: when the frame was due, by the steady
+/// clock of the server's machine; `answer_s`: how long after its due time the last message was known to be
+/// drawn, NaN where that is not known.
 inline constexpr std::size_t kLiveHeadBytes = 40;
 
 /// A frame of markers. @param x M x 3, m  @param state M

@@ -16,6 +16,7 @@
 #include "kinemark/core/units.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "server/testing/fake_clock.h"
+#include "server/testing/push_bytes.h"
 
 namespace kinemark::server {
 namespace {
@@ -70,6 +71,29 @@ TEST(LiveMessage, AFrameOfAnglesByteByByte) {
   EXPECT_EQ(message[56], 1);
   EXPECT_EQ(message[57], 0);
   EXPECT_THROW((void)angles_message(two_coordinates(), std::vector{8.0}, 4.0), ContractError);
+}
+
+TEST(LiveMessage, PlacesOfBodiesGoalsAndAPushFollowTheAngles) {
+  auto pose = two_coordinates();
+  pose.goal = Eigen::Matrix3Xd::Constant(3, 2, 0.5);
+  pose.goal.col(1).setConstant(kNaN);
+  const std::vector<double> places{1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.25};
+  auto message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, places);
+  const std::size_t at_places = kLiveHeadBytes + 2 * 9;
+  ASSERT_EQ(message.size(), at_places + 4 * (7 + 6 + 1));
+  EXPECT_EQ(at<std::uint16_t>(message, 36), 1) << "bodies";
+  EXPECT_EQ(at<std::uint16_t>(message, 38), 2) << "goals";
+  EXPECT_EQ(at<float>(message, at_places + 8), 3.0F);
+  EXPECT_EQ(at<float>(message, at_places + 24), 0.25F);
+  EXPECT_EQ(at<float>(message, at_places + 28), 0.5F);
+  EXPECT_TRUE(std::isnan(at<float>(message, at_places + 40)));
+  EXPECT_TRUE(std::isnan(at<float>(message, at_places + 52))) << "nobody pushes";
+  pose.pushed_q = pose.q;
+  pose.pushed_m = 0.015;
+  message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, places);
+  EXPECT_EQ(at<float>(message, at_places + 52), 15.0F) << "mm";
+  EXPECT_EQ(at<float>(message, 40), 2.0F) << "angles stay those of the tracked body";
+  EXPECT_EQ(at<std::uint32_t>(angles_message(pose, std::vector{8.0, 1000.0}, 4.0), 36), 0U);
 }
 
 TEST(LiveMessage, AnglesAreInDegreesAndTranslationsInMillimetres) {
@@ -197,6 +221,31 @@ TEST_F(LiveViewerTest, WhatPeopleShouldKnowIsNotDropped) {
   offer(-1, LiveKind::sentence);
   for (int f = 0; f < 10; ++f) offer(f);
   EXPECT_EQ(take(), (std::vector<double>{-1, 7, 8, 9}));
+}
+
+TEST_F(LiveViewerTest, APushIsHeardWhereThereIsABody) {
+  const auto wish = testing::push_bytes(1, Eigen::Vector3d::Zero(), {0.0, 50.0, 0.0});
+  EXPECT_FALSE(viewer_.heard(wish)) << "no body";
+  const auto push = std::make_shared<LivePush>(2);
+  LiveViewer pushing({.waiting = 3, .under_way = 4}, clock_, push);
+  EXPECT_TRUE(pushing.heard(wish));
+  EXPECT_EQ(push->now(clock_->now_s())->force_in_world.y(), 50.0);
+  EXPECT_FALSE(pushing.heard(testing::push_bytes(2, Eigen::Vector3d::Zero(), {0.0, 50.0, 0.0})));
+  EXPECT_EQ(pushing.next(), nullptr) << "nothing to say";
+  pushing.closed();
+  EXPECT_FALSE(push->now(clock_->now_s())) << "its page was closed";
+}
+
+TEST_F(LiveViewerTest, WhoIsRefusedOftenHearsItOnceAtATime) {
+  const auto push = std::make_shared<LivePush>(2);
+  LiveViewer pushing({.waiting = 3, .under_way = 4}, clock_, push);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_TRUE(pushing.heard(testing::push_bytes(1, Eigen::Vector3d::Zero(), {0.0, 600.0, 0.0})));
+  const auto said = pushing.next();
+  ASSERT_NE(said, nullptr);
+  EXPECT_EQ(said->substr(kLiveHeadBytes), "the body is pushed by at most 500 N; 600 N were not applied");
+  EXPECT_EQ(pushing.next(), nullptr);
+  EXPECT_FALSE(push->now(clock_->now_s()));
 }
 
 TEST_F(LiveViewerTest, NoMoreIsUnderWayThanWasAgreed) {

@@ -4,6 +4,7 @@
 
 import itertools
 import json
+import math
 import signal
 import struct
 import time
@@ -12,7 +13,7 @@ from live_viewer import Ended, Viewer
 from serving import Server
 from support import PROGRAM, CommandTest, report_data, run
 
-MARKERS, ANGLES = 1, 2
+MARKERS, ANGLES, SENTENCE = 1, 2, 3
 
 
 class LiveTest(CommandTest):
@@ -62,7 +63,7 @@ class Seen(LiveTest):
         self.assertEqual(angles[-1][0]["frame"], 299)
         count = angles[-1][0]["count"]
         values = struct.unpack(f"<{2 * count}f", angles[-1][1][: 8 * count])
-        determined = angles[-1][1][8 * count :]
+        determined = angles[-1][1][8 * count : 9 * count]
         self.assertGreater(sum(determined), count / 2)
         self.assertTrue(all(0 < sd < 30 for sd, known in zip(values[count:], determined) if known))
 
@@ -76,6 +77,65 @@ class Seen(LiveTest):
         self.assertEqual((summary["schema"], summary["rate_hz"], summary["recording"]), ("kinemark.live", 240, "live.mcap"))
         self.assertEqual(len(summary["markers"]), 40)
         self.assertIn("deg", {c["unit"] for c in summary["coordinates"]})
+
+
+    def test_levels_of_the_goals_are_on_the_page(self):
+        server = self.serve("sim:walk?seconds=0.5", "--level", "LASI,RASI", "--level", "*", "--strict", "--omega", "50")
+        summary = json.loads(report_data(server.request("/")[2]))["summary"]
+        self.assertEqual((summary["levels"], summary["strict"]), (["LASI, RASI", "all others"], True))
+        names = {summary["markers"][t["marker"]]: t["level"] for t in summary["targets"]}
+        self.assertEqual((len(names), names["LASI"], names["LPSI"]), (40, 0, 1))
+        self.assertEqual(len(summary["bodies"]), max(t["body"] for t in summary["targets"]) + 1)
+        self.assertEqual(summary["bodies"][0]["parent"], -1)
+
+
+def push(body, force):
+    return struct.pack("<BBH6f", 1, 1, body, 0, 0, 0, *force)
+
+
+class Pushed(LiveTest):
+    def pushed_mm(self, viewer):
+        """Of the next frame of angles; NaN: nobody pushes."""
+        while True:
+            kind, _, body = viewer.hear()
+            viewer.drawn()
+            if kind == ANGLES:
+                return struct.unpack("<f", body[-4:])[0]
+
+    def test_a_body_goes_and_comes_back(self):
+        server = self.serve("sim:walk?rate=100&seconds=60")
+        with Viewer(server) as viewer:
+            for _ in range(20):
+                self.assertTrue(math.isnan(self.pushed_mm(viewer)), "nobody pushes")
+            farthest = 0
+            for _ in range(60):
+                viewer.say(2, push(1, (0, 400, 0)))
+                now = self.pushed_mm(viewer)
+                farthest = max(farthest, 0 if math.isnan(now) else now)
+            self.assertGreater(farthest, 0.5)
+            viewer.say(2, push(1, (0, 0, 0)))
+            self.assertTrue(any(math.isnan(self.pushed_mm(viewer)) for _ in range(400)), "it is back")
+
+    def test_what_is_refused(self):
+        server = self.serve("sim:walk?rate=100&seconds=60")
+        for wrong in (push(9999, (0, 1, 0)), push(1, (0, math.nan, 0)), push(1, (math.inf, 0, 0)), b"\2" + push(1, (0, 1, 0))[1:], push(1, (0, 1, 0))[:-1]):
+            with Viewer(server) as viewer:
+                viewer.say(2, wrong)
+                self.assertEqual((self.frames(viewer)[1].code), 1008)
+        with Viewer(server) as first, Viewer(server) as second:
+            first.say(2, push(1, (0, 501, 0)))
+            self.assertIn("at most 500 N; 501 N were not applied", self.sentence(first))
+            first.say(2, push(1, (0, 100, 0)))
+            self.pushed_mm(first)
+            second.say(2, push(1, (0, 100, 0)))
+            self.assertIn("another page is pushing the body", self.sentence(second))
+
+    def sentence(self, viewer):
+        while True:
+            kind, _, body = viewer.hear()
+            viewer.drawn()
+            if kind == SENTENCE:
+                return body.decode()
 
 
 class Recorded(LiveTest):

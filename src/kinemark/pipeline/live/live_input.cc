@@ -150,17 +150,17 @@ Result<LiveInput> open_replay(std::string_view argument, const fs::path& model_f
 void add_body(const model::Model& model, const motion::TrackOptions& track, report::LiveReport& report) {
   const auto& description = model.description();
   for (const auto& body : model.bodies())
-    report.bodies.push_back(
-        {.name = description.bodies[static_cast<std::size_t>(body.description_idx)].name,
-         .parent = body.parent,
-         .mass_kg = body.mass,
-         .com_in_body = body.com_in_body});
+    report.bodies.push_back({.name = description.bodies[static_cast<std::size_t>(body.description_idx)].name,
+                             .parent = body.parent,
+                             .mass_kg = body.mass,
+                             .com_in_body = body.com_in_body});
   report.strict = track.strict;
   std::map<std::string, int, std::less<>> level_of;
   for (const auto& level : track.levels) {
     const auto index = static_cast<int>(report.levels.size());
     for (const auto& name : level.markers) level_of.emplace(name, index);
-    report.levels.push_back(level.markers == std::vector<std::string>{"*"} ? "all others" : join(level.markers));
+    report.levels.push_back(level.markers == std::vector<std::string>{"*"} ? "all others"
+                                                                           : join(level.markers));
   }
   if (track.levels.empty()) {
     report.levels.emplace_back("all markers");

@@ -41,7 +41,8 @@ struct LiveInput {
                                                 std::uint64_t seed = 1);
 
 /// The page of a source, without a frame: `kinemark.live` of the viewer, which asks for a WebSocket at
-/// "/live/socket". @param recording  where frames are kept; empty: nowhere  @param track  how the model follows
+/// "/live/socket". @param recording  where frames are kept; empty: nowhere  @param track  how the model
+/// follows
 [[nodiscard]] std::string live_page(const LiveInput& input, const std::filesystem::path& recording,
                                     const motion::TrackOptions& track = {});
 

@@ -20,9 +20,9 @@ struct LiveCoordinate {
 
 /// A body of the model.
 struct LiveBody {
-  std::string name;                                      ///< as in the model
-  int parent = -1;                                       ///< that carries it; -1: the ground
-  double mass_kg = 0.0;                                  ///< as in the model
+  std::string name;                                       ///< as in the model
+  int parent = -1;                                        ///< that carries it; -1: the ground
+  double mass_kg = 0.0;                                   ///< as in the model
   Eigen::Vector3d com_in_body = Eigen::Vector3d::Zero();  ///< m
 };
 

@@ -20,7 +20,11 @@ TEST(LiveReport, SaysWhatIsKnownBeforeTheFirstFrame) {
                           .up = Eigen::Vector3d::UnitY(),
                           .up_from = "gravity",
                           .extent_m = {{Eigen::Vector3d(-1, 0, 2), Eigen::Vector3d(1, 2, 3)}},
-                          .coordinates = {{"knee", true}, {"pelvis_tx", false}}};
+                          .coordinates = {{"knee", true}, {"pelvis_tx", false}},
+                          .bodies = {{"pelvis", -1, 11.5, {0.0, 0.1, 0.0}}},
+                          .targets = {{.marker = 1, .body = 0, .x_in_body = {0.5, 0.0, 0.0}, .level = 1}},
+                          .levels = {"A", "all others"},
+                          .strict = true};
   const auto summary = live_report_json(report)["summary"];
   EXPECT_EQ(summary["schema"], "kinemark.live");
   EXPECT_EQ(summary["rate_hz"], 240.0);
@@ -29,6 +33,11 @@ TEST(LiveReport, SaysWhatIsKnownBeforeTheFirstFrame) {
   EXPECT_EQ(summary["extent_m"].dump(), "[[-1.0,0.0,2.0],[1.0,2.0,3.0]]");
   EXPECT_EQ(summary["coordinates"].dump(),
             R"([{"name":"knee","unit":"deg"},{"name":"pelvis_tx","unit":"mm"}])");
+  EXPECT_EQ(summary["bodies"].dump(),
+            R"([{"name":"pelvis","parent":-1,"mass_kg":11.5,"com_m":[0.0,0.1,0.0]}])");
+  EXPECT_EQ(summary["targets"].dump(), R"([{"marker":1,"body":0,"point_m":[0.5,0.0,0.0],"level":1}])");
+  EXPECT_EQ(summary["levels"].dump(), R"(["A","all others"])");
+  EXPECT_EQ(summary["strict"], true);
 }
 
 TEST(LiveReport, WhatIsNotKnownIsNull) {
