@@ -39,6 +39,8 @@ export interface Palette {
   axes: [string, string, string];
   /** long ago, between, now */
   trail: [string, string, string];
+  /** Goals by their level. */
+  levels: [string, string, string, string, string, string];
   /** Samples as they came in, under the result. */
   raw: string;
   /** converged, not all determined, not converged, no markers */
@@ -72,6 +74,7 @@ const light: Palette = {
   force: "#b4530a",
   axes: ["#c2410c", "#19703f", "#2450c8"],
   trail: ["#e3c778", "#5aa08e", "#0b4a66"],
+  levels: ["#b4530a", "#6a3fb8", "#12703f", "#b0175f", "#2450c8", "#6b5d00"],
   raw: "#8b97a0",
   status: ["#a9d3df", "#c3ccd2", "#d2401c", "#33414c"],
 };
@@ -103,6 +106,7 @@ const dark: Palette = {
   force: "#f2a65a",
   axes: ["#f2856a", "#72d19a", "#86a8f5"],
   trail: ["#5a4a1e", "#3f8f8c", "#c4f0fb"],
+  levels: ["#f2a65a", "#b99cf5", "#4fd09a", "#f58fbf", "#86a8f5", "#d9c95a"],
   raw: "#7d8b96",
   status: ["#2a6377", "#56656f", "#f0653f", "#dbe3e8"],
 };

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
+import type { Vec } from "../scene/vec.ts";
 import { stateNames } from "../states.ts";
 
 interface Head {
@@ -23,6 +24,12 @@ export interface AnglesMessage extends Head {
   value: Float32Array;
   sd: Float32Array;
   determined: Uint8Array;
+  /** B x 7: origin in m and quaternion w x y z of each body, of the pushed one while there is one; NaN where nothing is known. */
+  places: Float32Array;
+  /** G x 3, m: goals of the markers of the source; NaN where there is none. */
+  goals: Float32Array;
+  /** How far a push has moved a marker of the model, mm; null: nobody pushes. */
+  pushed_mm: number | null;
 }
 export interface SentenceMessage extends Head {
   kind: "sentence";
@@ -41,12 +48,18 @@ export function decodeMessage(buffer: ArrayBuffer): LiveMessage {
   const [kind, count] = [view.getUint8(0), view.getUint16(2, true)];
   const answer = view.getFloat32(32, true);
   const head = { dropped: view.getUint32(4, true), frame: view.getFloat64(8, true), time_s: view.getFloat64(16, true), answer_s: Number.isNaN(answer) ? null : answer };
-  const bytes = kind === 1 ? 13 * count : kind === 2 ? 9 * count : count;
+  const [bodies, goals] = [view.getUint16(36, true), view.getUint16(38, true)];
+  const more = bodies === 0 ? 0 : 7 * bodies + 3 * goals + 1;
+  const bytes = kind === 1 ? 13 * count : kind === 2 ? 9 * count + 4 * more : count;
   if (buffer.byteLength !== headBytes + bytes || kind < 1 || kind > 3) throw new Error("a message of the server is not as long as it says");
   const floats = (from: number, n: number): Float32Array => Float32Array.from({ length: n }, (_, i) => view.getFloat32(headBytes + 4 * (from + i), true));
-  const rest = new Uint8Array(buffer, headBytes + bytes - count, count);
+  const rest = new Uint8Array(buffer, headBytes + bytes - 4 * (kind === 2 ? more : 0) - count, count);
   if (kind === 1) return { kind: "markers", ...head, x: floats(0, 3 * count), states: rest.map((code) => stateOfCode[code] ?? 4) };
-  if (kind === 2) return { kind: "angles", ...head, value: floats(0, count), sd: floats(count, count), determined: rest };
+  if (kind === 2) {
+    const after = (from: number, n: number): Float32Array => Float32Array.from({ length: n }, (_, i) => view.getFloat32(headBytes + 9 * count + 4 * (from + i), true));
+    const pushed = bodies === 0 ? NaN : after(more - 1, 1)[0]!;
+    return { kind: "angles", ...head, value: floats(0, count), sd: floats(count, count), determined: rest, places: after(0, 7 * bodies), goals: after(7 * bodies, bodies === 0 ? 0 : 3 * goals), pushed_mm: Number.isNaN(pushed) ? null : pushed };
+  }
   return { kind: "sentence", ...head, text: new TextDecoder().decode(rest) };
 }
 
@@ -54,5 +67,16 @@ export function decodeMessage(buffer: ArrayBuffer): LiveMessage {
 export function drawnMessage(count: number): ArrayBuffer {
   const buffer = new ArrayBuffer(8);
   new DataView(buffer).setFloat64(0, count, true);
+  return buffer;
+}
+
+/** A force (N, in the world) at a point (m, in the body) of a body; none lets go. */
+export function pushMessage(body: number, point: Vec, force: Vec): ArrayBuffer {
+  const buffer = new ArrayBuffer(28);
+  const view = new DataView(buffer);
+  view.setUint8(0, 1);
+  view.setUint8(1, 1);
+  view.setUint16(2, body, true);
+  [...point, ...force].forEach((value, i) => view.setFloat32(4 + 4 * i, value, true));
   return buffer;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import { decodeMessage, drawnMessage, type AnglesMessage, type MarkersMessage } from "./message.ts";
+import type { Vec } from "../scene/vec.ts";
+import { decodeMessage, drawnMessage, pushMessage, type AnglesMessage, type MarkersMessage } from "./message.ts";
 
 export type LiveState = "connecting" | "open" | "lost" | "ended";
 
@@ -76,6 +77,11 @@ export class LiveStream {
     if (this.state !== "open" || this.#said === this.#handled) return;
     this.#said = this.#handled;
     this.#socket?.send(drawnMessage(this.#handled));
+  }
+
+  /** Push the body of the model, as pushMessage(). */
+  push(body: number, point: Vec, force: Vec): void {
+    if (this.state === "open") this.#socket?.send(pushMessage(body, point, force));
   }
 
   #take(data: ArrayBuffer): void {

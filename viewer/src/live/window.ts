@@ -15,6 +15,8 @@ export class LiveWindow {
   /** M: seen at least once. */
   readonly seen: boolean[];
   #cell = -1;
+  /** P: a frame came for it. */
+  readonly #came: Uint8Array;
 
   constructor(summary: LiveSummary) {
     const { markers: names, rate_hz } = summary;
@@ -22,6 +24,7 @@ export class LiveWindow {
     const points = Math.max(2, Math.round((seconds * rate_hz) / frameStep));
     const states = new Uint8Array(names.length * points).fill(missing);
     this.seen = names.map(() => false);
+    this.#came = new Uint8Array(points);
     this.scene = {
       points, frameStep, firstFrame: 0, rateHz: rate_hz, names, up: summary.up, upFrom: summary.up_from, isMain: areComputed(names).map((c) => !c),
       time: new Float64Array(points), markers: { x: new Float32Array(3 * names.length * points), states }, worst: states,
@@ -39,6 +42,7 @@ export class LiveWindow {
     const by = this.#cell < 0 ? P : Math.min(P, cell - this.#cell);
     if (by > 0) this.#shift(by);
     this.#cell = cell;
+    this.#came[P - 1] = 1;
     scene.firstFrame = message.frame - (P - 1) * frameStep;
     for (let p = 0; p < P; ++p) scene.time[p] = message.time_s - ((P - 1 - p) * frameStep) / scene.rateHz;
     for (let m = 0; m < scene.names.length; ++m) {
@@ -50,9 +54,21 @@ export class LiveWindow {
     }
   }
 
+  /** The point nearest to a frame of the last seconds among those that frames came for; the newest one for other frames. */
+  pointOf(frame: number): number {
+    const { points, frameStep } = this.scene;
+    const point = points - 1 - (this.#cell - Math.floor(frame / frameStep));
+    if (frame < 0 || point < 0 || point >= points) return points - 1;
+    for (let off = 0; off < points; ++off) {
+      for (const near of [point - off, point + off]) if (this.#came[near] === 1) return near;
+    }
+    return points - 1;
+  }
+
   /** Move everything by so many points into the past; what comes in is missing, where it was last. */
   #shift(by: number): void {
     const { points: P, markers, names } = this.scene;
+    this.#came.copyWithin(0, by).fill(0, P - by);
     for (let row = 0; row < 3 * names.length; ++row) {
       const last = markers.x[row * P + P - 1]!;
       markers.x.copyWithin(row * P, row * P + by, (row + 1) * P);

@@ -3,11 +3,15 @@
 import type { LivePage } from "../page_types.ts";
 import { el, section } from "../dom.ts";
 import { number, plural } from "../format.ts";
+import { LiveBody } from "../live/body.ts";
 import { LiveCurves } from "../live/curves.ts";
+import { PushHand } from "../live/push.ts";
 import { LiveStream, type Surroundings } from "../live/stream.ts";
 import { LiveWindow } from "../live/window.ts";
+import type { Vec } from "../scene/vec.ts";
 import { liveAngles } from "../sections/live_angles.ts";
-import { space } from "../sections/space.ts";
+import { livePush } from "../sections/live_push.ts";
+import { space, type SpacePush } from "../sections/space.ts";
 import { View } from "../view.ts";
 import type { Content } from "./content.ts";
 
@@ -26,6 +30,8 @@ export function livePage({ summary }: LivePage, around = browser): Content {
   if (summary.schema_version !== 1) throw new Error(`this page cannot read ${summary.schema} version ${summary.schema_version}`);
   const shown = new LiveWindow(summary);
   const curves = new LiveCurves(summary.coordinates.length);
+  const body = summary.bodies.length === 0 ? null : new LiveBody(summary, shown.scene.points);
+  const push = body === null ? null : pushing(body);
   const angles = summary.coordinates.length === 0 ? null : liveAngles(summary.coordinates, curves);
   const view = new View([0, 1]);
   let [tilesAt, curvesAt, drawing, built] = [-Infinity, -Infinity, false, false];
@@ -49,13 +55,28 @@ export function livePage({ summary }: LivePage, around = browser): Content {
   /** The space view, once it is seen which markers keep their distances. */
   function build(): void {
     built = true;
-    const part = space(shown.scene, view, { trial: summary.trial, others: null, live: shown });
+    const part = space(shown.scene, view, {
+      trial: summary.trial,
+      others: null,
+      live: { seen: shown.seen, ...(body === null || push === null ? {} : { point: () => shown.pointOf(body.frame), push }) },
+    });
     spot.replaceChildren(part.node);
     part.start();
   }
 
+  /** What drags, keys and controls do to the body. */
+  function pushing(of: LiveBody): SpacePush & { hand: PushHand; tell: () => void } {
+    shown.scene.bodies = of.bodies;
+    shown.scene.goals = of.goals;
+    let [isOn, directions] = [false, (): { right: Vec; up: Vec } => ({ right: [1, 0, 0], up: summary.up })];
+    const hand = new PushHand(of, (which, point, force) => stream.push(which, point, force));
+    const part = livePush(summary, of, { hand, picture: () => directions(), dragging: (on) => (isOn = on), changed: () => wake() });
+    return { isOn: () => isOn, hand, seenBy: (to) => (directions = to), ...part };
+  }
+
   function tell(now: number): void {
     tilesAt = now;
+    push?.tell();
     const words = { connecting: "Connecting", open: "Live", lost: "Connection lost", ended: "Ended" };
     badge.replaceChildren(el("b", {}, words[stream.state]));
     badge.classList.toggle("good", stream.state === "open");
@@ -77,6 +98,10 @@ export function livePage({ summary }: LivePage, around = browser): Content {
   function draw(): void {
     drawing = false;
     const now = around.now();
+    if (body !== null && built) {
+      push?.hand.tick(now);
+      body.putAt(shown.pointOf(body.frame));
+    }
     if (built) view.set({ focus: shown.scene.time[shown.scene.points - 1]! });
     if (now - tilesAt >= tilesEvery_ms) tell(now);
     if (angles !== null && now - curvesAt >= curvesEvery_ms) {
@@ -99,6 +124,7 @@ export function livePage({ summary }: LivePage, around = browser): Content {
     },
     angles: (message) => {
       curves.push(message);
+      body?.push(message);
       wake();
     },
     changed: () => tell(around.now()),

@@ -103,6 +103,7 @@ export class Extras {
       if (!look.bodies || this.#hasMesh.has(b)) return;
       const [from, to] = [at(bodies.origin, points, b, look.point), at(bodies.end, points, b, look.point)];
       const way = sub(to, from);
+      if (Number.isNaN(way[0])) return;
       const along = unit(way);
       const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
       const r = girth(bodies.massKg[b]!, length(way));

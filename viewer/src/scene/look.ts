@@ -20,6 +20,8 @@ export interface Look {
   regions: number;
   /** The bodies of a model. */
   bodies: boolean;
+  /** Goals of a model that follows a source. */
+  goals?: boolean;
   /** Lines of sight. */
   rays: boolean;
   /** Share of the depth of the scene that is cut away in front, 0 to 1. */

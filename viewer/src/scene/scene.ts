@@ -52,6 +52,18 @@ export interface CameraPlace {
   nominal: boolean;
 }
 
+/** Goals of a model that follows a source, of this instant. */
+export interface Goals {
+  /** T x 3, m; NaN where there is none. */
+  x: Float32Array;
+  /** T x 3, m: the markers of the model that follow them. */
+  model: Float32Array;
+  /** T: from 0. */
+  level: readonly number[];
+  /** A force at the model: from where it acts, as long as it is strong; null: none. */
+  pull: readonly [from: Vec, to: Vec] | null;
+}
+
 /** What there is to draw in space, on the points of its own clock. */
 export interface Scene {
   points: number;
@@ -79,6 +91,7 @@ export interface Scene {
   cameras: CameraPlace[];
   /** Smallest and largest coordinates where they are known beforehand, m. */
   extent?: [low: Vec, high: Vec];
+  goals?: Goals;
   /** Its samples change while it is shown. */
   changes?: boolean;
 }

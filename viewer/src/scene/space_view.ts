@@ -8,6 +8,7 @@ import { Extras } from "./extras.ts";
 import { floorOf, type Floor } from "./floor.ts";
 import { ForceArrows } from "./force_arrows.ts";
 import { Ground } from "./ground.ts";
+import { GoalMarks } from "./goal_marks.ts";
 import type { Look } from "./look.ts";
 import { MarkerSolids } from "./marker_solids.ts";
 import { bounds, type Scene } from "./scene.ts";
@@ -31,6 +32,7 @@ export class SpaceView {
   readonly #forces: ForceArrows;
   readonly floor: Floor;
   readonly #extras: Extras;
+  readonly #goals: GoalMarks | null;
   readonly #reach: number;
   /** A film is being made, of pictures that are as many pixels large and come as fast as can be. */
   keepsSize = false;
@@ -59,6 +61,7 @@ export class SpaceView {
     this.#trails = new Trails(stage, scene);
     this.#forces = new ForceArrows(stage, scene);
     this.#extras = new Extras(stage, scene);
+    this.#goals = scene.goals === undefined ? null : new GoalMarks(stage, scene);
     const [low, high] = bounds(scene, 0);
     this.#reach = Math.max(0.2, length(sub(high, low)));
   }
@@ -117,6 +120,7 @@ export class SpaceView {
     this.#trails.put(look, pose, radius);
     this.#forces.put(look, radius);
     this.#extras.put(look, radius, shown);
+    this.#goals?.put(look, pose, radius);
     this.#cut(look, pose);
     this.#sun.position.set(...add(pose.eye, add(scaled(pose.up, 0.6), pose.right, -0.5), look.camera.distance));
     this.#sun.target.position.set(...look.camera.target);
@@ -163,7 +167,7 @@ export class SpaceView {
     if (p === this.#painted) return;
     this.#painted = p;
     this.#stage.background = new Color(p.background);
-    for (const part of [this.#ground, this.#markers, this.#forces, this.#extras]) part.paint(p);
+    for (const part of [this.#ground, this.#markers, this.#forces, this.#extras, this.#goals]) part?.paint(p);
   }
 
   /** Radius of a marker in m: 9 mm, and never too small to see. */

@@ -3,7 +3,8 @@
 import { el, section } from "../dom.ts";
 import { number, seconds } from "../format.ts";
 import { save, fileName } from "../save.ts";
-import { fitted, standardView, zoomed, type Camera, type StandardView } from "../scene/camera.ts";
+import type { Eyes, PushHand } from "../live/push.ts";
+import { fitted, metresPerPixel, poseOf, standardView, zoomed, type Camera, type StandardView } from "../scene/camera.ts";
 import { facing } from "../scene/facing.ts";
 import { floorHeight } from "../scene/floor.ts";
 import { glbOf } from "../scene/glb.ts";
@@ -35,7 +36,18 @@ export interface SpaceOptions {
   /** Where to look from, kept while what is drawn is drawn anew. */
   kept?: { camera: Camera | null };
   /** The last point is now, and the points before it change: nothing to play, nothing to save but the picture. Tells which markers were seen so far. */
-  live?: { seen: readonly boolean[] };
+  live?: { seen: readonly boolean[]; point?: () => number; push?: SpacePush };
+}
+
+/** What pushes a body of the scene. */
+export interface SpacePush {
+  /** A drag that begins on a body pushes it. */
+  isOn: () => boolean;
+  hand: Pick<PushHand, "grab" | "pull" | "drop">;
+  /** Told once how the picture shows the world. */
+  seenBy: (directions: () => { right: Vec; up: Vec }) => void;
+  /** Below the picture. */
+  node: HTMLElement;
 }
 
 const pickReach = 14;
@@ -64,7 +76,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   let picture: SpaceView | null = null;
   let pending = false;
   /** What people switch on and off. */
-  const shown = { lines: true, others: options.others !== null, regions: 1, rays: true, bodies: true, cut: 0 };
+  const shown = { lines: true, goals: true, others: options.others !== null, regions: 1, rays: true, bodies: true, cut: 0 };
   const change = <K extends keyof typeof shown>(what: K) => (to: (typeof shown)[K]): void => {
     shown[what] = to;
     redraw();
@@ -183,8 +195,19 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
     moveCamera(follow ? standardView(camera, wanted, ahead) : framed(standardView(camera, wanted, ahead)));
   }
 
+  const eyes: Eyes = {
+    place: (x) => picture!.place(camera, x),
+    pixel: (x) => {
+      const pose = poseOf(camera);
+      const k = metresPerPixel(camera, dot(sub(x, pose.eye), pose.forward), canvas.clientHeight);
+      return { right: scaled(pose.right, k), up: scaled(pose.up, k) };
+    },
+  };
+
   function listen(): void {
+    const push = options.live?.push;
     listenToPointer(canvas, {
+      ...(push === undefined ? {} : { hold: { grab: (x, y) => push.isOn() && push.hand.grab(x, y, eyes), pull: (x, y) => push.hand.pull(x, y, eyes), drop: () => push.hand.drop() } }),
       camera: () => camera,
       moveCamera,
       nearest: nearestMarker,
@@ -229,7 +252,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       if (planeButton.getAttribute("aria-pressed") === "true" && (planeOfMarker !== view.marker || planeRange !== view.range)) fitPlane(true);
       [planeOfMarker, planeRange] = [view.marker, view.range];
       const time = (player.playing ? null : view.pointer) ?? view.focus;
-      if (isLive) point = scene.points - 1;
+      if (isLive) point = options.live?.point?.() ?? scene.points - 1;
       else if (time !== null) point = pointAt(scene, time);
       tell();
       redraw();
@@ -299,6 +322,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       choice("Paths", some, trails, (v) => { trails = v; redraw(); }),
       scene.skeleton === null ? null : choice("95 % regions", [["0", "none"], ["1", "true size"], ["3", "3 ×"], ["10", "10 ×"]], "1", (v) => change("regions")(Number(v))),
       scene.bodies === null ? null : toggle("Bodies", true, change("bodies")),
+      scene.goals === undefined ? null : toggle("Goals", true, change("goals")),
       scene.cameras.length === 0 ? null : toggle("Rays", true, change("rays")),
       isLive ? null : planeButton,
       el("label", { class: "pick" }, el("span", {}, "Cut"), cutSlider),
@@ -307,11 +331,13 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
       isLive ? null : player.filmButton,
     ),
     frame,
+    options.live?.push?.node ?? null,
     isLive ? null : player.node,
     readout,
     planeFacts,
     shapesLegend(seen, options.others?.legend ?? null),
     el("p", { class: "facts" }, `${spaceFacts(scene, further, lines.length > 0)}. Click into the picture: ${isLive ? "" : "space plays, arrows step, "}1 to 4 are views, + and − come nearer, 0 starts over.`),
   );
+  options.live?.push?.seenBy(() => poseOf(camera));
   return { node, start, stop };
 }

@@ -10,6 +10,8 @@ export interface SpaceHands {
   nearest: (x: number, y: number) => number;
   hover: (marker: number) => void;
   pick: (marker: number) => void;
+  /** A drag that holds something and does not turn the picture; null: there is none. */
+  hold?: { grab: (x: number, y: number) => boolean; pull: (x: number, y: number) => void; drop: () => void };
 }
 
 /** Turn, move and come nearer with mouse, pen or fingers; a click picks. */
@@ -17,12 +19,19 @@ export function listenToPointer(canvas: HTMLCanvasElement, hands: SpaceHands): v
   const down = new Map<number, [number, number]>();
   let moved = 0;
   let hovered = -1;
+  let holding: number | null = null;
   canvas.addEventListener("pointerdown", (e) => {
+    if (holding === null && down.size === 0 && e.button === 0 && !e.shiftKey && hands.hold?.grab(e.offsetX, e.offsetY) === true) {
+      holding = e.pointerId;
+      canvas.setPointerCapture(e.pointerId);
+      return;
+    }
     down.set(e.pointerId, [e.offsetX, e.offsetY]);
     canvas.setPointerCapture(e.pointerId);
     moved = 0;
   });
   canvas.addEventListener("pointermove", (e) => {
+    if (e.pointerId === holding) return hands.hold?.pull(e.offsetX, e.offsetY);
     const before = down.get(e.pointerId);
     if (before === undefined) {
       const near = hands.nearest(e.offsetX, e.offsetY);
@@ -44,6 +53,11 @@ export function listenToPointer(canvas: HTMLCanvasElement, hands: SpaceHands): v
     else if (moved > 3) hands.moveCamera(orbited(camera, -0.008 * dx, 0.008 * dy));
   });
   const up = (e: PointerEvent): void => {
+    if (e.pointerId === holding) {
+      holding = null;
+      hands.hold?.drop();
+      return;
+    }
     if (!down.delete(e.pointerId) || moved > 4 || e.type === "pointercancel") return;
     hands.pick(hands.nearest(e.offsetX, e.offsetY));
   };

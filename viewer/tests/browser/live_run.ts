@@ -22,13 +22,14 @@ interface Served {
 /** A server of that source, which goes with this program. */
 async function serve(source: string, ...more: string[]): Promise<Served> {
   const child = spawn(program, ["serve", source, "--no-open", ...more], { stdio: ["ignore", "pipe", "ignore"] });
-  process.once("exit", () => child.kill("SIGKILL"));
+  const end = (): boolean => child.kill("SIGKILL");
+  process.once("exit", end);
   const address = await new Promise<string>((done, failed) => {
     createInterface({ input: child.stdout! }).once("line", done);
     child.once("exit", () => failed(new Error("the server ended")));
   });
   const gone = new Promise<void>((done) => child.once("exit", () => done()));
-  return { address, kill: () => { child.kill("SIGKILL"); return gone; } };
+  return { address, kill: () => { process.off("exit", end); end(); return gone; } };
 }
 
 const value = async (page: Page, id: string): Promise<number> => Number(((await page.locator(`#${id}`).textContent()) ?? "").replaceAll(/[^\d.]/g, ""));
@@ -112,8 +113,8 @@ const checks: Record<string, (opened: Opened, server: Served) => Promise<void>> 
 };
 
 let failed = 0;
-async function check(name: string, source: string, task: (opened: Opened, server: Served) => Promise<void>, mayComplain = false): Promise<void> {
-  const server = await serve(source);
+async function check(name: string, source: string, task: (opened: Opened, server: Served) => Promise<void>, mayComplain = false, more: readonly string[] = []): Promise<void> {
+  const server = await serve(source, ...more);
   const opened = await open(server.address);
   try {
     await task(opened, server);
@@ -133,4 +134,66 @@ await check("the end of the source is a sentence", "sim:reach?rate=100&seconds=6
   assert.match((await page.locator("#live-sentence").textContent()) ?? "", /^The source has ended after 600 frames\. What you see is the last frame\.$/);
   assert.equal(await page.locator("#live-state").textContent(), "Ended");
 });
+
+const pushed = async (page: Page): Promise<number> => Number((await page.locator("#live-push").getAttribute("data-pushed-mm")) ?? "");
+const isBack = (page: Page): Promise<void> => until(page, async () => (await page.locator("#push-status").textContent()) === "Nobody pushes the body.");
+const soft = ["--level", "LASI,RASI,LPSI,RPSI", "--level", "*", "--omega", "30"];
+await check("goals have their levels, and a body that is dragged goes and comes back", "sim:reach?rate=240&seconds=120", async ({ page }) => {
+  await running(page);
+  await until(page, async () => /^Level 1: LASI, RASI, LPSI, RPSI, [\d.]+ mm RMSLevel 2: all others, [\d.]+ mm RMS$/.test((await page.locator("#live-levels").textContent()) ?? ""));
+  await isBack(page);
+  const camera = (): Promise<string | undefined> => page.locator(".space-frame").evaluate((n) => n.dataset["camera"]);
+  await page.locator("#live-push button", { hasText: "Drag pushes" }).click();
+  await page.locator(".space-canvas").scrollIntoViewIfNeeded();
+  const box = (await page.locator(".space-canvas").boundingBox())!;
+  const before = await camera();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 90, box.y + box.height / 2 - 20, { steps: 4 });
+  await until(page, async () => (await pushed(page)) > 5);
+  assert.equal(await camera(), before, "the picture is not turned");
+  assert.match((await page.locator("#push-status").textContent()) ?? "", /^Pushed: \d+ N at \w+.* no measurement/);
+  await keep(page, "pushed");
+  if (pictures !== undefined) await page.locator("#space").screenshot({ path: join(pictures, "live_pushed_near.png") });
+  assert.deepEqual([...(await violations(page)), ...(await clipped(page))], []);
+  await page.mouse.up();
+  await isBack(page);
+  assert.equal(await page.locator("#live-state").textContent(), "Live");
+}, false, soft);
+await check("a body is pushed by keys, and by a finger", "sim:reach?rate=240&seconds=120", async ({ page }) => {
+  await running(page);
+  await isBack(page);
+  const names = await page.locator("#push-body option").allTextContents();
+  await page.locator("#push-body").selectOption({ index: names.findIndex((n) => /hand|forearm|ulna|radius|lower_arm/i.test(n)) });
+  await page.locator("#push-force").fill("300");
+  await page.locator("#push-keys").focus();
+  await page.keyboard.down("ArrowRight");
+  await until(page, async () => (await pushed(page)) > 5);
+  assert.match((await page.locator("#push-status").textContent()) ?? "", /^Pushed: 300 N at /);
+  await page.keyboard.up("ArrowRight");
+  await isBack(page);
+  await page.locator("#live-push button", { hasText: "Drag pushes" }).click();
+  const canvas = page.locator(".space-canvas");
+  await canvas.scrollIntoViewIfNeeded();
+  const box = (await canvas.boundingBox())!;
+  const wire = await page.context().newCDPSession(page);
+  const touch = (type: string, dx: number): Promise<unknown> =>
+    wire.send("Input.dispatchTouchEvent", { type: type as "touchMove", touchPoints: type === "touchEnd" ? [] : [{ x: box.x + box.width / 2 + dx, y: box.y + box.height / 2 }] });
+  await touch("touchStart", 0);
+  await touch("touchMove", 60);
+  await touch("touchMove", 120);
+  await until(page, async () => (await pushed(page)) > 5);
+  await touch("touchEnd", 120);
+  await isBack(page);
+}, false, soft);
+await check("without a lost connection a page that goes away lets go", "sim:reach?rate=240&seconds=120", async ({ page }, server) => {
+  await running(page);
+  const other = await open(server.address);
+  await running(other.page);
+  await other.page.locator("#push-keys").focus();
+  await other.page.keyboard.down("ArrowUp");
+  await until(page, async () => ((await page.locator("#push-status").textContent()) ?? "").startsWith("Pushed, by another page"));
+  await other.close();
+  await isBack(page);
+}, false, soft);
 process.exit(failed === 0 ? 0 : 1);

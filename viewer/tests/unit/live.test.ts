@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { LiveSummary } from "../../src/page_types.ts";
 import { describe, expect, it } from "vitest";
-import type { MarkersMessage } from "../../src/live/message.ts";
+import type { AnglesMessage, MarkersMessage } from "../../src/live/message.ts";
 import type { LiveStream as Stream, Surroundings } from "../../src/live/stream.ts";
 import { install } from "../fake_dom.ts";
 
 install();
 const { LiveCurves } = await import("../../src/live/curves.ts");
-const { decodeMessage, drawnMessage } = await import("../../src/live/message.ts");
+const { decodeMessage, drawnMessage, pushMessage } = await import("../../src/live/message.ts");
 const { LiveStream } = await import("../../src/live/stream.ts");
 const { LiveWindow } = await import("../../src/live/window.ts");
 const { bounds } = await import("../../src/scene/scene.ts");
@@ -33,7 +33,7 @@ const text = (words: string): ArrayBuffer => bytes(3, 0, 0, [], [...new TextEnco
 
 const summary: LiveSummary = {
   schema: "kinemark.live", schema_version: 1, trial: "x", source: "sim:", version: "1", recording: null, rate_hz: 240,
-  markers: ["A", "B"], up: [0, 0, 1], up_from: "", extent_m: null, coordinates: [],
+  markers: ["A", "B"], up: [0, 0, 1], up_from: "", extent_m: null, coordinates: [], bodies: [], targets: [], levels: [], strict: false,
 };
 
 describe("a message", () => {
@@ -45,6 +45,27 @@ describe("a message", () => {
     expect(decodeMessage(bytes(1, 0, 0, [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 2, 3, 4]))).toMatchObject({ states: Uint8Array.from([4, 2, 3, 1]), answer_s: null });
     expect(decodeMessage(bytes(2, 3, 0, [10, 20, 0.5, 1], [1, 0]))).toMatchObject({ kind: "angles", value: Float32Array.from([10, 20]), sd: Float32Array.from([0.5, 1]), determined: Uint8Array.from([1, 0]) });
     expect(decodeMessage(text("the disk is full · ü"))).toMatchObject({ kind: "sentence", text: "the disk is full · ü" });
+  });
+  it("of angles holds places of bodies, goals and how far the body is pushed", () => {
+    const places = [1, 2, 3, 1, 0, 0, 0.25];
+    const made = new Uint8Array(40 + 9 + 4 * (7 + 6 + 1));
+    made.set(new Uint8Array(bytes(2, 3, 0, [10, 0.5], [1])));
+    const view = new DataView(made.buffer);
+    view.setUint16(36, 1, true);
+    view.setUint16(38, 2, true);
+    [...places, 4, 5, 6, NaN, NaN, NaN, 12.5].forEach((v, i) => view.setFloat32(49 + 4 * i, v, true));
+    const m = decodeMessage(made.buffer) as AnglesMessage;
+    expect([[...m.value], [...m.sd], [...m.determined]]).toEqual([[10], [0.5], [1]]);
+    expect([[...m.places], [...m.goals], m.pushed_mm]).toEqual([places, [4, 5, 6, NaN, NaN, NaN], 12.5]);
+    view.setFloat32(49 + 4 * 13, NaN, true);
+    expect((decodeMessage(made.buffer) as AnglesMessage).pushed_mm).toBeNull();
+    expect(() => decodeMessage(made.buffer.slice(0, -1))).toThrow();
+    expect(decodeMessage(bytes(2, 3, 0, [10, 0.5], [1]))).toMatchObject({ places: new Float32Array(0), pushed_mm: null });
+  });
+  it("says what pushes the body, byte by byte as server/live_push.h has it", () => {
+    const view = new DataView(pushMessage(258, [0.5, -1, 2], [100, 0, -0.25]));
+    expect([view.byteLength, view.getUint8(0), view.getUint8(1), view.getUint16(2, true)]).toEqual([28, 1, 1, 258]);
+    expect([0, 1, 2, 3, 4, 5].map((i) => view.getFloat32(4 + 4 * i, true))).toEqual([0.5, -1, 2, 100, 0, -0.25]);
   });
   it("that is none is refused", () => {
     for (const wrong of [new ArrayBuffer(0), new ArrayBuffer(39), bytes(1, 0, 0, [1], [1]), bytes(4, 0, 0, [], []), bytes(0, 0, 0, [], []), bytes(1, 0, 0, [1, 2, 3], [1], { version: 2 })])
@@ -59,11 +80,13 @@ describe("a message", () => {
 class Wire {
   binaryType = "";
   sent: number[] = [];
+  pushes: ArrayBuffer[] = [];
   closed = false;
   onopen: () => void = () => undefined;
   onmessage: (e: { data: ArrayBuffer }) => void = () => undefined;
   onclose: (e: { code: number; reason: string }) => void = () => undefined;
   send(data: ArrayBuffer): void {
+    if (data.byteLength !== 8) return void this.pushes.push(data);
     this.sent.push(new DataView(data).getFloat64(0, true));
   }
   close(): void {
@@ -138,6 +161,15 @@ describe("the connection", () => {
     }
     expect(waits).toEqual([500, 1000, 2000, 4000, 5000, 5000, 5000]);
   });
+  it("carries pushes while it is there", () => {
+    const { stream, wires } = streaming();
+    stream.push(1, [0, 0, 0], [1, 0, 0]);
+    wires[0]!.onopen();
+    stream.push(1, [0, 0, 0], [1, 0, 0]);
+    wires[0]!.onclose({ code: 1006, reason: "" });
+    stream.push(1, [0, 0, 0], [1, 0, 0]);
+    expect(wires[0]!.pushes.map((p) => p.byteLength)).toEqual([28]);
+  });
   it("ends with the sentence of the server and is not taken up again", () => {
     const { stream, wires, waits } = streaming();
     wires[0]!.onopen();
@@ -200,6 +232,14 @@ describe("the last seconds", () => {
     expect([...shown.scene.markers.states.slice(0, P)].filter((s) => s === 0)).toHaveLength(1);
     expect(shown.scene.markers.x[P - 1]).toBe(2);
   });
+  it("have a point for each frame that they still hold, and the nearest for those that did not come", () => {
+    const shown = new LiveWindow(summary);
+    const P = shown.scene.points;
+    for (const f of [1900, 1960, 1996, 2000]) shown.push(frame(f, 1, 1));
+    expect([2000, 1999, 1960, 5, -1, 2400].map((f) => shown.pointOf(f))).toEqual([P - 1, P - 2, P - 11, P - 1, P - 1, P - 1]);
+    expect([1964, 1988, 1920].map((f) => shown.pointOf(f))).toEqual([P - 11, P - 2, P - 26]);
+    expect(shown.scene.markers.states[shown.pointOf(1964)]).toBe(0);
+  });
   it("stand where the markers are known to come", () => {
     const shown = new LiveWindow({ ...summary, extent_m: [[-1, -2, 0], [1, 2, 3]] });
     expect(bounds(shown.scene)).toEqual([[-1, -2, 0], [1, 2, 3]]);
@@ -208,7 +248,7 @@ describe("the last seconds", () => {
 
 describe("the curves of angles", () => {
   const angle = (time_s: number, value: number, determined = 1): Parameters<InstanceType<typeof LiveCurves>["push"]>[0] => ({
-    kind: "angles", dropped: 0, frame: 0, time_s, answer_s: null, value: Float32Array.from([value]), sd: Float32Array.from([0.5]), determined: Uint8Array.from([determined]),
+    kind: "angles", dropped: 0, frame: 0, time_s, answer_s: null, value: Float32Array.from([value]), sd: Float32Array.from([0.5]), determined: Uint8Array.from([determined]), places: new Float32Array(0), goals: new Float32Array(0), pushed_mm: null,
   });
   it("hold ten seconds, thirty points in each, the newest last", () => {
     const curves = new LiveCurves(1);

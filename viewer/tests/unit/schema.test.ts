@@ -19,6 +19,7 @@ const live = {
   summary: {
     schema: "kinemark.live", schema_version: 1, trial: "sim:walk", source: "sim:walk", version: "0.1.0", recording: null, rate_hz: 100,
     markers: ["A"], up: [0, 0, 1], up_from: "", extent_m: [[0, 0, 0], [1, 1, 1]], coordinates: [{ name: "knee", unit: "deg" }],
+    bodies: [{ name: "shank", parent: -1, mass_kg: 3, com_m: [0, 0, 0] }], targets: [{ marker: 0, body: 0, point_m: [0, 0, 0], level: 0 }], levels: ["all markers"], strict: false,
   },
 };
 const changes = [{ marker: "A", moved: 1, came: 0, went: 0, restated: 0, largest_mm: 2.5, first: 101, last: 101 }];
