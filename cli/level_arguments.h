@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
-#include "kinemark/stages/motion/control/track_options.h"
+#include "kinemark/pipeline/motion/track_job.h"
 
 namespace kinemark::cli {
 

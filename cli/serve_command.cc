@@ -51,15 +51,19 @@ struct ServeArguments {
   }
 };
 
+/// Something is said on how a model follows a live source.
+bool says_how_to_follow(const ServeArguments& arguments) {
+  return !arguments.levels.empty() || arguments.track.strict ||
+         arguments.track.omega_rad_s != motion::TrackOptions().omega_rad_s;
+}
+
 /// A live source is served alone, and only it is recorded.
 Status check_together(const ServeArguments& arguments) {
   if (arguments.is_live() && arguments.given.size() > 1)
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
   if (!arguments.is_live() && !arguments.record.empty())
     return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
-  const bool tracks = !arguments.levels.empty() || arguments.track.strict ||
-                      arguments.track.omega_rad_s != motion::TrackOptions().omega_rad_s;
-  if (!arguments.is_live() && tracks)
+  if (!arguments.is_live() && says_how_to_follow(arguments))
     return fail(Code::usage, "--level, --strict and --omega are for a live source (sim:... or replay:FILE)");
   const char* of_files = !arguments.asked.geometry.empty() ? "geometry"
                          : !arguments.asked.tasks.empty()  ? "tasks"
@@ -120,8 +124,8 @@ Result<std::unique_ptr<LiveParts>> open_source(const CommonOptions& common, cons
   if (!input) return std::unexpected(input.error());
   auto track = arguments.track;
   if (auto s = take_levels(arguments.levels, track); !s) return std::unexpected(s.error());
-  if (!input->model && !track.levels.empty())
-    return fail(Code::usage, "--level needs the body model that follows the source; give --model");
+  if (!input->model && says_how_to_follow(arguments))
+    return fail(Code::usage, "--level and --omega need the body model that follows the source; give --model");
   if (auto s = pipeline::check_apart({arguments.record}, {input->file}); !s)
     return std::unexpected(s.error());
   if (auto s = pipeline::check_apart({arguments.record}, common.kept); !s) return std::unexpected(s.error());

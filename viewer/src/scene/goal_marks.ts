@@ -32,8 +32,10 @@ export class GoalMarks {
     this.#rings = goalCorners.map((corners) => new Kind(stage, new RingGeometry(0.7, 1, corners), plain(), count, { order: 4 }));
     this.#ties = goalCorners.map(() => new Kind(stage, new CylinderGeometry(1, 1, 1, 6, 1, true), plain(), count));
     this.#markers = new Kind(stage, new SphereGeometry(1, 10, 7), new MeshLambertMaterial(), count);
-    this.#pull = new Kind(stage, new CylinderGeometry(1, 1, 1, 10, 1, true), plain(), 1, { order: 6 });
-    this.#head = new Kind(stage, new ConeGeometry(1, 1, 14), plain(), 1, { order: 6 });
+    // Seen through the body.
+    const before = (): MeshBasicMaterial => new MeshBasicMaterial({ depthTest: false });
+    this.#pull = new Kind(stage, new CylinderGeometry(1, 1, 1, 10, 1, true), before(), 1, { order: 6 });
+    this.#head = new Kind(stage, new ConeGeometry(1, 1, 14), before(), 1, { order: 6 });
   }
 
   paint(p: Palette): void {
