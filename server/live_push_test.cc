@@ -59,7 +59,7 @@ TEST(LivePush, OtherBytesAreNotUnderstood) {
 
 TEST(LivePush, AnyBytesAreReadOrNot) {
   LivePush push(3);
-  Random random(7);
+  Random random(7, 0);
   int read = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::string bytes(kPushBytes, '\0');

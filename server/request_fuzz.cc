@@ -15,6 +15,8 @@
 #include "kinemark/io/edits/edit_line.h"
 #include "server/edit_service.h"
 #include "server/entrance.h"
+#include "server/live_push.h"
+#include "server/live_viewer.h"
 #include "server/routes.h"
 
 namespace {
@@ -45,10 +47,29 @@ bool holds(const std::string& text, std::string_view secret) {
   return text.find(secret) != std::string::npos;
 }
 
+/// A message of a page on a WebSocket: what is understood is a body that is there, and never more than is
+/// allowed pushes it.
+void check_push(std::string_view bytes) {
+  using namespace kinemark::server;
+  constexpr std::size_t kBodies = 3;
+  LivePush push(kBodies);
+  (void)drawn_count(bytes);
+  for (std::size_t at = 0; at <= bytes.size(); at += kPushBytes) {
+    const auto wish = push.read(bytes.substr(at, kPushBytes));
+    if (!wish) continue;
+    if (std::cmp_greater_equal(wish->body, kBodies) || !wish->point_in_body.allFinite()) std::abort();
+    const bool refused = !push.take(&push, *wish, 0.0).empty();
+    const auto now = push.now(0.0);
+    if (now && !(now->force_in_world.norm() <= 500.0)) std::abort();
+    if (refused != (wish->force_in_world.norm() > 500.0)) std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemark::server;
+  check_push({reinterpret_cast<const char*>(data), size});
   Request request = parse({reinterpret_cast<const char*>(data), size});
   Entrance entrance({.hosts = {"127.0.0.1:8123", "localhost:8123"},
                      .token = std::string(kToken),

@@ -223,6 +223,8 @@ TEST(Controller, AStepAllocatesNothing) {
     for (int s = 0; s < 10; ++s) step();
     const auto before = testing_support::allocations_on_this_thread();
     for (int s = 0; s < 100; ++s) step();
+    controller.push({.body = 2, .force_in_world = {40.0, -30.0, 20.0}});
+    for (int s = 0; s < 100; ++s) step();
     EXPECT_EQ(testing_support::allocations_on_this_thread(), before) << two_levels;
   }
 }

@@ -319,5 +319,39 @@ TEST(PrioritySolver, AllocatesNothingOnceItKnowsTheSizes) {
   EXPECT_EQ(testing_support::allocations_on_this_thread(), before);
 }
 
+// The oracle is the constrained motion M a = f + C' l with C a = 0, by the inverse of its matrix.
+TEST(PrioritySolver, AForceFromOutsideMovesNoConstraintAndNothingThatIsHeld) {
+  constexpr int kSpeeds = 12, kRows = 4, kHeld = 7;
+  Random random(11, 1);
+  const MatrixXd M = random_mass(random, kSpeeds), C = random_matrix(random, kRows, kSpeeds);
+  const MatrixXd J = random_matrix(random, 5, kSpeeds), force = random_matrix(random, kSpeeds, 1);
+  std::vector<std::uint8_t> held = kNothingHeld;
+  held[kHeld] = 1;
+  PrioritySolver solver(kSpeeds);
+  const auto solve = [&](bool pushed) {
+    EXPECT_TRUE(solver.begin(M, held, VectorXd::Zero(kSpeeds)));
+    solver.add_level(C, VectorXd::Zero(kRows), kExact);
+    const int constrained = solver.rank();
+    solver.add_level(J, VectorXd::Ones(5), kExact);
+    solver.add_posture(VectorXd::Ones(kSpeeds));
+    if (pushed) solver.add_outside_force(force, constrained);
+    return VectorXd(solver.acceleration());
+  };
+  const VectorXd alone = solve(false), added = solve(true) - alone;
+  MatrixXd all = MatrixXd::Zero(kSpeeds + kRows + 1, kSpeeds + kRows + 1);
+  MatrixXd right = MatrixXd::Zero(kSpeeds + kRows + 1, 1);
+  for (int i = 0; i < kSpeeds; ++i) {
+    right(i, 0) = force(i, 0);
+    for (int j = 0; j < kSpeeds; ++j) all(i, j) = M(i, j);
+    for (int k = 0; k < kRows; ++k) all(i, kSpeeds + k) = all(kSpeeds + k, i) = C(k, i);
+  }
+  all(kHeld, kSpeeds + kRows) = all(kSpeeds + kRows, kHeld) = 1.0;
+  const MatrixXd expected = times(inverse(all), right);
+  for (int i = 0; i < kSpeeds; ++i) EXPECT_NEAR(added[i], expected(i, 0), 1e-9);
+  EXPECT_GT(length(added), 0.1);
+  EXPECT_EQ(added[kHeld], 0.0);
+  EXPECT_LT(length(times(C, added)), 1e-10);
+}
+
 }  // namespace
 }  // namespace kinemark::motion::internal
