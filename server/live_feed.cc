@@ -86,9 +86,9 @@ Result<std::unique_ptr<LiveFeed>> LiveFeed::create(LiveFeedOptions options) {
   std::unique_ptr<stream::Sink> angles;
   if (given.model) {
     const auto to_viewers = [self = feed.get(), units = message_units(*given.model),
-                             places = std::make_shared<BodyPlaces>(given.model)](const auto& pose) {
+                             body_poses = std::make_shared<BodyPoses>(given.model)](const auto& pose) {
       const double when_s = self->due_s(pose.frame);
-      self->send(angles_message(pose, units, when_s, places->find(pose)), LiveKind::angles, when_s);
+      self->send(angles_message(pose, units, when_s, body_poses->find(pose)), LiveKind::angles, when_s);
     };
     auto made = workflow::live(*given.model, facts, to_viewers, given.track);
     if (!made) return std::unexpected(made.error());

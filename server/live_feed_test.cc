@@ -188,10 +188,10 @@ TEST_F(LiveFeedThread, AnglesAreThoseOfTheFramesGivenOneAtATime) {
   std::vector<std::string> expected;
   const auto again = pipeline::open_live_input(kWalk).value();
   const auto units = message_units(*again.model);
-  BodyPlaces places(again.model);
+  BodyPoses body_poses(again.model);
   const auto angles =
       workflow::live(*again.model, again.source->facts(), [&](const auto& pose) {
-        expected.push_back(angles_message(pose, units, 0.0, places.find(pose)).substr(kLiveHeadBytes));
+        expected.push_back(angles_message(pose, units, 0.0, body_poses.find(pose)).substr(kLiveHeadBytes));
       }).value();
   for (stream::Frame frame; again.source->next(frame).value();) ASSERT_TRUE(angles->push(frame));
   ASSERT_TRUE(angles->finish());

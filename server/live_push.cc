@@ -92,22 +92,22 @@ Status PushedAngles::push(const stream::Frame& frame) {
   return angles_->push(frame);
 }
 
-BodyPlaces::BodyPlaces(std::shared_ptr<const model::Model> model) : model_(std::move(model)), w_(*model_) {}
+BodyPoses::BodyPoses(std::shared_ptr<const model::Model> model) : model_(std::move(model)), w_(*model_) {}
 
-const std::vector<double>& BodyPlaces::find(const motion::LivePose& pose) {
+const std::vector<double>& BodyPoses::find(const motion::LivePose& pose) {
   const auto count = model_->bodies().size();
   const auto& q = pose.pushed_q.size() > 0 ? pose.pushed_q : pose.q;
-  places_.assign(kPlaceNumbers * count, kNaN);
-  if (!q.allFinite()) return places_;
+  poses_.assign(kPoseNumbers * count, kNaN);
+  if (!q.allFinite()) return poses_;
   model::kinematics(*model_, w_, model::state_from_coordinates(*model_, q));
   for (std::size_t b = 0; b < count; ++b) {
     const Eigen::Quaterniond turn(w_.rotation[b]);
     const auto& x = w_.position[b];
-    const double place[kPlaceNumbers] = {x.x(), x.y(), x.z(), turn.w(), turn.x(), turn.y(), turn.z()};
-    std::copy(std::begin(place), std::end(place),
-              places_.begin() + static_cast<std::ptrdiff_t>(kPlaceNumbers * b));
+    const double numbers[kPoseNumbers] = {x.x(), x.y(), x.z(), turn.w(), turn.x(), turn.y(), turn.z()};
+    std::copy(std::begin(numbers), std::end(numbers),
+              poses_.begin() + static_cast<std::ptrdiff_t>(kPoseNumbers * b));
   }
-  return places_;
+  return poses_;
 }
 
 }  // namespace kinemark::server

@@ -68,19 +68,19 @@ class PushedAngles final : public stream::Sink {
 };
 
 /// Numbers of each body in messages: origin in m, quaternion w x y z.
-inline constexpr std::size_t kPlaceNumbers = 7;
+inline constexpr std::size_t kPoseNumbers = 7;
 
 /// Where the bodies of a model are.
-class BodyPlaces {
+class BodyPoses {
  public:
-  explicit BodyPlaces(std::shared_ptr<const model::Model> model);
+  explicit BodyPoses(std::shared_ptr<const model::Model> model);
   /// Of the pushed body while there is one; NaN where nothing is known.
   [[nodiscard]] const std::vector<double>& find(const motion::LivePose& pose);
 
  private:
   std::shared_ptr<const model::Model> model_;
   model::Workspace w_;
-  std::vector<double> places_;
+  std::vector<double> poses_;
 };
 
 }  // namespace kinemark::server

@@ -120,33 +120,33 @@ TEST(LivePush, AForceBeyondTheLimitIsNotApplied) {
   EXPECT_TRUE(push.now(0.0));
 }
 
-TEST(BodyPlaces, AreThoseOfThePushedBodyWhileThereIsOne) {
+TEST(BodyPoses, AreThoseOfThePushedBodyWhileThereIsOne) {
   const auto input = pipeline::open_live_input("sim:walk?seconds=0.1").value();
   const auto& model = *input.model;
-  BodyPlaces places(input.model);
+  BodyPoses body_poses(input.model);
   motion::LivePose pose;
   pose.q = Eigen::VectorXd::Constant(model.coordinate_count(), 0.1);
-  const auto there = places.find(pose);
-  ASSERT_EQ(there.size(), kPlaceNumbers * model.bodies().size());
+  const auto there = body_poses.find(pose);
+  ASSERT_EQ(there.size(), kPoseNumbers * model.bodies().size());
   model::Workspace w(model);
   model::kinematics(model, w, model::state_from_coordinates(model, pose.q));
   const Vector3d point(0.1, 0.2, 0.3);
   for (std::size_t b = 0; b < model.bodies().size(); ++b) {
-    const double* place = there.data() + kPlaceNumbers * b;
+    const double* place = there.data() + kPoseNumbers * b;
     const Vector3d x = Vector3d(place[0], place[1], place[2]) +
                        Eigen::Quaterniond(place[3], place[4], place[5], place[6]) * point;
     EXPECT_LT((x - model::point_in_world(w, static_cast<int>(b), point)).norm(), 1e-12);
   }
   pose.pushed_q = pose.q.array() + 0.2;
-  EXPECT_NE(places.find(pose), there);
+  EXPECT_NE(body_poses.find(pose), there);
   pose.q = pose.pushed_q;
   pose.pushed_q.resize(0);
-  const auto same = places.find(pose);
+  const auto same = body_poses.find(pose);
   pose.pushed_q = pose.q;
-  EXPECT_EQ(places.find(pose), same);
+  EXPECT_EQ(body_poses.find(pose), same);
   pose.pushed_q.resize(0);
   pose.q.setConstant(kNaN);
-  for (const double value : places.find(pose)) EXPECT_TRUE(std::isnan(value));
+  for (const double value : body_poses.find(pose)) EXPECT_TRUE(std::isnan(value));
 }
 
 TEST(PushedAngles, TheBodyGoesAndComesBackAndTheAnglesStay) {

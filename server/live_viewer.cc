@@ -67,21 +67,21 @@ std::vector<double> message_units(const model::Model& model) {
 }
 
 std::string angles_message(const motion::LivePose& pose, std::span<const double> units, double due_s,
-                           std::span<const double> places) {
-  const auto count = units.size(), bodies = places.size() / kPlaceNumbers;
-  const auto goals = places.empty() ? 0 : static_cast<std::size_t>(pose.goal.cols());
+                           std::span<const double> body_poses) {
+  const auto count = units.size(), bodies = body_poses.size() / kPoseNumbers;
+  const auto goals = body_poses.empty() ? 0 : static_cast<std::size_t>(pose.goal.cols());
   check(std::cmp_equal(pose.q.size(), count) && pose.q_sd.size() == pose.q.size() &&
             pose.determined.size() == count,
         "angles and their deviations, one of each coordinate");
   const auto more = static_cast<std::uint32_t>(bodies | goals << 16);
   auto out = head(LiveKind::angles, count, static_cast<double>(pose.frame), pose.time_s, due_s,
-                  9 * count + 4 * (places.size() + 3 * goals + 1), more);
+                  9 * count + 4 * (body_poses.size() + 3 * goals + 1), more);
   for (const auto* numbers : {&pose.q, &pose.q_sd})
     for (std::size_t c = 0; c < count; ++c)
       put(out, static_cast<float>(units[c] * (*numbers)[static_cast<Eigen::Index>(c)]));
   for (const auto one : pose.determined) out += static_cast<char>(one);
-  if (places.empty()) return out;
-  for (const double value : places) put(out, static_cast<float>(value));
+  if (body_poses.empty()) return out;
+  for (const double value : body_poses) put(out, static_cast<float>(value));
   for (std::size_t i = 0; i < 3 * goals; ++i) put(out, static_cast<float>(pose.goal.data()[i]));
   put(out, static_cast<float>(pose.pushed_q.size() > 0 ? kMmPerM * pose.pushed_m : kNaN));
   return out;

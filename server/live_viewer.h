@@ -31,9 +31,9 @@ namespace kinemark::server {
 enum class LiveKind : std::uint8_t {
   markers = 1,   ///< float32 x[count][3] in m, NaN where there is none; uint8 state[count]
   angles = 2,    ///< float32 value[count], float32 sd[count] in deg or mm; uint8 determined[count]; with
-                 ///< bodies: float32 place[bodies][7], origin in m and quaternion w x y z, float32
+                 ///< bodies: float32 pose[bodies][7], origin in m and quaternion w x y z, float32
                  ///< goal[goals][3] in m, NaN where there is none, float32 pushed_mm, NaN: nobody pushes. The
-                 ///< angles are those of the tracked body; the places those of the pushed one while there is
+                 ///< angles are those of the tracked body; the poses those of the pushed one while there is
                  ///< one
   sentence = 3,  ///< count bytes of UTF-8
 };
@@ -52,9 +52,9 @@ inline constexpr std::size_t kLiveHeadBytes = 40;
 /// By what each coordinate of a model is multiplied in messages: degrees of a radian, millimetres of a metre.
 [[nodiscard]] std::vector<double> message_units(const model::Model& model);
 /// Angles of a frame. @param pose  of workflow::live()  @param units  of its coordinates
-/// @param places  7 numbers of each body, as LiveKind::angles; empty: they are not shown
+/// @param body_poses  7 numbers of each body, as LiveKind::angles; empty: they are not shown
 [[nodiscard]] std::string angles_message(const motion::LivePose& pose, std::span<const double> units,
-                                         double due_s, std::span<const double> places = {});
+                                         double due_s, std::span<const double> body_poses = {});
 /// Something that people should know; more than 65,535 bytes are cut off.
 [[nodiscard]] std::string sentence_message(std::string_view sentence, double due_s);
 

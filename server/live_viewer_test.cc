@@ -73,25 +73,25 @@ TEST(LiveMessage, AFrameOfAnglesByteByByte) {
   EXPECT_THROW((void)angles_message(two_coordinates(), std::vector{8.0}, 4.0), ContractError);
 }
 
-TEST(LiveMessage, PlacesOfBodiesGoalsAndAPushFollowTheAngles) {
+TEST(LiveMessage, PosesOfBodiesGoalsAndAPushFollowTheAngles) {
   auto pose = two_coordinates();
   pose.goal = Eigen::Matrix3Xd::Constant(3, 2, 0.5);
   pose.goal.col(1).setConstant(kNaN);
-  const std::vector<double> places{1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.25};
-  auto message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, places);
-  const std::size_t at_places = kLiveHeadBytes + 2 * 9;
-  ASSERT_EQ(message.size(), at_places + 4 * (7 + 6 + 1));
+  const std::vector<double> body_poses{1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.25};
+  auto message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, body_poses);
+  const std::size_t at_poses = kLiveHeadBytes + 2 * 9;
+  ASSERT_EQ(message.size(), at_poses + 4 * (7 + 6 + 1));
   EXPECT_EQ(at<std::uint16_t>(message, 36), 1) << "bodies";
   EXPECT_EQ(at<std::uint16_t>(message, 38), 2) << "goals";
-  EXPECT_EQ(at<float>(message, at_places + 8), 3.0F);
-  EXPECT_EQ(at<float>(message, at_places + 24), 0.25F);
-  EXPECT_EQ(at<float>(message, at_places + 28), 0.5F);
-  EXPECT_TRUE(std::isnan(at<float>(message, at_places + 40)));
-  EXPECT_TRUE(std::isnan(at<float>(message, at_places + 52))) << "nobody pushes";
+  EXPECT_EQ(at<float>(message, at_poses + 8), 3.0F);
+  EXPECT_EQ(at<float>(message, at_poses + 24), 0.25F);
+  EXPECT_EQ(at<float>(message, at_poses + 28), 0.5F);
+  EXPECT_TRUE(std::isnan(at<float>(message, at_poses + 40)));
+  EXPECT_TRUE(std::isnan(at<float>(message, at_poses + 52))) << "nobody pushes";
   pose.pushed_q = pose.q;
   pose.pushed_m = 0.015;
-  message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, places);
-  EXPECT_EQ(at<float>(message, at_places + 52), 15.0F) << "mm";
+  message = angles_message(pose, std::vector{8.0, 1000.0}, 4.0, body_poses);
+  EXPECT_EQ(at<float>(message, at_poses + 52), 15.0F) << "mm";
   EXPECT_EQ(at<float>(message, 40), 2.0F) << "angles stay those of the tracked body";
   EXPECT_EQ(at<std::uint32_t>(angles_message(pose, std::vector{8.0, 1000.0}, 4.0), 36), 0U);
 }

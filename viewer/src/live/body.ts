@@ -23,7 +23,7 @@ export class LiveBody {
   pushed_mm: number | null = null;
   readonly #points: number;
   readonly #children: number[][];
-  #places: Float32Array = new Float32Array(0);
+  #poses: Float32Array = new Float32Array(0);
 
   constructor(
     readonly summary: LiveSummary,
@@ -40,9 +40,9 @@ export class LiveBody {
 
   /** A newer frame. */
   push(message: AnglesMessage): void {
-    if (message.frame < this.frame || message.places.length !== 7 * this.summary.bodies.length) return;
+    if (message.frame < this.frame || message.poses.length !== 7 * this.summary.bodies.length) return;
     this.frame = message.frame;
-    this.#places = message.places;
+    this.#poses = message.poses;
     this.pushed_mm = message.pushed_mm;
     this.summary.targets.forEach((target, t) => {
       this.goals.model.set(this.world(target.body, target.point_m), 3 * t);
@@ -65,7 +65,7 @@ export class LiveBody {
 
   /** Where a body begins; NaN where nothing is known. */
   origin(body: number): Vec {
-    const at = (k: number): number => this.#places[7 * body + k] ?? NaN;
+    const at = (k: number): number => this.#poses[7 * body + k] ?? NaN;
     return [at(0), at(1), at(2)];
   }
 
@@ -81,7 +81,7 @@ export class LiveBody {
   }
 
   #turn(body: number): readonly [number, number, number, number] {
-    const at = (k: number): number => this.#places[7 * body + k] ?? NaN;
+    const at = (k: number): number => this.#poses[7 * body + k] ?? NaN;
     return [at(3), at(4), at(5), at(6)];
   }
 

@@ -25,7 +25,7 @@ export interface AnglesMessage extends Head {
   sd: Float32Array;
   determined: Uint8Array;
   /** B x 7: origin in m and quaternion w x y z of each body, of the pushed one while there is one; NaN where nothing is known. */
-  places: Float32Array;
+  poses: Float32Array;
   /** G x 3, m: goals of the markers of the source; NaN where there is none. */
   goals: Float32Array;
   /** How far a push has moved a marker of the model, mm; null: nobody pushes. */
@@ -58,7 +58,7 @@ export function decodeMessage(buffer: ArrayBuffer): LiveMessage {
   if (kind === 2) {
     const after = (from: number, n: number): Float32Array => Float32Array.from({ length: n }, (_, i) => view.getFloat32(headBytes + 9 * count + 4 * (from + i), true));
     const pushed = bodies === 0 ? NaN : after(more - 1, 1)[0]!;
-    return { kind: "angles", ...head, value: floats(0, count), sd: floats(count, count), determined: rest, places: after(0, 7 * bodies), goals: after(7 * bodies, bodies === 0 ? 0 : 3 * goals), pushed_mm: Number.isNaN(pushed) ? null : pushed };
+    return { kind: "angles", ...head, value: floats(0, count), sd: floats(count, count), determined: rest, poses: after(0, 7 * bodies), goals: after(7 * bodies, bodies === 0 ? 0 : 3 * goals), pushed_mm: Number.isNaN(pushed) ? null : pushed };
   }
   return { kind: "sentence", ...head, text: new TextDecoder().decode(rest) };
 }

@@ -46,21 +46,21 @@ describe("a message", () => {
     expect(decodeMessage(bytes(2, 3, 0, [10, 20, 0.5, 1], [1, 0]))).toMatchObject({ kind: "angles", value: Float32Array.from([10, 20]), sd: Float32Array.from([0.5, 1]), determined: Uint8Array.from([1, 0]) });
     expect(decodeMessage(text("the disk is full · ü"))).toMatchObject({ kind: "sentence", text: "the disk is full · ü" });
   });
-  it("of angles holds places of bodies, goals and how far the body is pushed", () => {
-    const places = [1, 2, 3, 1, 0, 0, 0.25];
+  it("of angles holds poses of bodies, goals and how far the body is pushed", () => {
+    const poses = [1, 2, 3, 1, 0, 0, 0.25];
     const made = new Uint8Array(40 + 9 + 4 * (7 + 6 + 1));
     made.set(new Uint8Array(bytes(2, 3, 0, [10, 0.5], [1])));
     const view = new DataView(made.buffer);
     view.setUint16(36, 1, true);
     view.setUint16(38, 2, true);
-    [...places, 4, 5, 6, NaN, NaN, NaN, 12.5].forEach((v, i) => view.setFloat32(49 + 4 * i, v, true));
+    [...poses, 4, 5, 6, NaN, NaN, NaN, 12.5].forEach((v, i) => view.setFloat32(49 + 4 * i, v, true));
     const m = decodeMessage(made.buffer) as AnglesMessage;
     expect([[...m.value], [...m.sd], [...m.determined]]).toEqual([[10], [0.5], [1]]);
-    expect([[...m.places], [...m.goals], m.pushed_mm]).toEqual([places, [4, 5, 6, NaN, NaN, NaN], 12.5]);
+    expect([[...m.poses], [...m.goals], m.pushed_mm]).toEqual([poses, [4, 5, 6, NaN, NaN, NaN], 12.5]);
     view.setFloat32(49 + 4 * 13, NaN, true);
     expect((decodeMessage(made.buffer) as AnglesMessage).pushed_mm).toBeNull();
     expect(() => decodeMessage(made.buffer.slice(0, -1))).toThrow();
-    expect(decodeMessage(bytes(2, 3, 0, [10, 0.5], [1]))).toMatchObject({ places: new Float32Array(0), pushed_mm: null });
+    expect(decodeMessage(bytes(2, 3, 0, [10, 0.5], [1]))).toMatchObject({ poses: new Float32Array(0), pushed_mm: null });
   });
   it("says what pushes the body, byte by byte as server/live_push.h has it", () => {
     const view = new DataView(pushMessage(258, [0.5, -1, 2], [100, 0, -0.25]));
@@ -248,7 +248,7 @@ describe("the last seconds", () => {
 
 describe("the curves of angles", () => {
   const angle = (time_s: number, value: number, determined = 1): Parameters<InstanceType<typeof LiveCurves>["push"]>[0] => ({
-    kind: "angles", dropped: 0, frame: 0, time_s, answer_s: null, value: Float32Array.from([value]), sd: Float32Array.from([0.5]), determined: Uint8Array.from([determined]), places: new Float32Array(0), goals: new Float32Array(0), pushed_mm: null,
+    kind: "angles", dropped: 0, frame: 0, time_s, answer_s: null, value: Float32Array.from([value]), sd: Float32Array.from([0.5]), determined: Uint8Array.from([determined]), poses: new Float32Array(0), goals: new Float32Array(0), pushed_mm: null,
   });
   it("hold ten seconds, thirty points in each, the newest last", () => {
     const curves = new LiveCurves(1);

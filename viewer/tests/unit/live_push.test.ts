@@ -29,7 +29,7 @@ const half = Math.SQRT1_2;
 /** The trunk stands at the origin; the arm begins a metre above and is turned by 90 degrees about z. */
 const message = (more: Partial<AnglesMessage> = {}): AnglesMessage => ({
   kind: "angles", dropped: 0, frame: 5, time_s: 0, answer_s: null, value: new Float32Array(0), sd: new Float32Array(0), determined: new Uint8Array(0),
-  places: Float32Array.from([0, 0, 0, 1, 0, 0, 0, 0, 0, 1, half, 0, 0, half]),
+  poses: Float32Array.from([0, 0, 0, 1, 0, 0, 0, 0, 0, 1, half, 0, 0, half]),
   goals: Float32Array.from([0.003, 0, 0.1, 9, 9, 9, NaN, NaN, NaN]), pushed_mm: null, ...more,
 });
 const near = (a: readonly number[], b: readonly number[]): void => a.forEach((v, i) => expect(v).toBeCloseTo(b[i]!, 5));
@@ -59,7 +59,7 @@ describe("the body that follows", () => {
     const body = new LiveBody(summary, 4);
     body.push(message());
     body.push(message({ frame: 4, pushed_mm: 7 }));
-    body.push(message({ frame: 9, places: new Float32Array(7) }));
+    body.push(message({ frame: 9, poses: new Float32Array(7) }));
     expect([body.frame, body.pushed_mm]).toEqual([5, null]);
     body.push(message({ frame: 6, pushed_mm: 7 }));
     expect([body.frame, body.pushed_mm]).toEqual([6, 7]);
