@@ -35,7 +35,7 @@ export class LiveBody {
     this.#children = bodies.map((_, b) => bodies.flatMap((other, i) => (other.parent === b ? [i] : [])));
     this.bodies = { names: bodies.map((b) => b.name), massKg: bodies.map((b) => b.mass_kg), origin: nowhere(), end: nowhere(), meshes: [], meshesNote: "" };
     const none = (): Float32Array => new Float32Array(3 * targets.length).fill(NaN);
-    this.goals = { x: none(), model: none(), level: targets.map((t) => t.level), pull: null };
+    this.goals = { x: none(), model: none(), level: targets.map((t) => t.level), push: null };
   }
 
   /** A newer frame. */

@@ -63,7 +63,7 @@ export class PushHand {
   }
 
   /** The pointer is here now. */
-  pull(x: number, y: number, eyes: Eyes): void {
+  drag(x: number, y: number, eyes: Eyes): void {
     if (this.#held === null) return;
     const { right, up } = eyes.pixel(this.body.world(this.#held.body, this.#held.point));
     const way = add(scaled(right, x - this.#held.from[0]), up, this.#held.from[1] - y);
@@ -80,7 +80,7 @@ export class PushHand {
     if (this.#held !== null && this.#said !== null) this.send(this.#held.body, this.#held.point, [0, 0, 0]);
     this.#held = this.#said = this.force = null;
     this.isCapped = false;
-    this.body.goals.pull = null;
+    this.body.goals.push = null;
   }
 
   #set(force: Vec): void {
@@ -93,7 +93,7 @@ export class PushHand {
   tick(now_ms: number): void {
     if (this.#held === null || this.force === null) return;
     const from = this.body.world(this.#held.body, this.#held.point);
-    this.body.goals.pull = Number.isNaN(from[0]) ? null : [from, add(from, this.force, 1 / springNPerM)];
+    this.body.goals.push = Number.isNaN(from[0]) ? null : [from, add(from, this.force, 1 / springNPerM)];
     if (length(this.force) === 0 && this.#said === null) return;
     const isNew = this.#said === null || distance(this.#said, this.force) > 0;
     if (!isNew && now_ms - this.#saidAt < again_ms) return;

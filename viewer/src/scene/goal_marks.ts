@@ -22,7 +22,7 @@ export class GoalMarks {
   readonly #rings: Kind[];
   readonly #ties: Kind[];
   readonly #markers: Kind;
-  readonly #pull: Kind;
+  readonly #push: Kind;
   readonly #head: Kind;
 
   constructor(stage: Stage, scene: Scene) {
@@ -34,7 +34,7 @@ export class GoalMarks {
     this.#markers = new Kind(stage, new SphereGeometry(1, 10, 7), new MeshLambertMaterial(), count);
     // Seen through the body.
     const before = (): MeshBasicMaterial => new MeshBasicMaterial({ depthTest: false });
-    this.#pull = new Kind(stage, new CylinderGeometry(1, 1, 1, 10, 1, true), before(), 1, { order: 6 });
+    this.#push = new Kind(stage, new CylinderGeometry(1, 1, 1, 10, 1, true), before(), 1, { order: 6 });
     this.#head = new Kind(stage, new ConeGeometry(1, 1, 14), before(), 1, { order: 6 });
   }
 
@@ -44,13 +44,13 @@ export class GoalMarks {
       colour(this.#ties[i]!, value);
     });
     (this.#markers.mesh.material as MeshLambertMaterial).color.set(p.joint);
-    colour(this.#pull, p.ink);
+    colour(this.#push, p.ink);
     colour(this.#head, p.ink);
   }
 
   put(look: Look, pose: Pose, radius: (x: Vec) => number): void {
     const { goals } = this.#scene;
-    const all = [...this.#rings, ...this.#ties, this.#markers, this.#pull, this.#head];
+    const all = [...this.#rings, ...this.#ties, this.#markers, this.#push, this.#head];
     for (const kind of all) kind.begin();
     goals?.level.forEach((level, i) => {
       const [goal, own] = [placeOf(goals.x, i), placeOf(goals.model, i)];
@@ -63,17 +63,17 @@ export class GoalMarks {
       this.#rings[kind]!.put(scaled(pose.right, reach), scaled(pose.up, reach), scaled(pose.forward, -reach), goal);
       this.#ties[kind]!.rod(own, goal, 0.3 * r);
     });
-    if (goals?.pull) this.#putPull(goals.pull, radius);
+    if (goals?.push) this.#putPush(goals.push, radius);
     for (const kind of all) kind.end();
   }
 
-  #putPull([from, to]: readonly [Vec, Vec], radius: (x: Vec) => number): void {
+  #putPush([from, to]: readonly [Vec, Vec], radius: (x: Vec) => number): void {
     const way = sub(to, from);
     if (length(way) < 1e-4) return;
     const r = 0.5 * radius(from);
     const along = unit(way);
     const head = Math.min(5 * r, length(way));
-    this.#pull.rod(from, add(to, along, -0.5 * head), r);
+    this.#push.rod(from, add(to, along, -0.5 * head), r);
     const aside = unit(cross(along, Math.abs(along[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]));
     const across = cross(aside, along);
     this.#head.put(scaled(aside, 2.2 * r), scaled(along, head), scaled(across, 2.2 * r), add(to, along, -0.5 * head));

@@ -61,7 +61,7 @@ export interface Goals {
   /** T: from 0. */
   level: readonly number[];
   /** A force at the model: from where it acts, as long as it is strong; null: none. */
-  pull: readonly [from: Vec, to: Vec] | null;
+  push: readonly [from: Vec, to: Vec] | null;
 }
 
 /** What there is to draw in space, on the points of its own clock. */

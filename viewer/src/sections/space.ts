@@ -43,7 +43,7 @@ export interface SpaceOptions {
 export interface SpacePush {
   /** A drag that begins on a body pushes it. */
   isOn: () => boolean;
-  hand: Pick<PushHand, "grab" | "pull" | "drop">;
+  hand: Pick<PushHand, "grab" | "drag" | "drop">;
   /** Told once how the picture shows the world. */
   seenBy: (directions: () => { right: Vec; up: Vec }) => void;
   /** Below the picture. */
@@ -207,7 +207,7 @@ export function space(scene: Scene, view: View, options: SpaceOptions): { node: 
   function listen(): void {
     const push = options.live?.push;
     listenToPointer(canvas, {
-      ...(push === undefined ? {} : { hold: { grab: (x, y) => push.isOn() && push.hand.grab(x, y, eyes), pull: (x, y) => push.hand.pull(x, y, eyes), drop: () => push.hand.drop() } }),
+      ...(push === undefined ? {} : { hold: { grab: (x, y) => push.isOn() && push.hand.grab(x, y, eyes), drag: (x, y) => push.hand.drag(x, y, eyes), drop: () => push.hand.drop() } }),
       camera: () => camera,
       moveCamera,
       nearest: nearestMarker,

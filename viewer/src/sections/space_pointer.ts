@@ -11,7 +11,7 @@ export interface SpaceHands {
   hover: (marker: number) => void;
   pick: (marker: number) => void;
   /** A drag that holds something and does not turn the picture; null: there is none. */
-  hold?: { grab: (x: number, y: number) => boolean; pull: (x: number, y: number) => void; drop: () => void };
+  hold?: { grab: (x: number, y: number) => boolean; drag: (x: number, y: number) => void; drop: () => void };
 }
 
 /** Turn, move and come nearer with mouse, pen or fingers; a click picks. */
@@ -31,7 +31,7 @@ export function listenToPointer(canvas: HTMLCanvasElement, hands: SpaceHands): v
     moved = 0;
   });
   canvas.addEventListener("pointermove", (e) => {
-    if (e.pointerId === holding) return hands.hold?.pull(e.offsetX, e.offsetY);
+    if (e.pointerId === holding) return hands.hold?.drag(e.offsetX, e.offsetY);
     const before = down.get(e.pointerId);
     if (before === undefined) {
       const near = hands.nearest(e.offsetX, e.offsetY);

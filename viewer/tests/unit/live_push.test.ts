@@ -90,19 +90,19 @@ describe("a push", () => {
     hand.grab(0, -300, eyes);
     hand.tick(0);
     expect(sent).toEqual([]);
-    hand.pull(150, -400, eyes);
+    hand.drag(150, -400, eyes);
     hand.tick(10);
     expect(sent).toHaveLength(1);
     expect(sent[0]![0]).toBe(0);
     near(sent[0]![1], [0, 0, 0.3]);
     near(sent[0]![2], [0.15 * springNPerM, 0, 0.1 * springNPerM]);
-    near(body.goals.pull![0], [0, 0, 0.3]);
-    near(body.goals.pull![1], [0.15, 0, 0.4]);
+    near(body.goals.push![0], [0, 0, 0.3]);
+    near(body.goals.push![1], [0.15, 0, 0.4]);
   });
   it("is said again while it lasts, and its end once", () => {
     const { hand, sent, body } = holding();
     hand.grab(0, -300, eyes);
-    hand.pull(150, -300, eyes);
+    hand.drag(150, -300, eyes);
     for (const ms of [0, 50, 100, 150, 199, 200, 399, 401]) hand.tick(ms);
     expect(sent).toHaveLength(3);
     hand.drop();
@@ -110,14 +110,14 @@ describe("a push", () => {
     hand.tick(900);
     expect(sent).toHaveLength(4);
     expect(sent[3]![2]).toEqual([0, 0, 0]);
-    expect([hand.force, body.goals.pull]).toEqual([null, null]);
+    expect([hand.force, body.goals.push]).toEqual([null, null]);
   });
   it("is never stronger than the server allows", () => {
     const { hand, sent } = holding();
     hand.grab(0, -300, eyes);
-    hand.pull(499, -300, eyes);
+    hand.drag(499, -300, eyes);
     expect(hand.isCapped).toBe(false);
-    hand.pull(3000, 2000, eyes);
+    hand.drag(3000, 2000, eyes);
     hand.tick(0);
     expect(hand.isCapped).toBe(true);
     const force = Math.hypot(...sent[0]![2].map(Math.fround));

@@ -16,6 +16,7 @@ void set_unknown(motion::LivePose& pose) {
   const auto n = pose.q.size();
   for (auto* numbers : {&pose.q, &pose.qd, &pose.qdd, &pose.tau, &pose.q_sd, &pose.q_bound})
     numbers->setConstant(n, kNaN);
+  pose.pushed_q.setConstant(kNaN);
   pose.determined.assign(static_cast<std::size_t>(n), 0);
 }
 

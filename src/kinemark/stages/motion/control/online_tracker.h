@@ -27,9 +27,9 @@ struct LivePose {
   double smallest_singular = 0.0;  ///< as TrackResult, kg^-1/2
   data::FrameStatus status = data::FrameStatus::no_markers;  ///< how well the frame was followed
   Eigen::Matrix3Xd goal;  ///< of each marker of the stream, m; NaN where the body follows none
-  Eigen::VectorXd
-      pushed_q;           ///< coordinates (rad, m) of the body that is pushed and is no measurement; empty:
-                          ///< nobody pushes it, and it is back. All that is above knows nothing of it
+  /// Coordinates (rad, m) of the body that is pushed, which are no measurement; empty while nobody pushes it
+  /// and once it is back. All that is above knows nothing of it.
+  Eigen::VectorXd pushed_q;
   double pushed_m = 0.0;  ///< how far the push has moved a marker of the model at most, m
 };
 
