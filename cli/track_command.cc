@@ -43,13 +43,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   auto& options = job.options;
   for (const auto& text : arguments.levels) {
-    motion::TrackLevel level;
-    for (const auto& name : split(text, ',')) {
-      if (name.empty())
-        return fail(Code::usage, fmt::format("level '{}' has an empty name; need MARKER,MARKER,...", text));
-      level.markers.push_back(name);
-    }
-    options.levels.push_back(std::move(level));
+    auto level = motion::TrackLevel::parse(text);
+    if (!level) return std::unexpected(level.error());
+    options.levels.push_back(std::move(*level));
   }
   for (const auto& text : arguments.rest) {
     const auto value = parse_pair(text, "VALUE");
@@ -75,7 +71,7 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
   }
   options.step_s = 1e-3 * arguments.step_ms;
   options.level_bound_m = 1e-3 * arguments.level_bound_mm;
-  if (options.strict && options.levels.size() < 2)
+  if (options.strict && options.levels.size() < 2 && !options.propose_levels)
     return fail(Code::usage, fmt::format("--strict is for several levels; --level is given {} times",
                                          options.levels.size()));
   if (options.level_bound_m > 0.0 && !options.strict)
@@ -122,15 +118,23 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
                     kDegPerRad * a.predicted_rad, kDegPerRad * a.wanted_rad, a.cutoff_hz, a.omega_rad_s,
                     kDegPerRad * a.smallest_rad, a.smallest, kDegPerRad * a.largest_rad, a.largest));
   }
+  if (result.proposed)
+    say(common, fmt::format("Levels proposed: {}", pipeline::describe_proposal(*result.proposed)));
   for (std::size_t i = 0; i < result.levels.size(); ++i) {
     const auto& level = result.levels[i];
     say(common,
-        fmt::format("Level {}: {}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame.", i + 1,
-                    std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
-                                             : fmt::format("weight {:.3g}", level.weight),
-                    1e3 * level.rms_error_m, 1e3 * level.max_error_m));
+        fmt::format(
+            "Level {}: {} rows for {} directions{}, {}, {:.2f} mm RMS from its goals, {:.2f} mm in its "
+            "worst frame.",
+            i + 1, level.rows, level.directions_left,
+            level.rows > level.directions_left ? " (a compromise)" : "",
+            std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
+                                     : fmt::format("weight {:.3g}", level.weight),
+            1e3 * level.rms_error_m, 1e3 * level.max_error_m));
   }
   if (outcome.adapted) print_adapted(common, *outcome.adapted);
+  for (const auto& task : result.tasks)
+    say(common, fmt::format("Task {}: {}.", task.text, pipeline::describe_task(task)));
   if (!result.locked_coordinates.empty())
     say(common, fmt::format("note: Held at rest because no tracked marker moves them: {}",
                             join(result.locked_coordinates)));
@@ -187,11 +191,20 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
                    "Also write the page that shows the result, R.html; a folder for several")
       ->group("Output");
   add_many_options(*command, a.many);
+  auto* level =
+      command
+          ->add_option(
+              "--level", a.levels,
+              "Markers and tasks of one level, A,B,...; '*' takes the markers that are left; tasks are "
+              "orientation:BODY, distance:A-B, coordinate:NAME=VALUE (deg, rad, m, mm, or `rest`), "
+              "com:AXIS=VALUE. Repeat: each level's squared errors are weighted by 1 / variance of its "
+              "markers. None: one level of all markers")
+          ->group("Tasks");
   command
-      ->add_option("--level", a.levels,
-                   "Markers of one level, A,B,...; '*' takes the rest. Repeat: each level's squared errors "
-                   "are weighted "
-                   "by 1 / variance of its markers. None: one level of all markers")
+      ->add_flag("--propose-levels", options.propose_levels,
+                 "Levels such as the body allows, from a first run: markers that are independent and "
+                 "decoupled, and all others; printed as --level options")
+      ->excludes(level)
       ->group("Tasks");
   command
       ->add_flag("--strict", options.strict,
