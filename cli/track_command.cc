@@ -124,13 +124,13 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
     const auto& level = result.levels[i];
     say(common,
         fmt::format(
-            "Level {}: {} rows for {} directions{}, {}, {:.2f} mm RMS from its goals, {:.2f} mm in its "
-            "worst frame.",
-            i + 1, level.rows, level.directions_left,
-            level.rows > level.directions_left ? " (a compromise)" : "",
+            "Level {}: {}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame; {} rows for {} "
+            "directions that are left{}.",
+            i + 1,
             std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
                                      : fmt::format("weight {:.3g}", level.weight),
-            1e3 * level.rms_error_m, 1e3 * level.max_error_m));
+            1e3 * level.rms_error_m, 1e3 * level.max_error_m, level.rows, level.directions_left,
+            level.rows > level.directions_left ? " (a compromise)" : ""));
   }
   if (outcome.adapted) print_adapted(common, *outcome.adapted);
   for (const auto& task : result.tasks)

@@ -125,9 +125,12 @@ std::optional<std::vector<double>> find_level_weights(const Plan& plan, const Tr
   }
   const double most = std::ranges::max(weights);
   if (!(most > 0.0)) return std::nullopt;
-  for (auto& weight : weights) weight = std::max(weight, most / kMostWeight);
+  double least = most;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = std::max(weights[i], most / kMostWeight);
+    if (!plan.asked[i].is_held()) least = std::min(least, weights[i]);
+  }
   // A value that is held has no variance.
-  const double least = std::ranges::min(weights);
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (plan.asked[i].is_held()) weights[i] = kMostWeight * least;
   return weights;
@@ -148,7 +151,8 @@ const Eigen::VectorXd& LevelErrors::find(const model::Workspace& w, const GoalVa
     for (std::size_t t = 0; t < level.tasks.size(); ++t) {
       level.evaluate(t, plan_.problem, w, goal, time_s, rows_);
       squares += rows_.weight.dot(rows_.error.cwiseAbs2());
-      const double points = level.about[t].made != nullptr ? level.about[t].made->points() : 1.0;
+      const double points =
+          level.about[t].made != nullptr ? level.about[t].made->points() : level.about[t].points;
       weight += rows_.weight.maxCoeff() > 0.0 ? points : 0.0;
     }
     errors_[static_cast<Eigen::Index>(i)] = weight > 0.0 ? std::sqrt(squares / weight) : kNaN;

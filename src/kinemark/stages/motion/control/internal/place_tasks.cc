@@ -189,7 +189,9 @@ void place_named(const TrackLevel& asked, const Eigen::VectorXd& rest, Plan& pla
         break;
       }
       case Kind::mass_centre:
-        level.tasks.push_back(mass_centre_task(task.name.front() - 'x', {task.value}, still));
+        // It moves with all of them; a single one would be too light beside the damping.
+        about.points = std::max(1.0, static_cast<double>(model.marker_count()));
+        level.tasks.push_back(mass_centre_task(task.name.front() - 'x', {task.value}, still, about.points));
         about.is_held = true;
         break;
     }

@@ -30,6 +30,7 @@ struct Plan {
       std::string text;                ///< as a level names it; empty: not by name
       bool is_angle = false;           ///< its rows are in rad
       bool is_held = false;            ///< its goal is a value that stays
+      double points = 1.0;             ///< how many markers it counts like, where it is not made of any
       const GoalTask* made = nullptr;  ///< the task itself where its goal is made of markers
     };
     std::vector<About> about;  ///< of each task

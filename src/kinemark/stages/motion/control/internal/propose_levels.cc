@@ -84,10 +84,12 @@ struct Pose {
   }
   /// Add what is new in these columns; directions below `floor` are none.
   void take(const MatrixXd& columns, double floor) {
+    if (columns.cols() == 0) return;
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(left(columns));
     const Index most = std::min(columns.cols(), columns.rows() - basis.cols());
     Index count = 0;
     while (count < most && std::abs(qr.matrixQR()(count, count)) > floor) ++count;
+    if (count == 0) return;
     MatrixXd fresh = MatrixXd::Identity(columns.rows(), count);
     fresh.applyOnTheLeft(qr.householderQ());
     MatrixXd all(columns.rows(), basis.cols() + count);
