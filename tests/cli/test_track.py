@@ -87,7 +87,7 @@ class Track(CommandTest):
         self.refused(4, ["r_model.osim", "use --force"], "track", "-m", self.model, "-t", self.c3d, "-o", "r.mot", "--adapt")
 
     def test_tasks_that_levels_name_are_followed_and_accounted_for(self):
-        ran = self.good(*self.track(), "--level", "coordinate:knee_angle_r=20deg,com:x=0.1", "--level", "orientation:pelvis,distance:LASI-RTOE", "--level", "*")
+        ran = self.good(*self.track(), "--level", "coordinate:knee_angle_r=20deg,coordinate:mtp_angle_r=rest", "--level", "orientation:pelvis,distance:LASI-RTOE", "--level", "*")
         self.assertIn("Task coordinate:knee_angle_r=20deg: ", ran.err)
         self.assertIn(" deg RMS from its goal, ", ran.err)
         self.assertIn("Task distance:LASI-RTOE: ", ran.err)
@@ -95,7 +95,7 @@ class Track(CommandTest):
         self.assertIn(" directions that are left (a compromise).", ran.err)
         options = dict(json.loads((self.folder / "q_report.json").read_text())["options"])
         self.assertEqual(options["level 2"], "orientation:pelvis, distance:LASI-RTOE")
-        self.assertIn(" mm RMS from its goal, ", options["task com:x=0.1"])
+        self.assertIn(" mm RMS from its goal, ", options["task distance:LASI-RTOE"])
 
     def test_a_held_coordinate_is_where_it_was_asked_to_be(self):
         words = ["--level", "coordinate:knee_angle_r=20deg", "--level", "*", "--strict", "--level-bound", 500]
