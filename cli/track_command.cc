@@ -112,15 +112,23 @@ void print_track_outcome(const CommonOptions& common, const pipeline::TrackOutco
                     kDegPerRad * a.predicted_rad, kDegPerRad * a.wanted_rad, a.cutoff_hz, a.omega_rad_s,
                     kDegPerRad * a.smallest_rad, a.smallest, kDegPerRad * a.largest_rad, a.largest));
   }
+  if (result.proposed)
+    say(common, fmt::format("Levels proposed: {}", pipeline::describe_proposal(*result.proposed)));
   for (std::size_t i = 0; i < result.levels.size(); ++i) {
     const auto& level = result.levels[i];
     say(common,
-        fmt::format("Level {}: {}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame.", i + 1,
-                    std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
-                                             : fmt::format("weight {:.3g}", level.weight),
-                    1e3 * level.rms_error_m, 1e3 * level.max_error_m));
+        fmt::format(
+            "Level {}: {}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame; {} rows for {} "
+            "directions that are left{}.",
+            i + 1,
+            std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
+                                     : fmt::format("weight {:.3g}", level.weight),
+            1e3 * level.rms_error_m, 1e3 * level.max_error_m, level.rows, level.directions_left,
+            level.rows > level.directions_left ? " (a compromise)" : ""));
   }
   if (outcome.adapted) print_adapted(common, *outcome.adapted);
+  for (const auto& task : result.tasks)
+    say(common, fmt::format("Task {}: {}.", task.text, pipeline::describe_task(task)));
   if (!result.locked_coordinates.empty())
     say(common, fmt::format("note: Held at rest because no tracked marker moves them: {}",
                             join(result.locked_coordinates)));
@@ -177,11 +185,20 @@ void add_track(CLI::App& app, const CommonOptions& common, Run& run) {
                    "Also write the page that shows the result, R.html; a folder for several")
       ->group("Output");
   add_many_options(*command, a.many);
+  auto* level =
+      command
+          ->add_option(
+              "--level", a.levels,
+              "Markers and tasks of one level, A,B,...; '*' takes the markers that are left; tasks are "
+              "orientation:BODY, distance:A-B, coordinate:NAME=VALUE (deg, rad, m, mm, or `rest`), "
+              "com:AXIS=VALUE. Repeat: each level's squared errors are weighted by 1 / variance of its "
+              "markers. None: one level of all markers")
+          ->group("Tasks");
   command
-      ->add_option("--level", a.levels,
-                   "Markers of one level, A,B,...; '*' takes the rest. Repeat: each level's squared errors "
-                   "are weighted "
-                   "by 1 / variance of its markers. None: one level of all markers")
+      ->add_flag("--propose-levels", options.propose_levels,
+                 "Levels such as the body allows, from a first run: markers that are independent and "
+                 "decoupled, and all others; printed as --level options")
+      ->excludes(level)
       ->group("Tasks");
   command
       ->add_flag("--strict", options.strict,

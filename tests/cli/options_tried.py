@@ -59,7 +59,7 @@ TRIED = {
             "--calibration": "absent.sto", "--sensor": "a=b", "--sensors-up": "z", "--heading": "a:x", "--orientation-noise": 2, "--max-orientation-rms": 1}),
     "track": ([*ON_BODY, "o.mot"],
               {**MOTION, "--level": "LASI,RASI", "--lock": "neck_bending", "--rest": "neck_bending=0.2", "--no-lock": None, "--omega": 50,
-               "--step": 1, "--damping": 0.5, "--posture": "10,5", "--cutoff": 3, "--settle": None, "--adapt": None, "--strict": None, "--level-bound": 5, "--accuracy": "9deg",
+               "--step": 1, "--damping": 0.5, "--posture": "10,5", "--cutoff": 3, "--settle": None, "--adapt": None, "--strict": None, "--level-bound": 5, "--propose-levels": None, "--accuracy": "9deg",
                "--no-feed-forward": None}),
     "report": (["legs.trc", "--output", "o.html"],
                {**RECORDING, "--output": "other.html", "--skeleton": "absent.asf", "--geometry": "absent"}),

@@ -3,6 +3,7 @@
 """kinemark track: options, files, sentences and exit statuses."""
 
 import json
+import shlex
 import unittest
 
 from support import CommandTest, report_data, run, table
@@ -84,6 +85,49 @@ class Track(CommandTest):
         self.good("ik", "-m", "q_model.osim", "-t", self.c3d, "-o", "i.mot")
         (self.folder / "r_model.osim").write_text("mine")
         self.refused(4, ["r_model.osim", "use --force"], "track", "-m", self.model, "-t", self.c3d, "-o", "r.mot", "--adapt")
+
+    def test_tasks_that_levels_name_are_followed_and_accounted_for(self):
+        ran = self.good(*self.track(), "--level", "coordinate:knee_angle_r=20deg,coordinate:mtp_angle_r=rest", "--level", "orientation:pelvis,distance:LASI-RTOE", "--level", "*")
+        self.assertIn("Task coordinate:knee_angle_r=20deg: ", ran.err)
+        self.assertIn(" deg RMS from its goal, ", ran.err)
+        self.assertIn("Task distance:LASI-RTOE: ", ran.err)
+        self.assertIn("; 2 rows for ", ran.err)
+        self.assertIn(" directions that are left (a compromise).", ran.err)
+        options = dict(json.loads((self.folder / "q_report.json").read_text())["options"])
+        self.assertEqual(options["level 2"], "orientation:pelvis, distance:LASI-RTOE")
+        self.assertIn(" mm RMS from its goal, ", options["task distance:LASI-RTOE"])
+
+    def test_a_held_coordinate_is_where_it_was_asked_to_be(self):
+        words = ["--level", "coordinate:knee_angle_r=20deg", "--level", "*", "--strict", "--level-bound", 500]
+        self.good(*self.track(), *words)
+        names, rows = table(self.folder / "q.mot")
+        knee = names.index("knee_angle_r")
+        self.assertTrue(all(abs(row[knee] - 20) < 0.1 for row in rows), [row[knee] for row in rows][:5])
+
+    def test_tasks_that_are_none_are_refused_with_the_nearest_name(self):
+        every = ["--level", "*"]
+        self.refused(2, ["coordinate 'knee_angel_r'", "did you mean 'knee_angle_r'?"], *self.track(), "--level", "coordinate:knee_angel_r=1deg", *every)
+        self.refused(2, ["body 'pelvsi'", "did you mean 'pelvis'?"], *self.track(), "--level", "orientation:pelvsi", *every)
+        self.refused(2, ["'coordinate:knee_angle_r'", "holds nothing at a value"], *self.track(), "--level", "coordinate:knee_angle_r", *every)
+        asked = ["--level", "coordinate:knee_angle_r=1deg", "--level", "coordinate:knee_angle_r=2deg,*"]
+        self.refused(2, ["coordinate 'knee_angle_r' is asked for in level 1 and again in level 2; once is enough"], *self.track(), *asked)
+        self.assertFalse((self.folder / "q.mot").exists())
+
+    def test_levels_are_proposed_as_options_that_give_them_again(self):
+        ran = self.good(*self.track(), "--propose-levels")
+        line = next(line for line in ran.err.splitlines() if line.startswith("Levels proposed: "))
+        words = shlex.split(line.removeprefix("Levels proposed: "))
+        self.assertEqual(words[0], "--level")
+        self.assertEqual(words[-2:], ["--level", "*"])
+        first = table(self.folder / "q.mot")
+        report = dict(json.loads((self.folder / "q_report.json").read_text())["options"])
+        self.assertIn("smallest singular values in ", report["level 1 was proposed"])
+        self.good(*self.track(), "--force", *words)
+        self.assertEqual(table(self.folder / "q.mot"), first)
+        again = dict(json.loads((self.folder / "q_report.json").read_text())["options"])
+        self.assertNotIn("level 1 was proposed", again)
+        self.assertNotIn("smallest singular values in ", json.dumps(again))
+        self.refused(2, ["--propose-levels", "--level"], *self.track(), "--force", "--propose-levels", "--level", "*")
 
     def test_an_accuracy_is_met_or_refused_before_anything_is_written(self):
         self.refused(3, ["an accuracy of 0.001 deg cannot be had", "would do"], *self.track(accuracy="0.001deg"))

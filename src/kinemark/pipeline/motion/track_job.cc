@@ -12,6 +12,7 @@
 
 #include "kinemark/core/text.h"
 #include "kinemark/core/units.h"
+#include "kinemark/data/likely_pairs.h"
 #include "kinemark/pipeline/files/output_check.h"
 #include "kinemark/pipeline/motion/internal/adapted_body.h"
 #include "kinemark/pipeline/motion/internal/motion_page.h"
@@ -24,6 +25,22 @@ namespace {
 
 std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
+/// Names of tasks, then of markers.
+std::vector<std::string> contents_of(const motion::TrackLevel& level) {
+  std::vector<std::string> names;
+  for (const auto& task : level.named) names.push_back(task.text);
+  names.insert(names.end(), level.markers.begin(), level.markers.end());
+  return names;
+}
+
+/// Why each marker of a level was chosen.
+std::string describe_choice(const motion::LevelProposal& proposal, std::size_t level) {
+  std::vector<std::string> words;
+  for (std::size_t m = 0; m < proposal.smallest[level].size(); ++m)
+    words.push_back(fmt::format("{} {:.2g}", proposal.levels[level].markers[m], proposal.smallest[level][m]));
+  return fmt::format("smallest singular values in {} poses, kg^-1/2: {}", proposal.poses, join(words));
+}
+
 std::string describe_level(const motion::LevelAccount& level) {
   return fmt::format("{}, {:.2f} mm RMS from its goals, {:.2f} mm in its worst frame",
                      std::isnan(level.weight) ? fmt::format("strict, bound {:.1f} mm", 1e3 * level.bound_m)
@@ -34,12 +51,17 @@ std::string describe_level(const motion::LevelAccount& level) {
 std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob& job,
                                                                   const motion::TrackResult& result) {
   const auto& o = job.options;
+  const auto& levels = result.proposed ? result.proposed->levels : o.levels;
   std::vector<std::pair<std::string, std::string>> options{
-      {"levels of priority", std::to_string(std::max<std::size_t>(1, o.levels.size()))}};
-  for (std::size_t i = 0; i < o.levels.size(); ++i)
-    options.emplace_back(fmt::format("level {}", i + 1), list(o.levels[i].markers));
+      {"levels of priority", std::to_string(std::max<std::size_t>(1, levels.size()))}};
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    options.emplace_back(fmt::format("level {}", i + 1), list(contents_of(levels[i])));
+  if (result.proposed)
+    for (std::size_t i = 0; i < result.proposed->smallest.size(); ++i)
+      options.emplace_back(fmt::format("level {} was proposed", i + 1), describe_choice(*result.proposed, i));
   for (std::size_t i = 0; i < result.levels.size(); ++i)
     options.emplace_back(fmt::format("level {} as followed", i + 1), describe_level(result.levels[i]));
+  for (const auto& task : result.tasks) options.emplace_back("task " + task.text, describe_task(task));
   if (result.accuracy) {
     const auto& a = *result.accuracy;
     options.emplace_back("accuracy wanted", fmt::format("{:g} deg", kDegPerRad * a.wanted_rad));
@@ -127,7 +149,7 @@ void add_adapted(const internal::AdaptedBody& body, workflow::TrackFound& found)
 
 Result<Staging> stage_files(const TrackJob& job) {
   std::vector<std::string> files{"_tau.sto", "_rank.sto", "_marker_errors.sto"};
-  if (job.options.levels.size() > 1) files.emplace_back("_levels.sto");
+  if (job.options.levels.size() > 1 || job.options.propose_levels) files.emplace_back("_levels.sto");
   if (job.options.error_bars) files.insert(files.end(), {"_sd.sto", "_bound.sto", "_tau_sd.sto"});
   if (job.adapt) files.emplace_back(internal::kAdaptedModel);
   files.push_back("_report.json");
@@ -137,6 +159,20 @@ Result<Staging> stage_files(const TrackJob& job) {
 }
 
 }  // namespace
+
+std::string describe_proposal(const motion::LevelProposal& proposal) {
+  std::vector<std::string> words;
+  for (const auto& level : proposal.levels)
+    words.push_back("--level " + data::for_shell(join(level.markers, ",")));
+  return join(words, " ");
+}
+
+std::string describe_task(const motion::TaskAccount& task) {
+  if (std::isnan(task.rms_error)) return "no goal in any frame";
+  const double unit = task.is_angle ? kDegPerRad : 1e3;
+  return fmt::format("{:.3g} {} RMS from its goal, {:.3g} {} at most", unit * task.rms_error,
+                     task.is_angle ? "deg" : "mm", unit * task.max_error, task.is_angle ? "deg" : "mm");
+}
 
 Result<TrackOutcome> run_track(TrackJob job) {
   // Prepare: options, model and markers, where results go.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "kinemark/pipeline/motion/motion_job.h"
 #include "kinemark/stages/motion/control/track.h"
@@ -24,6 +25,12 @@ struct TrackOutcome : MotionOutcome {
   motion::TrackResult result;                  ///< motion and fit
   std::optional<motion::AdaptResult> adapted;  ///< sizes that were found, where they were asked for
 };
+
+/// How far a task was from its goal: "0.12 deg RMS from its goal, 0.5 deg at most".
+[[nodiscard]] std::string describe_task(const motion::TaskAccount& task);
+
+/// The options that give the same levels: "--level A,B --level '*'".
+[[nodiscard]] std::string describe_proposal(const motion::LevelProposal& proposal);
 
 /// Read, track, judge and write. Either all files appear or, on a failure, none. Threads and seed of the
 /// options are the job's. Progress counts frames.

@@ -224,6 +224,23 @@ TEST_F(RunTrack, GoalsOutOfReachAreCountedAndThoseWithinAreNot) {
       ::testing::MatchesRegex("[1-9].* frames are flagged: goals out of reach, or a body that ran away .*"));
 }
 
+TEST(TrackJob, ATaskIsDescribedInItsUnit) {
+  const auto turn =
+      describe_task({.text = "orientation:torso", .is_angle = true, .rms_error = 0.01, .max_error = 0.02});
+  EXPECT_EQ(turn, "0.573 deg RMS from its goal, 1.15 deg at most");
+  EXPECT_EQ(describe_task({.text = "com:x=0", .rms_error = 0.0012, .max_error = 0.003}),
+            "1.2 mm RMS from its goal, 3 mm at most");
+  EXPECT_THAT(turn, Not(HasSubstr("no goal in any frame")));
+  EXPECT_EQ(describe_task({.text = "distance:A-B"}), "no goal in any frame");
+  EXPECT_THAT(describe_task({.text = "distance:A-B"}), Not(HasSubstr(" RMS from its goal, ")));
+}
+
+TEST(TrackJob, AProposalIsTheOptionsThatGiveIt) {
+  EXPECT_EQ(describe_proposal(
+                {.levels = {{.markers = {"A", "s:B-1"}}, {.markers = {"it's C"}}, {.markers = {"*"}}}}),
+            "--level A,s:B-1 --level 'it'\\''s C' --level '*'");
+}
+
 TEST_F(RunTrack, StopsWhenAsked) {
   auto stop = job("stopped.mot");
   stop.progress = [](std::int64_t, std::int64_t) { return false; };

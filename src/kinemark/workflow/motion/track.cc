@@ -40,6 +40,8 @@ void add_torque_deviations(const model::Model& model, const TrackOptions& option
 /// The images join the lowest level.
 Status add_images(const model::Model& model, const data::ImageTracks* images, motion::TrackOptions& options) {
   if (images == nullptr) return {};
+  if (options.propose_levels)
+    return fail(Code::usage, "levels cannot be proposed where points of images are goals; name them");
   const auto tasks =
       motion::camera_tasks(model, *images, {.cutoff_hz = options.cutoff_hz, .fade_s = options.fade_s});
   if (!tasks) return std::unexpected(tasks.error());

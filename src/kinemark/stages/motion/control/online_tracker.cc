@@ -238,6 +238,8 @@ Result<OnlineTracker> OnlineTracker::create(const model::Model& model,
     return fail(Code::usage, "a live stream cannot come with the derivatives of a recording");
   if (options.accuracy_rad > 0.0)
     return fail(Code::usage, "a live stream cannot be followed to an accuracy: that takes a whole recording");
+  if (options.propose_levels)
+    return fail(Code::usage, "levels cannot be proposed for a live stream: that takes a whole recording");
   TrackOptions whole = options;
   whole.first_time_s = -1e300;
   whole.last_time_s = 1e300;

@@ -12,6 +12,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
+#include "kinemark/stages/motion/control/internal/two_points.h"
 
 namespace kinemark::motion {
 namespace {
@@ -22,16 +23,6 @@ using internal::GoalCurve;
 Status check_lever(double lever) {
   if (std::isfinite(lever) && lever > 0.0) return {};
   return fail(Code::usage, fmt::format("weight or lever is {}; it must be more than 0", lever));
-}
-
-/// Add sign u . d(point)/dv to a row.
-void add_point_row(const model::Model& model, const model::Workspace& w, int body, const Vector3d& point,
-                   const Vector3d& u, Eigen::MatrixXd& J) {
-  if (body < 0) return;
-  for (const int column : model.bodies()[at(body)].support) {
-    const auto& s = w.column[at(column)];
-    J(0, model.columns()[at(column)].speed) += u.dot(s.v + s.w.cross(point));
-  }
 }
 
 class OrientationTask : public Task {
@@ -187,23 +178,14 @@ class DistanceTask : public Task {
     curve_.at(time_s, value);
     const Vector3d a = model::point_in_world(w, idx_a_, a_.x_in_body),
                    b = model::point_in_world(w, idx_b_, b_.x_in_body);
-    const Vector3d way = a - b;
-    const double distance = way.norm();
-    if (distance < 1e-9) {  // the direction is undefined
+    const double distance = internal::distance_row(model, w, {idx_a_, a}, {idx_b_, b}, out);
+    if (distance == 0.0) {
       out.weight[0] = 0.0;
       return;
     }
-    const Vector3d u = way / distance;
-    const Vector3d velocity = model::point_velocity(w, idx_a_, a) - model::point_velocity(w, idx_b_, b);
-    const Vector3d bias =
-        model::point_bias_acceleration(w, idx_a_, a) - model::point_bias_acceleration(w, idx_b_, b);
     out.error[0] = value[0] - distance;
     out.goal_velocity[0] = value[1];
     out.goal_acceleration[0] = value[2];
-    out.velocity[0] = u.dot(velocity);
-    out.bias[0] = u.dot(bias) + (velocity.squaredNorm() - std::pow(u.dot(velocity), 2)) / distance;
-    add_point_row(model, w, idx_a_, a, u, out.jacobian);
-    add_point_row(model, w, idx_b_, b, -u, out.jacobian);
     out.weight[0] = weight_;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-// Goals that are not points: orientation of a segment, value of a coordinate, distance of two markers.
+// Goals that are not points: orientation of a segment, value of a coordinate, distance of two points, centre
+// of mass of the whole body.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -36,5 +37,11 @@ struct BodyPoint {
 [[nodiscard]] std::shared_ptr<Task> distance_task(BodyPoint a, BodyPoint b,
                                                   const std::vector<double>& distances_m,
                                                   const TimeBase& time, double weight = 1.0);
+
+/// Keep the centre of mass of all bodies that can move at a place along one axis of the world: 1 row, m.
+/// @param axis    0, 1, 2: x, y, z
+/// @param weight  1 counts like a marker's metre
+[[nodiscard]] std::shared_ptr<Task> mass_centre_task(int axis, const std::vector<double>& values_m,
+                                                     const TimeBase& time, double weight = 1.0);
 
 }  // namespace kinemark::motion

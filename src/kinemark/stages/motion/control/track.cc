@@ -13,6 +13,7 @@
 #include "kinemark/stages/motion/control/internal/accuracy.h"
 #include "kinemark/stages/motion/control/internal/followed_run.h"
 #include "kinemark/stages/motion/control/internal/levels.h"
+#include "kinemark/stages/motion/control/internal/propose_levels.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/control/internal/step_error.h"
 #include "kinemark/stages/motion/control/internal/track_bars.h"
@@ -178,6 +179,7 @@ Result<TrackResult> track_as_given(const model::Model& model, const data::Trajec
     internal::add_error_bars(run.plan, kept, run.track, filter, options, result);
     if (options.feed_forward) warn_of_step(judged_run->goals(markers, options), filter, options, run);
   }
+  internal::count_directions(run.plan, run.track, result.levels);
   add_level_findings(result);
   if (plan->asked.size() > 1 && options.strict) warn_of_relaxing(result);
   internal::add_marker_errors(result.motion, result.fit);
@@ -189,6 +191,22 @@ Result<TrackResult> track_as_given(const model::Model& model, const data::Trajec
              fmt::format("the goals were out of reach, or the body ran away and was started anew ({} times)",
                          result.restarts)});
   return std::move(result);
+}
+
+/// Levels from the poses of a body that follows all markers alike.
+Result<LevelProposal> propose(const model::Model& model, const data::Trajectories& markers,
+                              const TrackOptions& options, const Progress& progress) {
+  TrackOptions alike = options;
+  alike.propose_levels = alike.strict = false;
+  alike.accuracy_rad = 0.0;
+  auto plan = internal::make_plan(model, markers, alike);
+  if (!plan) return std::unexpected(plan.error());
+  if (plan->problem.frames < 2)
+    return fail(Code::bad_input, "the time range holds one frame; direct marker control needs two at least");
+  const auto run =
+      internal::first_run(*plan, markers, internal::make_filter(plan->rate_hz, alike), alike, progress);
+  if (!run) return std::unexpected(run.error());
+  return internal::propose_levels(run->body.plan, run->body.track);
 }
 
 Result<AccuracyChoice> choose(const model::Model& model, const data::Trajectories& markers,
@@ -214,6 +232,17 @@ Result<AccuracyChoice> choose(const model::Model& model, const data::Trajectorie
 
 Result<TrackResult> track_markers(const model::Model& model, const data::Trajectories& markers,
                                   const TrackOptions& options, const Progress& progress) {
+  if (options.propose_levels) {
+    if (auto status = options.check(); !status) return std::unexpected(status.error());
+    auto proposed = propose(model, markers, options, progress);
+    if (!proposed) return std::unexpected(proposed.error());
+    TrackOptions with = options;
+    with.propose_levels = false;
+    with.levels = proposed->levels;
+    auto result = track_markers(model, markers, with, progress);
+    if (result) result->proposed = std::move(*proposed);
+    return result;
+  }
   if (!(options.accuracy_rad > 0.0)) return track_as_given(model, markers, options, progress);
   auto chosen = choose(model, markers, options, progress);
   if (!chosen) return std::unexpected(chosen.error());

@@ -28,6 +28,26 @@ struct LevelAccount {
   double max_error_m = 0.0;   ///< RMS of its goals in the worst frame
   std::int64_t beyond = 0;    ///< frames in which it was beyond its bound
   std::int64_t unmet = 0;     ///< those of them in which all levels in one sum did not keep the bound either
+  int rows = 0;               ///< numbers that it asks for
+  int directions_left = 0;    ///< fewest that the levels above leave to it in any pose looked at; with more
+                              ///< rows than these it is a compromise
+};
+
+/// Levels that the program proposed, from poses of a first run.
+struct LevelProposal {
+  std::vector<TrackLevel> levels;  ///< markers that are independent and decoupled, independent ones
+                                   ///< that are coupled to these, and all others ("*")
+  std::vector<std::vector<double>> smallest;  ///< per level and marker chosen: smallest singular value of its
+                                              ///< rows beside those before it, in the worst pose, kg^-1/2
+  std::int64_t poses = 0;                     ///< that were looked at
+};
+
+/// What became of one task that a level names.
+struct TaskAccount {
+  std::string text;         ///< as it was asked for
+  bool is_angle = false;    ///< errors are in rad; else m
+  double rms_error = kNaN;  ///< distance to its goal, of all frames in which it has one; NaN: none
+  double max_error = 0.0;   ///< in the worst frame
 };
 
 /// What a wanted accuracy led to. Errors are RMS over the angles of joints that the markers determine, for
@@ -65,7 +85,9 @@ struct TrackResult {
   /// motion.q_sd; 0 without a filter, NaN where not determined.
   Array<double> filter_sd;
   std::optional<AccuracyChoice> accuracy;  ///< where one was asked for
+  std::optional<LevelProposal> proposed;   ///< where levels were to be proposed
   std::vector<LevelAccount> levels;        ///< as asked for; empty where there is one
+  std::vector<TaskAccount> tasks;          ///< those that levels name, in their order
   Array<double> level_error;  ///< F x levels: RMS distance to the goals, m; NaN where none is seen
   /// F: strict levels that were followed in one sum of squares, because one had been beyond its bound.
   std::vector<std::uint8_t> relaxed;

@@ -60,7 +60,7 @@ Status check_numbers(const TrackOptions& o) {
 Status TrackOptions::check() const {
   if (auto status = check_numbers(*this); !status) return status;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i].markers.empty() && levels[i].tasks.empty())
+    if (levels[i].markers.empty() && levels[i].tasks.empty() && levels[i].named.empty())
       return fail(Code::usage,
                   fmt::format("level {} has no tasks; name at least one marker or goal in it", i + 1));
     if (!std::isfinite(levels[i].weight) || levels[i].weight < 0.0 ||
@@ -70,6 +70,8 @@ Status TrackOptions::check() const {
     for (const auto& task : levels[i].tasks)
       if (task == nullptr) return fail(Code::usage, fmt::format("level {} holds a task that is null", i + 1));
   }
+  if (propose_levels && !levels.empty())
+    return fail(Code::usage, "levels are given, and levels are to be proposed; need one of both");
   if (starts < 1) return fail(Code::usage, fmt::format("starts is {}; need at least 1", starts));
   if (threads < 0) return fail(Code::usage, fmt::format("threads is {}; must not be negative", threads));
   return {};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinemark/core/result.h"
@@ -14,12 +15,40 @@
 
 namespace kinemark::motion {
 
+/// A goal that a name describes: made of the recorded markers, or a value that is held.
+struct NamedTask {
+  /// What is to follow a goal.
+  enum class Kind : std::uint8_t {
+    orientation,  ///< of a body: that of a rigid body fitted to its own markers in each frame
+    coordinate,   ///< held at a value
+    distance,     ///< of two markers, as recorded
+    mass_centre   ///< of the whole body along an axis of the world, held at a value
+  };
+  /// Unit in which the value was given.
+  enum class Unit : std::uint8_t {
+    plain,  ///< none: rad or m, as the coordinate has it
+    angle,  ///< deg or rad
+    length  ///< m or mm
+  };
+  Kind kind = Kind::orientation;  ///< what it is
+  std::string name;               ///< body; coordinate; two markers, "A-B"; x, y or z
+  double value = 0.0;             ///< rad or m; NaN: that of the rest pose
+  Unit unit = Unit::plain;        ///< of the value
+  std::string text;               ///< as it was written
+};
+
 /// Markers and tasks of one level. Levels are parts of one sum of squares, each with a weight of its own, or
 /// strict priorities in descending order: a lower level never disturbs a higher one.
 struct TrackLevel {
   std::vector<std::string> markers;          ///< names in the model; "*": all that no level names
   std::vector<std::shared_ptr<Task>> tasks;  ///< goals that are not points, see tasks.h
+  std::vector<NamedTask> named;              ///< the same by their names
   double weight = 0.0;  ///< > 0, of squared errors beside those of other levels; 0 in all levels: found
+
+  /// A level from its text: names of markers and tasks, separated by commas. Tasks are orientation:BODY,
+  /// coordinate:NAME=VALUE (a number in rad or m, with a unit deg, rad, m or mm, or `rest`),
+  /// distance:MARKER-MARKER and com:AXIS=VALUE.
+  static Result<TrackLevel> parse(std::string_view text);
 };
 
 /// Treatment of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
@@ -35,6 +64,8 @@ struct TrackOptions {
   /// markers, as a first run with equal weights finds it. Where that is not known, and in a live stream,
   /// each level weighs four times as much as the next.
   bool strict = false;
+  /// In place of `levels`: such as the body allows, see LevelProposal. Not for a live stream.
+  bool propose_levels = false;
   double level_bound_m = 0.0;  ///< of a strict level's RMS distance to its goals; 0: from a first run
   std::vector<MarkerWeight> marker_weights;  ///< within a level; markers not listed have 1, 0 leaves out
 

@@ -10,6 +10,7 @@
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
+#include "kinemark/stages/motion/control/internal/goal_task.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -47,7 +48,6 @@ Bounds::Bounds(const Plan& plan)
 
 void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise) {
   const auto& level = plan_.levels[index];
-  const auto& model = plan_.problem.model;
   Level& out = levels_[index];
   out.A.resize(J_.cols(), level.rows());
   for (auto* column : {&out.dx, &out.scale, &out.variance}) column->setZero(level.rows());
@@ -60,14 +60,17 @@ void Bounds::gather(std::size_t index, const GoalValues& goal, double time_s, co
     out.variance.segment<3>(row).setConstant(noise.own[m]);
     row += 3;
   }
+  out.is_made.assign(at(level.rows()), 0);
+  out.gains.resize(level.tasks.size());
   for (std::size_t t = 0; t < level.tasks.size(); ++t) {
-    level.evaluate(t, model, w_, time_s, rows_);
+    level.evaluate(t, plan_.problem, w_, goal, time_s, rows_, &out.gains[t]);
     for (Eigen::Index i = 0; i < rows_.error.size(); ++i, ++row) {
       const double scale = std::sqrt(rows_.weight[i]);
       out.A.col(row) = scale * rows_.jacobian.row(i).transpose();
       out.dx[row] = scale * rows_.error[i];
       out.scale[row] = scale;
       out.variance[row] = rows_.sd[i] * rows_.sd[i];
+      out.is_made[at(row)] = level.about[t].made != nullptr ? 1 : 0;
     }
   }
   force_.noalias() += out.A * out.dx;
@@ -159,12 +162,32 @@ void Bounds::find_way(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const 
   goal_bound_ = goal_bound_.cwiseMax(goal_error_.cwiseAbs() + beyond_);
 }
 
+void Bounds::find_marker_gains() {
+  marker_gains_.setZero(G_.rows(), 3 * static_cast<Eigen::Index>(plan_.problem.model.marker_count()));
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const auto& level = plan_.levels[i];
+    Eigen::Index column = first_column_[i];
+    for (const int m : level.markers) {
+      marker_gains_.middleCols<3>(3 * static_cast<Eigen::Index>(m)) += G_.middleCols<3>(column);
+      column += 3;
+    }
+    for (std::size_t t = 0; t < level.tasks.size(); ++t) {
+      const auto& gains = levels_[i].gains[t];
+      for (Eigen::Index k = 0; 3 * k < gains.cols(); ++k)
+        marker_gains_.middleCols<3>(3 * static_cast<Eigen::Index>(level.about[t].made->markers()[at(k)])) +=
+            G_.middleCols(column, gains.rows()) * gains.middleCols<3>(3 * k);
+      column += gains.rows();
+    }
+  }
+}
+
 void Bounds::judge(const MarkerVariances& noise) {
   const auto& model = plan_.problem.model;
   for (std::size_t i = 0; i < levels_.size(); ++i)
     for (Eigen::Index row = 0; row < levels_[i].scale.size(); ++row)
       explained_.col(first_column_[i] + row) *= levels_[i].scale[row];
   G_.noalias() = C_.transpose() * explained_;
+  find_marker_gains();
   const auto V = V_.leftCols(rank_);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (Eigen::Index c = 0; c < G_.rows(); ++c) {
@@ -175,18 +198,22 @@ void Bounds::judge(const MarkerVariances& noise) {
                 G_.row(c).norm() <= (rotation ? kBlindRotation : kBlindTranslation);
     double variance = 0.0, known = 0.0, unknown = 0.0;
     Eigen::RowVectorXd common = Eigen::RowVectorXd::Zero(3 * noise.common.size());
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
-      const auto part = G_.row(c).segment(first_column_[i], levels_[i].variance.size());
-      variance += part.cwiseAbs2() * levels_[i].variance;
-      for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j) {
-        const int body = model.markers()[at(plan_.levels[i].markers[j])].body;
-        if (body >= 0) common.segment<3>(3 * body) += part.segment<3>(3 * static_cast<Eigen::Index>(j));
-      }
-      const Eigen::Index points = 3 * static_cast<Eigen::Index>(plan_.levels[i].markers.size());
+    for (Eigen::Index m = 0; m < noise.own.size(); ++m) {
+      const auto part = marker_gains_.row(c).segment<3>(3 * m);
+      const int body = model.markers()[at(m)].body;
+      variance += noise.own[m] * part.squaredNorm();
       known += part.squaredNorm();
-      for (Eigen::Index row = points; row < part.size(); ++row)
-        if (levels_[i].variance[row] == 0.0) unknown += part[row] * part[row];
+      if (body >= 0) common.segment<3>(3 * body) += part;
     }
+    for (std::size_t i = 0; i < levels_.size(); ++i)
+      for (Eigen::Index row = 3 * std::ssize(plan_.levels[i].markers); row < levels_[i].variance.size();
+           ++row) {
+        const double square = std::pow(G_(c, first_column_[i] + row), 2);
+        variance += square * levels_[i].variance[row];
+        if (levels_[i].is_made[at(row)] != 0) continue;
+        known += square;
+        if (levels_[i].variance[row] == 0.0) unknown += square;
+      }
     for (Eigen::Index b = 0; b < noise.common.size(); ++b)
       variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
     const double lag = goal_error_[c];
@@ -249,12 +276,21 @@ void Bounds::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goal
 
 void Bounds::stack(const Eigen::Matrix3Xd& error) {
   stacked_.setZero(explained_.cols());
-  for (std::size_t i = 0; i < levels_.size(); ++i)
-    for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j) {
-      const auto row = 3 * static_cast<Eigen::Index>(j);
-      if (levels_[i].scale[row] > 0.0)
-        stacked_.segment<3>(first_column_[i] + row) = error.col(plan_.levels[i].markers[j]);
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const auto& level = plan_.levels[i];
+    Eigen::Index row = 0;
+    for (const int m : level.markers) {
+      if (levels_[i].scale[row] > 0.0) stacked_.segment<3>(first_column_[i] + row) = error.col(m);
+      row += 3;
     }
+    for (std::size_t t = 0; t < level.tasks.size(); ++t) {
+      const auto& gains = levels_[i].gains[t];
+      for (Eigen::Index k = 0; 3 * k < gains.cols(); ++k)
+        stacked_.segment(first_column_[i] + row, gains.rows()) +=
+            gains.middleCols<3>(3 * k) * error.col(level.about[t].made->markers()[at(k)]);
+      row += gains.rows();
+    }
+  }
 }
 
 Eigen::VectorXd Bounds::coordinates_of(const Eigen::Matrix3Xd& error) {
@@ -264,10 +300,8 @@ Eigen::VectorXd Bounds::coordinates_of(const Eigen::Matrix3Xd& error) {
 
 Eigen::VectorXd Bounds::variance_of(const Eigen::VectorXd& variance) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(G_.rows());
-  for (std::size_t i = 0; i < levels_.size(); ++i)
-    for (std::size_t j = 0; j < plan_.levels[i].markers.size(); ++j)
-      out += variance[plan_.levels[i].markers[j]] *
-             G_.middleCols<3>(first_column_[i] + 3 * static_cast<Eigen::Index>(j)).rowwise().squaredNorm();
+  for (Eigen::Index m = 0; m < variance.size(); ++m)
+    out += variance[m] * marker_gains_.middleCols<3>(3 * m).rowwise().squaredNorm();
   return out;
 }
 

@@ -70,6 +70,8 @@ class Bounds {
   struct Level {
     Eigen::MatrixXd A, projected, inverse, R, B;
     Eigen::VectorXd dx, scale, variance;
+    std::vector<Eigen::MatrixXd> gains;  // of each task: of its goal by its markers; no columns without
+    std::vector<std::uint8_t> is_made;   // rows of such tasks
   };
   void gather(std::size_t index, const GoalValues& goal, double time_s, const MarkerVariances& noise);
   /// All levels, and the coordinates in whitened space, with the speeds of `held_` at rest.
@@ -84,8 +86,10 @@ class Bounds {
   /// first order.
   void find_way(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const GoalValues& goal);
   void find_coordinates(const Eigen::VectorXd& q);
+  /// Change of the coordinates by the markers, those that goals of tasks are made of with them.
+  void find_marker_gains();
   void judge(const MarkerVariances& noise);
-  /// Rows of all levels in one vector; 0 where a row is no marker that is seen.
+  /// Rows of all levels in one vector; 0 where nothing of a row is a marker that is seen.
   void stack(const Eigen::Matrix3Xd& error);
 
   const Plan& plan_;
@@ -94,7 +98,7 @@ class Bounds {
   std::vector<Level> levels_;
   std::vector<Eigen::Index> first_column_;
   TaskRows rows_;
-  Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_;
+  Eigen::MatrixXd M_, mass_, J_, V_, E_, C_, explained_, G_, marker_gains_;
   Eigen::LLT<Eigen::MatrixXd> llt_;
   Eigen::VectorXd z_, still_, sd_, bound_, goal_error_, goal_bound_, beyond_, force_, stacked_;
   std::vector<std::uint8_t> determined_, held_;

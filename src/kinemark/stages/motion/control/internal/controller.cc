@@ -37,6 +37,7 @@ Controller::Controller(const Plan& plan)
        {&v_, &a_, &now_a_, &wished_, &normal_force_, &held_a_, &move_, &kept_v_, &kept_a_, &outside_force_})
     v->setZero(n);
   bias_.setZero(3 * M);
+  weight_.setZero(M);
   for (auto* m : {&command_, &marker_begun_, &marker_ended_}) m->setZero(3, M);
   for (auto* m : {&M_, &H_}) m->setZero(n, n);
   J_.setZero(3 * M, n);
@@ -59,14 +60,15 @@ void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double 
   v_.setZero();
   model::kinematics(model_, w_, x_);
   model::velocities(model_, w_, v_);
-  model::marker_normal_matrix(model_, w_, goal.weight, H_);
+  weight_ = goal.weight.cwiseProduct(plan_.in_levels);
+  model::marker_normal_matrix(model_, w_, weight_, H_);
   model::clear_forces(w_);
-  model::add_marker_forces(model_, w_, goal.weight, goal.v);
+  model::add_marker_forces(model_, w_, weight_, goal.v);
   model::project_forces(model_, w_, normal_force_);
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
       auto& rows = gathered_[i].tasks[t];
-      plan_.levels[i].evaluate(t, model_, w_, time_s, rows);
+      plan_.levels[i].evaluate(t, plan_.problem, w_, goal, time_s, rows);
       H_ += rows.jacobian.transpose() * rows.weight.asDiagonal() * rows.jacobian;
       normal_force_ += rows.jacobian.transpose() * rows.weight.cwiseProduct(rows.goal_velocity);
     }
@@ -125,7 +127,7 @@ void Controller::find_commands(const GoalValues& goal, double time_s,
   for (std::size_t i = 0; i < plan_.levels.size(); ++i)
     for (std::size_t t = 0; t < plan_.levels[i].tasks.size(); ++t) {
       auto& rows = gathered_[i].tasks[t];
-      plan_.levels[i].evaluate(t, model_, w_, time_s, rows);
+      plan_.levels[i].evaluate(t, plan_.problem, w_, goal, time_s, rows);
       // From here on `error` holds the right-hand side of the rows.
       rows.error *= plan_.kp;
       rows.error +=
@@ -244,9 +246,10 @@ bool Controller::evaluate(const GoalValues& goal, double time_s, const Eigen::Ma
   wished_ -= plan_.posture_kd * v_;
   have_jacobian_ = false;
   if (one_level_) {
-    model::marker_normal_matrix(model_, w_, goal.weight, H_);
+    weight_ = goal.weight.cwiseProduct(plan_.in_levels);
+    model::marker_normal_matrix(model_, w_, weight_, H_);
     model::clear_forces(w_);
-    model::add_marker_forces(model_, w_, goal.weight, command_);
+    model::add_marker_forces(model_, w_, weight_, command_);
     model::project_forces(model_, w_, normal_force_);
     for (const auto& task : gathered_.front().tasks)
       for (Eigen::Index i = 0; i < task.error.size(); ++i) {

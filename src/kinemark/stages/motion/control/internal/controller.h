@@ -100,6 +100,7 @@ class Controller {
   bool one_level_ = false;  // of markers and tasks, without loops: the fast path can be used
   bool have_jacobian_ = false, joined_ = false;
   Eigen::VectorXd x_, v_, a_, now_a_, wished_, bias_, normal_force_, held_a_, move_;
+  Eigen::VectorXd weight_;  // M, of markers that are goals themselves
   Eigen::VectorXd kept_x_, kept_v_, kept_a_;
   OutsideForce outside_;
   Eigen::VectorXd outside_force_;  // of the speeds

@@ -29,6 +29,19 @@ void rest_roots(Plan& plan, const Eigen::VectorXd& x) {
     plan.rest.segment<7>(free.state_idx) = x.segment<7>(free.state_idx);
 }
 
+/// Coordinates that tasks hold begin there, the others where the markers then put them.
+void begin_held(const Plan& plan, const Eigen::Matrix3Xd& y, const Eigen::VectorXd& weight,
+                Eigen::VectorXd& x) {
+  if (plan.held.empty()) return;
+  Problem held = plan.problem;
+  for (const auto& [coordinate, value] : plan.held) {
+    const auto& c = held.model.coordinates()[at(coordinate)];
+    x[c.state_idx] = value;
+    held.fixed_speed[at(c.speed_idx)] = 1;
+  }
+  if (weight.sum() > 0.0) FrameSolver(held, plan.start_options).solve(y, weight, 0, x);
+}
+
 }  // namespace
 
 Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, LockMode lock) {
@@ -69,6 +82,7 @@ Eigen::VectorXd find_first_pose(Plan& plan, const data::Trajectories& goals, Loc
     p.observe(goals, f, y, weight);
     if (weight.sum() > 0.0) solver.solve(y, weight, 0, x);
   }
+  begin_held(plan, y, weight, x);
   rest_roots(plan, x);
   return x;
 }
@@ -90,6 +104,7 @@ Eigen::VectorXd find_first_pose(Plan& plan, const Eigen::Matrix3Xd& goal, const 
   plan.apply_locks(x);
   FrameSolver solver(p, plan.start_options);
   solver.solve(goal, weight, 0, x);
+  begin_held(plan, goal, weight, x);
   rest_roots(plan, x);
   return x;
 }

@@ -13,15 +13,17 @@
 #include "kinemark/core/missing.h"
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/controller.h"
+#include "kinemark/stages/motion/control/internal/goal_task.h"
 #include "kinemark/stages/motion/control/internal/recorder.h"
 #include "kinemark/stages/motion/internal/error_bars.h"
 
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr double kNextLevel = 4.0;     // times the weight of the level below, where nothing is known
-constexpr double kMostWeight = 100.0;  // beside the smallest
-constexpr double kLeastLeft = 0.1;     // of all numbers: with less, the pose explains nearly everything
+constexpr double kNextLevel = 4.0;      // times the weight of the level below, where nothing is known
+constexpr double kMostWeight = 100.0;   // beside the smallest
+constexpr double kHeldBound_m = 0.005;  // of a level that holds values: 5 mm, 0.3 deg
+constexpr double kLeastLeft = 0.1;      // of all numbers: with less, the pose explains nearly everything
 constexpr std::int64_t kFewestFrames = 10;
 constexpr double kNoiseSds = 5.0;
 constexpr double kRest = 12.0;  // times 1 / omega: (1 + 12) exp(-12) of a distance is left
@@ -33,6 +35,15 @@ void goals_of(const Plan& plan, const Track& track, std::int64_t frame, GoalValu
   for (Eigen::Index m = 0; m < goal.weight.size(); ++m)
     if (goal.weight[m] > 0.0)
       goal.x.col(m) = track.goals.x(plan.problem.first_frame + frame, plan.problem.data_marker[at(m)]);
+}
+
+/// Markers of a level, and those that goals of its tasks are made of.
+std::vector<int> markers_behind(const Plan::Level& level) {
+  std::vector<int> markers = level.markers;
+  for (const auto& task : level.about)
+    if (task.made != nullptr)
+      markers.insert(markers.end(), task.made->markers().begin(), task.made->markers().end());
+  return markers;
 }
 
 /// The error that nine of ten frames do not have.
@@ -50,9 +61,16 @@ double time_of(const Plan& plan, const Track& track, std::int64_t frame) {
 
 std::vector<double> first_weights(const std::vector<TrackLevel>& levels) {
   std::vector<double> weights;
+  const auto is_held = [](const TrackLevel& level) {
+    return level.markers.empty() && level.tasks.empty() &&
+           std::ranges::all_of(level.named, [](const NamedTask& task) {
+             return task.kind == NamedTask::Kind::coordinate || task.kind == NamedTask::Kind::mass_centre;
+           });
+  };
   for (std::size_t i = 0; i < levels.size(); ++i)
-    weights.push_back(levels[i].weight > 0.0
-                          ? levels[i].weight
+    weights.push_back(levels[i].weight > 0.0 ? levels[i].weight
+                      : is_held(levels[i])
+                          ? kMostWeight
                           : std::pow(kNextLevel, static_cast<double>(levels.size() - 1 - i)));
   return weights;
 }
@@ -77,6 +95,7 @@ void join_levels(Plan& plan, const std::vector<double>& weights) {
     for (const int m : level.markers) plan.problem.weight[m] = weight * plan.marker_weight[m];
     all.markers.insert(all.markers.end(), level.markers.begin(), level.markers.end());
     all.tasks.insert(all.tasks.end(), level.tasks.begin(), level.tasks.end());
+    all.about.insert(all.about.end(), level.about.begin(), level.about.end());
     for (const double w : level.task_weights) all.task_weights.push_back(weight * w);
     all.task_rows += level.task_rows;
   }
@@ -98,13 +117,22 @@ std::optional<std::vector<double>> find_level_weights(const Plan& plan, const Tr
   const Eigen::VectorXd information = information_of(plan.problem.model, variances);
   std::vector<double> weights;
   for (const auto& level : plan.asked) {
-    if (level.markers.empty()) return std::nullopt;
     double variance = 0.0;
-    for (const int m : level.markers) variance += 1.0 / information[m];
-    weights.push_back(static_cast<double>(level.markers.size()) / variance);
+    const auto markers = markers_behind(level);
+    for (const int m : markers) variance += 1.0 / information[m];
+    if (markers.empty() && !level.is_held()) return std::nullopt;
+    weights.push_back(markers.empty() ? 0.0 : static_cast<double>(markers.size()) / variance);
   }
-  const double least = std::ranges::max(weights) / kMostWeight;
-  for (auto& weight : weights) weight = std::max(weight, least);
+  const double most = std::ranges::max(weights);
+  if (!(most > 0.0)) return std::nullopt;
+  double least = most;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = std::max(weights[i], most / kMostWeight);
+    if (!plan.asked[i].is_held()) least = std::min(least, weights[i]);
+  }
+  // A value that is held has no variance.
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (plan.asked[i].is_held()) weights[i] = kMostWeight * least;
   return weights;
 }
 
@@ -121,9 +149,11 @@ const Eigen::VectorXd& LevelErrors::find(const model::Workspace& w, const GoalVa
       weight += goal.weight[m];
     }
     for (std::size_t t = 0; t < level.tasks.size(); ++t) {
-      level.evaluate(t, plan_.problem.model, w, time_s, rows_);
+      level.evaluate(t, plan_.problem, w, goal, time_s, rows_);
       squares += rows_.weight.dot(rows_.error.cwiseAbs2());
-      weight += rows_.weight.maxCoeff() > 0.0 ? 1.0 : 0.0;
+      const double points =
+          level.about[t].made != nullptr ? level.about[t].made->points() : level.about[t].points;
+      weight += rows_.weight.maxCoeff() > 0.0 ? points : 0.0;
     }
     errors_[static_cast<Eigen::Index>(i)] = weight > 0.0 ? std::sqrt(squares / weight) : kNaN;
   }
@@ -148,9 +178,14 @@ std::vector<double> find_level_bounds(const Plan& plan, const Track& track, cons
   }
   std::vector<double> bounds;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (plan.asked[i].is_held()) {
+      bounds.push_back(kHeldBound_m);
+      continue;
+    }
     double variance = 0.0;
-    for (const int m : plan.asked[i].markers) variance += noise[m];
-    const auto count = static_cast<double>(std::max<std::size_t>(1, plan.asked[i].markers.size()));
+    const auto markers = markers_behind(plan.asked[i]);
+    for (const int m : markers) variance += noise[m];
+    const auto count = static_cast<double>(std::max<std::size_t>(1, markers.size()));
     bounds.push_back(kNoiseSds * std::sqrt(variance / count) + usual_error(found[i]));
   }
   return bounds;

@@ -16,7 +16,9 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
+#include "kinemark/stages/motion/control/internal/goal_task.h"
 #include "kinemark/stages/motion/control/internal/levels.h"
+#include "kinemark/stages/motion/control/internal/place_tasks.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -31,6 +33,12 @@ constexpr double kAround = 0.5;  // rad or m
 constexpr std::uint64_t kStream = 0x706f7365;
 constexpr double kNoMass = 1e-12;  // kg, kg m^2
 
+std::vector<std::string> marker_names(const model::Model& model) {
+  std::vector<std::string> names;
+  for (const auto& marker : model.description().markers) names.push_back(marker.name);
+  return names;
+}
+
 /// Level of every marker that some level names; "*" is left for later.
 Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model,
                                                        const std::vector<TrackLevel>& levels) {
@@ -39,7 +47,8 @@ Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model
     for (const auto& name : levels[i].markers) {
       if (name != "*" && model.description().find_marker(name) < 0)
         return fail(Code::bad_input,
-                    fmt::format("level {} names marker '{}', which the model does not have", i + 1, name));
+                    fmt::format("level {} names marker '{}', which the model does not have{}", i + 1, name,
+                                nearest_of(name, marker_names(model))));
       const auto [other, fresh] = level_of.try_emplace(name, i);
       if (!fresh)
         return fail(Code::bad_input,
@@ -49,10 +58,11 @@ Result<std::map<std::string, std::size_t>> name_levels(const model::Model& model
   return level_of;
 }
 
-/// Which markers take part; the others get the weight 0, and `left_out` says why.
+/// Which markers take part, in a level or in the goals of tasks; the others get the weight 0, and `left_out`
+/// says why.
 Status choose_markers(const model::Model& model, const std::map<std::string, std::size_t>& level_of,
-                      IkOptions& options, std::vector<std::string>& warnings,
-                      std::map<std::string, std::string>& left_out) {
+                      const std::set<std::string>& of_tasks, IkOptions& options,
+                      std::vector<std::string>& warnings, std::map<std::string, std::string>& left_out) {
   for (int m = 0; m < model.marker_count(); ++m) {
     const auto& name = model.description().markers[at(m)].name;
     const bool named = level_of.contains(name);
@@ -65,7 +75,7 @@ Status choose_markers(const model::Model& model, const std::map<std::string, std
       warnings.push_back(
           fmt::format("marker '{}' sits on a body that is welded to the ground and is left out", name));
       left_out[name] = "its body is welded to the ground";
-    } else if (!named && !level_of.contains("*")) {
+    } else if (!named && !level_of.contains("*") && !of_tasks.contains(name)) {
       left_out[name] = "in no level";
     } else {
       continue;
@@ -77,17 +87,22 @@ Status choose_markers(const model::Model& model, const std::map<std::string, std
 }
 
 Status place_levels(const std::map<std::string, std::size_t>& level_of, const std::vector<TrackLevel>& levels,
-                    Plan& plan) {
+                    const Eigen::VectorXd& rest_pose, Plan& plan) {
   const auto& model = plan.problem.model;
   plan.levels.resize(levels.size());
+  plan.in_levels.setZero(model.marker_count());
   const auto rest = level_of.find("*");
   for (int m = 0; m < model.marker_count(); ++m) {
     const auto named = level_of.find(model.description().markers[at(m)].name);
+    if (named == level_of.end() && rest == level_of.end()) continue;
     plan.levels[named != level_of.end() ? named->second : rest->second].markers.push_back(m);
+    plan.in_levels[m] = 1.0;
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     auto& level = plan.levels[i];
     level.tasks = levels[i].tasks;
+    level.about.resize(level.tasks.size());
+    place_named(levels[i], rest_pose, plan, level);
     for (const auto& task : level.tasks) {
       if (auto status = task->bind(model); !status) return fail_at(task->name(), status.error());
       level.task_rows += task->rows();
@@ -176,10 +191,19 @@ Status lock_named(const TrackOptions& options, Plan& plan) {
 
 }  // namespace
 
-void Plan::Level::evaluate(std::size_t t, const model::Model& model, const model::Workspace& w, double time_s,
-                           TaskRows& rows) const {
-  rows.resize(tasks[t]->rows(), model.speed_count());
-  tasks[t]->evaluate(model, w, time_s, rows);
+bool Plan::Level::is_held() const {
+  return markers.empty() && std::ranges::all_of(about, [](const About& task) { return task.is_held; });
+}
+
+void Plan::Level::evaluate(std::size_t t, const Problem& problem, const model::Workspace& w,
+                           const GoalValues& goal, double time_s, TaskRows& rows,
+                           Eigen::MatrixXd* gains) const {
+  rows.resize(tasks[t]->rows(), problem.model.speed_count());
+  if (gains != nullptr) gains->resize(tasks[t]->rows(), 0);
+  if (about[t].made != nullptr)
+    about[t].made->follow(problem.model, w, goal, problem.weight, rows, gains);
+  else
+    tasks[t]->evaluate(problem.model, w, time_s, rows);
   rows.weight *= task_weights[t];
 }
 
@@ -213,7 +237,9 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   ik.threads = options.threads;
   std::vector<std::string> warnings;
   std::map<std::string, std::string> left_out;
-  if (auto status = choose_markers(model, *level_of, ik, warnings, left_out); !status)
+  const auto of_tasks = markers_of_tasks(model, options);
+  if (!of_tasks) return std::unexpected(of_tasks.error());
+  if (auto status = choose_markers(model, *level_of, *of_tasks, ik, warnings, left_out); !status)
     return std::unexpected(status.error());
   auto rest = rest_coordinates(model, options);
   if (!rest) return std::unexpected(rest.error());
@@ -241,7 +267,8 @@ Result<Plan> make_plan(const model::Model& model, const data::Trajectories& mark
   plan.max_speed = options.max_speed;
   plan.max_error_m = options.max_error_m;
   plan.ease_s = std::max(options.fade_s, 1.0 / plan.rate_hz);
-  if (auto status = place_levels(*level_of, levels, plan); !status) return std::unexpected(status.error());
+  if (auto status = place_levels(*level_of, levels, *rest, plan); !status)
+    return std::unexpected(status.error());
   plan.asked = plan.levels;
   plan.marker_weight = plan.problem.weight;
   if (plan.asked.size() > 1 && options.strict)
@@ -283,6 +310,8 @@ void lock_idle(Plan& plan, const IdlePoses& idle_poses) {
   Eigen::MatrixXd J;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(model.speed_count());
   TaskRows rows;
+  GoalValues reached(model.marker_count());  // goals where the markers are
+  reached.weight = plan.problem.weight;
   Eigen::VectorXd squares, most;
   // Poses in which each speed moves no goal.
   const auto idle_in = [&](const std::vector<Eigen::VectorXd>& poses, bool with_markers) {
@@ -293,13 +322,15 @@ void lock_idle(Plan& plan, const IdlePoses& idle_poses) {
       squares.setZero(model.speed_count());
       if (with_markers) {
         model::marker_jacobian(model, w, J);
-        squares = J.colwise().squaredNorm().transpose();
+        for (Eigen::Index m = 0; m < plan.in_levels.size(); ++m)
+          if (plan.in_levels[m] > 0.0) squares += J.middleRows<3>(3 * m).colwise().squaredNorm().transpose();
       }
+      reached.x = w.marker;
       for (const auto& level : plan.asked)
         for (std::size_t t = 0; t < level.tasks.size(); ++t) {
           most.setZero(model.speed_count());
           for (const double time_s : idle_poses.times_s) {
-            level.evaluate(t, model, w, time_s, rows);
+            level.evaluate(t, plan.problem, w, reached, time_s, rows);
             for (Eigen::Index k = 0; k < most.size(); ++k)
               most[k] = std::max(most[k], rows.weight.dot(rows.jacobian.col(k).cwiseAbs2()));
           }

@@ -16,6 +16,8 @@
 
 namespace kinemark::motion::internal {
 
+class GoalTask;
+
 struct Plan {
   Problem problem;          ///< the tracked markers only; limits; locked speeds, ours included
   IkOptions start_options;  ///< how the first pose is found
@@ -23,11 +25,23 @@ struct Plan {
     std::vector<int> markers;  ///< indices in problem.model
     std::vector<std::shared_ptr<Task>> tasks;
     std::vector<double> task_weights;  ///< of each task, beside those of its rows
+    /// What is known of a task besides.
+    struct About {
+      std::string text;                ///< as a level names it; empty: not by name
+      bool is_angle = false;           ///< its rows are in rad
+      bool is_held = false;            ///< its goal is a value that stays
+      double points = 1.0;             ///< how many markers it counts like, where it is not made of any
+      const GoalTask* made = nullptr;  ///< the task itself where its goal is made of markers
+    };
+    std::vector<About> about;  ///< of each task
     int task_rows = 0;
     [[nodiscard]] int rows() const { return 3 * static_cast<int>(markers.size()) + task_rows; }
-    /// Rows of task `t` at a state; `rows` need no size.
-    void evaluate(std::size_t t, const model::Model& model, const model::Workspace& w, double time_s,
-                  TaskRows& rows) const;
+    /// Every goal of it is a value that stays.
+    [[nodiscard]] bool is_held() const;
+    /// Rows of task `t` at a state; `rows` need no size. `gains`: as GoalTask::follow() has them; no columns
+    /// where the goal is not made of markers.
+    void evaluate(std::size_t t, const Problem& problem, const model::Workspace& w, const GoalValues& goal,
+                  double time_s, TaskRows& rows, Eigen::MatrixXd* gains = nullptr) const;
   };
   std::vector<Level> asked;            ///< levels as the options name them
   std::vector<Level> levels;           ///< as they are solved: these, or all of them in one
@@ -35,6 +49,12 @@ struct Plan {
   std::vector<double> level_bounds_m;  ///< of strict levels; empty: one level
   bool levels_given_up = false;        ///< strict levels that are followed in one sum of squares all the time
   Eigen::VectorXd marker_weight;       ///< M, within its level
+  Eigen::VectorXd in_levels;           ///< M, 1: a goal itself, 0: only goals of tasks are made of it
+  struct Held {
+    int coordinate;
+    double value;
+  };
+  std::vector<Held> held;  ///< coordinates that a task holds at a value
   double rate_hz = 0.0;
   double kp = 0.0, kd = 0.0;
   double step_s = 0.0;

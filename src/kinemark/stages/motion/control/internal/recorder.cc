@@ -73,6 +73,11 @@ Recorder::Recorder(const Plan& plan, const data::Trajectories& markers, Walker& 
   track.states.resize(plan.problem.model.state_count(), F);
   result.rank.assign(at(F), 0);
   result.smallest_singular.assign(at(F), 0.0);
+  for (const auto& level : plan.asked)
+    for (const auto& task : level.about)
+      if (!task.text.empty()) result.tasks.push_back({.text = task.text, .is_angle = task.is_angle});
+  task_squares_.assign(result.tasks.size(), 0.0);
+  task_frames_.assign(result.tasks.size(), 0);
   if (plan.asked.size() < 2) return;
   result.levels.resize(plan.asked.size());
   for (std::size_t i = 0; i < result.levels.size(); ++i) {
@@ -118,6 +123,7 @@ void Recorder::store() {
   result_.smallest_singular[at(f)] = body.smallest_singular();
   store_marker_errors(f);
   store_levels(f);
+  store_tasks();
   if (walker_.flagged()) {
     motion.status[at(f)] = FrameStatus::not_converged;
     ++result_.flagged_frames;
@@ -141,6 +147,24 @@ void Recorder::store_levels(std::int64_t f) {
     ++level.beyond;
     if (walker_.relaxed() && walker_.guard().settled()) ++level.unmet;
   }
+}
+
+void Recorder::store_tasks() {
+  std::size_t i = 0;
+  for (const auto& level : plan_.asked)
+    for (std::size_t t = 0; t < level.tasks.size(); ++t) {
+      if (level.about[t].text.empty()) continue;
+      level.evaluate(t, plan_.problem, walker_.controller().workspace(), walker_.goal(), walker_.time_s(),
+                     rows_);
+      if (rows_.weight.maxCoeff() > 0.0) {
+        auto& task = result_.tasks[i];
+        task_squares_[i] += rows_.error.squaredNorm();
+        ++task_frames_[i];
+        task.max_error = std::max(task.max_error, rows_.error.norm());
+        task.rms_error = std::sqrt(task_squares_[i] / static_cast<double>(task_frames_[i]));
+      }
+      ++i;
+    }
 }
 
 void Recorder::close_levels() {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
 #include "kinemark/core/progress.h"
 #include "kinemark/data/trajectories.h"
@@ -58,6 +60,7 @@ class Recorder {
   void store();
   void store_marker_errors(std::int64_t f);
   void store_levels(std::int64_t f);
+  void store_tasks();
   void close_levels();
 
   const Plan& plan_;
@@ -66,6 +69,9 @@ class Recorder {
   Track& track_;
   TrackResult& result_;
   Readout readout_;
+  TaskRows rows_;
+  std::vector<double> task_squares_;
+  std::vector<std::int64_t> task_frames_;
   double goal_squares_ = 0.0;
   std::int64_t goals_ = 0;
 };

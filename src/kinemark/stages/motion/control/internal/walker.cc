@@ -374,9 +374,10 @@ void Walker::judge() {
   double squares = 0.0, weight = 0.0;
   const auto& position = controller_.workspace().marker;
   for (Eigen::Index m = 0; m < goal_.weight.size(); ++m) {
-    if (goal_.weight[m] == 0.0) continue;
-    squares += goal_.weight[m] * (goal_.x.col(m) - position.col(m)).squaredNorm();
-    weight += goal_.weight[m];
+    const double own = plan_.in_levels[m] * goal_.weight[m];
+    if (own == 0.0) continue;
+    squares += own * (goal_.x.col(m) - position.col(m)).squaredNorm();
+    weight += own;
   }
   if (weight > 0.0 && !(std::sqrt(squares / weight) <= plan_.max_error_m)) flagged_ = true;
   if (weight > 0.0 && plan_.one_sum && !plan_.settle && !flagged_) recover(squares / weight);
