@@ -136,7 +136,7 @@ struct Unreachable : Tracked {
   VectorXd fitted, q_fitted;
 };
 
-TEST(Bounds, ToGoalsThatNoPoseReachesTheWayBendsAndIsFoundAllTheSame) {
+TEST(Bounds, TheWayToGoalsThatNoPoseReachesIsFoundAllTheSame) {
   Unreachable t;
   for (const double rad : {0.01, 0.05, 0.15}) {
     t.move_off(rad);

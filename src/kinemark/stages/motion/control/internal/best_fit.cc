@@ -28,7 +28,7 @@ BestFit::BestFit(const Problem& problem) : problem_(problem), w_(problem.model) 
   left_ = way_;
 }
 
-void BestFit::pull(const GoalValues& goal) {
+void BestFit::visit(const GoalValues& goal) {
   const auto& model = problem_.model;
   model::kinematics(model, w_, x_);
   residual_ = goal.x - w_.marker;
@@ -81,13 +81,13 @@ bool BestFit::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goa
   double length = 0.0;
   bool slow = true;
   for (int i = 0; i < kMostSteps; ++i) {
-    pull(goal);
+    visit(goal);
     if (slow) {
       model::marker_normal_matrix(model, w_, goal.weight, H_);
       model::subtract_force_curvature(model, w_, H_);
     }
     if ((hold_pressed() || slow) && !factorise()) {
-      // The residuals bend more than the goals hold: the way as equation 15 has it leads out of there.
+      // Residuals turn more than the goals hold: the way as equation 15 has it leads out of there.
       model::marker_normal_matrix(model, w_, goal.weight, H_);
       if (!factorise()) return false;
     }

@@ -37,7 +37,7 @@ class BestFit {
 
  private:
   /// Forces of the residuals at the pose in x_, as the next step's right-hand side.
-  void pull(const GoalValues& goal);
+  void visit(const GoalValues& goal);
   /// Hold the speeds whose force presses their coordinate against a limit. True: they are others than before.
   bool hold_pressed();
   bool factorise();
