@@ -160,8 +160,9 @@ ControlComparison compare(const model::Model& model, const motion::TrackResult& 
       if (!control.goal_bound.empty() &&
           ours.status[static_cast<std::size_t>(f)] == data::FrameStatus::converged) {
         ++out.bounded;
-        out.held_15 += std::abs(error) <= std::abs(control.goal_error[ours.index(f, c)]) + kBeyondFirstOrder;
-        out.held_16 += std::abs(error) <= control.goal_bound[ours.index(f, c)] + kRounding;
+        const double bound = control.goal_bound[ours.index(f, c)], way = control.goal_error[ours.index(f, c)];
+        out.held_15 += std::abs(error) <= (std::isnan(way) ? bound : std::abs(way)) + kBeyondFirstOrder;
+        out.held_16 += std::abs(error) <= bound + kRounding;
       }
       if (true_c < 0) continue;
       const double angle = truth->q[truth->index(f + control.fit.first_frame, true_c)];

@@ -75,8 +75,8 @@ struct TrackResult {
   std::vector<double> smallest_singular;
   /// F x n, with error bars: the coordinates that the goals ask for, level by level, minus those of the body.
   /// Equation 15, the first order; where the goals are one sum of squares that fixes all coordinates,
-  /// followed to its best fit (a frame in which that is not found determines nothing). NaN where not
-  /// determined.
+  /// followed to its best fit. NaN where not determined, and in frames in which that fit is not found: there
+  /// goal_bound stands for it in deviations and bounds.
   Array<double> goal_error;
   /// F x n, with error bars: bound of equation 16 on the distance to the coordinates that the goals ask for,
   /// level by level. It takes goals for exact and knows norms only; motion.q_bound is the bound on the error.

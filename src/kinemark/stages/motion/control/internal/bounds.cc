@@ -216,11 +216,12 @@ void Bounds::judge(const MarkerVariances& noise) {
       }
     for (Eigen::Index b = 0; b < noise.common.size(); ++b)
       variance += noise.common[b] * common.segment<3>(3 * b).squaredNorm();
-    const double lag = goal_error_[c];
+    const double lag = is_way_known_ ? goal_error_[c] : goal_bound_[c];
     sd_[c] = std::sqrt(variance + lag * lag);
-    sure = sure && is_way_known_ && sd_[c] <= kLargestSd;
+    sure = sure && sd_[c] <= kLargestSd;
     bound_[c] = sure ? std::abs(lag) + beyond_[c] + kNoiseSds * std::sqrt(variance) : nan;
-    if (!sure) goal_error_[c] = goal_bound_[c] = nan;
+    if (!sure) goal_bound_[c] = nan;
+    if (!sure || !is_way_known_) goal_error_[c] = nan;
     // Fixed only by goals without a standard deviation.
     if (!sure || (unknown > 0.0 && known - unknown <= kUnknownShare * known)) sd_[c] = nan;
     determined_[at(c)] = sure ? 1 : 0;

@@ -12,9 +12,9 @@
 // the goals into that of the angles. Equation 15 determines dq_c uniquely: the difference of the body's
 // angles to those that its goals require, zero at the best fit and large while the body still approaches the
 // goals. It is the first order of that way, exact for goals that a pose reaches; where the goals are one sum
-// of squares that fixes all coordinates, the way itself is taken (best_fit.h), and a frame in which it is not
-// found determines nothing. A coordinate that its goals press against a limit has an error of 0 there and
-// takes no part in those of the others; its standard deviation is that of a free one.
+// of squares that fixes all coordinates, the way itself is taken (best_fit.h); in a frame in which it is not
+// found equation 16 stands for it. A coordinate that its goals press against a limit has an error of 0 there
+// and takes no part in those of the others; its standard deviation is that of a free one.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -50,7 +50,8 @@ class Bounds {
   /// Bound on the error of a coordinate: equation 15 and the goals' noise. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& bound() const { return bound_; }
   /// The coordinate that the goals require minus that of the body: the way to the best fit, or its first
-  /// order, equation 15. NaN where not determined.
+  /// order, equation 15. NaN where not determined, and where the
+  /// way is not found.
   [[nodiscard]] const Eigen::VectorXd& goal_error() const { return goal_error_; }
   /// Equation 16: bound on the distance to the coordinate that the goals require. NaN where not determined.
   [[nodiscard]] const Eigen::VectorXd& goal_bound() const { return goal_bound_; }
