@@ -80,6 +80,9 @@ void print_adapted(const CommonOptions& common, const motion::AdaptResult& adapt
       fmt::format("Sizes from {} frames: marker error {:.2f} mm RMS at the best fit, {:.2f} mm before.",
                   adapted.frames, 1e3 * adapted.rms_after_m, 1e3 * adapted.rms_before_m));
   std::vector<std::string> open;
+  for (const auto& size : adapted.parameters)
+    if (size.kind == motion::ParameterKind::body_scale && size.determined)
+      say(common, fmt::format("  {:16} x {:.4f} +- {:.4f}", size.name, size.value, size.sd));
   for (const auto& length : adapted.lengths)
     if (length.determined)
       say(common, fmt::format("  {}: {:.1f} +- {:.1f} mm, {:.1f} before", length.name, 1e3 * length.length_m,

@@ -79,6 +79,7 @@ class Track(CommandTest):
         ran = self.good(*self.track(), "--adapt")
         self.assertRegex(ran.err, r"Sizes from \d+ frames: marker error [\d.]+ mm RMS")
         self.assertRegex(ran.err, r"femur_r: hip_r to knee_r: [\d.]+ \+- [\d.]+ mm, [\d.]+ before")
+        self.assertRegex(ran.err, r"thigh_r +x [\d.]+ \+- [\d.]+")
         self.assertTrue((self.folder / "q_model.osim").is_file())
         lengths = json.loads((self.folder / "q_report.json").read_text())["adapted"]["lengths"]
         self.assertIn("femur_r: hip_r to knee_r", [one["name"] for one in lengths])

@@ -88,6 +88,9 @@ TEST_F(RunTrack, AnAdaptedBodyIsWrittenWithItsLengths) {
     if (length.determined)
       EXPECT_NEAR(length.length_m, length.initial_m, 0.01) << length.name << ": it had its size";
   }
+  for (const auto& size : with.adapted->parameters)
+    if (size.kind == motion::ParameterKind::body_scale && size.determined)
+      EXPECT_NEAR(size.value, 1.0, 0.03) << size.name << ": of the model that was given";
   // What is not known of the sizes is part of the angles' deviations.
   const auto &a = without.result.motion, &b = with.result.motion;
   const auto i = a.index(20, a.find("knee_angle_r"));

@@ -26,6 +26,21 @@ workflow::ScaleOptions options_of(const TrackJob& job) {
   return options;
 }
 
+/// The given model is where the user began, not the one that was brought to the subject's overall size.
+void compare_with(const data::ModelDescription& given, motion::AdaptResult& adapted) {
+  const auto before = motion::segment_lengths(given);
+  double overall = 1.0;
+  for (auto& length : adapted.lengths)
+    if (const auto at = std::ranges::find(before, length.name, &motion::SegmentLength::name);
+        at != before.end()) {
+      overall = length.initial_m / at->length_m;
+      length.initial_m = at->length_m;
+    }
+  for (auto& size : adapted.parameters)
+    if (size.kind == motion::ParameterKind::body_scale)
+      for (double* number : {&size.value, &size.sd, &size.data_sd}) *number *= overall;
+}
+
 }  // namespace
 
 Result<AdaptedBody> adapt_body(const TrackJob& job, MotionInputs& inputs) {
@@ -43,12 +58,7 @@ Result<AdaptedBody> adapt_body(const TrackJob& job, MotionInputs& inputs) {
   auto text =
       document->format({.model = found->model, .factors = std::move(factors), .paths = found->muscles});
   if (!text) return fail_at(job.output.string(), text.error());
-  // The given model is where the user began, not the one that was brought to the subject's overall size.
-  const auto before = motion::segment_lengths(document->model());
-  for (auto& length : found->from_motion->lengths)
-    if (const auto at = std::ranges::find(before, length.name, &motion::SegmentLength::name);
-        at != before.end())
-      length.initial_m = at->length_m;
+  compare_with(document->model(), *found->from_motion);
   auto model = model::Model::compile(std::move(found->model));
   if (!model) return fail_at(job.model.string(), model.error());
   inputs.model = std::move(*model);
