@@ -166,9 +166,7 @@ TEST(Bounds, TheWayEndsAtALimit) {
 
 TEST(Bounds, WhereNoBestFitIsFoundEquationSixteenStandsForTheWay) {
   Tracked t;
-  // Every goal mirrored through the middle of the body: the pose is where the sum of squares is largest.
-  const Vector3d middle = t.goal.x.rowwise().mean();
-  t.goal.x = (2.0 * middle).replicate(1, t.goal.x.cols()) - t.goal.x;
+  t.goal.x *= 1e6;  // a thousand kilometres away
   t.find();
   for (int c = 0; c < t.count(); ++c) {
     EXPECT_TRUE(std::isnan(t.bounds.goal_error()[c])) << c;
@@ -177,7 +175,7 @@ TEST(Bounds, WhereNoBestFitIsFoundEquationSixteenStandsForTheWay) {
     else
       EXPECT_TRUE(std::isnan(t.bounds.bound()[c])) << c;
   }
-  EXPECT_FALSE(t.bounds.determined()[kElbow]) << "half a turn from where the goals are";
+  EXPECT_FALSE(t.bounds.determined()[kElbow]) << "as far as that";
 }
 
 TEST(Bounds, PressedAgainstALimitACoordinateIsWhereItsGoalsAskForIt) {

@@ -14,9 +14,9 @@
 namespace kinemark::motion::internal {
 namespace {
 
-constexpr int kMostSteps = 20;
+constexpr int kMostSteps = 30;
 constexpr double kShrinks = 0.5;   // of the step before, at least
-constexpr double kLongest = 1.0;   // rad or m
+constexpr double kLongest = 0.3;   // rad or m, of one step
 constexpr double kArrived = 1e-7;  // rad or m
 constexpr double kOnLimit = 1e-9;  // rad or m
 
@@ -93,8 +93,12 @@ bool BestFit::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goa
     }
     llt_.solveInPlace(step_);
     clamp();
-    const double longest = step_.cwiseAbs().maxCoeff();
-    if (!(longest <= kLongest)) return false;
+    if (!step_.allFinite()) return false;
+    double longest = step_.cwiseAbs().maxCoeff();
+    if (longest > kLongest) {
+      step_ *= kLongest / longest;
+      longest = kLongest;
+    }
     slow = longest > kShrinks * length;
     length = longest;
     model::integrate(model, x_, step_);
