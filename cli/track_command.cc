@@ -76,9 +76,8 @@ Status apply(const TrackArguments& arguments, pipeline::TrackJob& job) {
 }
 
 void print_adapted(const CommonOptions& common, const motion::AdaptResult& adapted) {
-  say(common,
-      fmt::format("Sizes from {} frames: marker error {:.2f} mm RMS at the best fit, {:.2f} mm before.",
-                  adapted.frames, 1e3 * adapted.rms_after_m, 1e3 * adapted.rms_before_m));
+  say(common, fmt::format("Sizes from {} frames: marker error {:.2f} mm RMS at the best fit.", adapted.frames,
+                          1e3 * adapted.rms_after_m));
   std::vector<std::string> open;
   for (const auto& size : adapted.parameters)
     if (size.kind == motion::ParameterKind::body_scale && size.determined)

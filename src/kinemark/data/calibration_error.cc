@@ -74,6 +74,12 @@ std::string describe(const CalibrationError& error, const Trajectories& markers)
                      1e3 * rms_of(error, markers));
 }
 
+std::string note_held(std::string_view what, double unknown_m) {
+  if (!(unknown_m > 0.0)) return {};
+  return fmt::format("{} hold what the calibration leaves unknown of all positions: {:.2g} mm (RMS)", what,
+                     1e3 * unknown_m);
+}
+
 std::string to_text(const CalibrationError& error) {
   std::string out;
   if (!error.known()) return out;

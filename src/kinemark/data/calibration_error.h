@@ -32,6 +32,10 @@ using CalibrationTerms = Eigen::Matrix<double, Eigen::Dynamic, CalibrationError:
 /// One sentence of it: how far all positions may be off alike; empty where nothing is known of it.
 [[nodiscard]] std::string describe(const CalibrationError& error, const Trajectories& markers);
 
+/// That these hold it ("Intervals"), with what it leaves unknown of positions; empty where that is nothing.
+/// @param unknown_m  root mean square, as rms_of()
+[[nodiscard]] std::string note_held(std::string_view what, double unknown_m);
+
 /// Numbers with blanks between them: middle, rotation row by row, scale, fields; empty without fields.
 [[nodiscard]] std::string to_text(const CalibrationError& error);
 /// The error that such a text holds; no value where it is none, or one that is not finite, not a rotation or

@@ -63,6 +63,13 @@ TEST(CalibrationError, SaysHowMuchIsNotKnown) {
   EXPECT_THAT(describe({}, markers), Not(HasSubstr("of positions, in common (RMS over samples)")));
 }
 
+TEST(CalibrationError, WhatHoldsItIsSaidWhereThereIsAny) {
+  EXPECT_EQ(note_held("Intervals", 4e-4),
+            "Intervals hold what the calibration leaves unknown of all positions: 0.4 mm (RMS)");
+  EXPECT_THAT(note_held("Intervals", 0.0),
+              Not(HasSubstr("hold what the calibration leaves unknown of all positions: ")));
+}
+
 TEST(CalibrationError, ComesBackFromItsText) {
   const Points points = scattered(40);
   const auto error =

@@ -14,6 +14,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/core/missing.h"
 #include "kinemark/core/text.h"
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/filtering.h"
 #include "kinemark/data/skeleton.h"
 #include "kinemark/stages/skeleton/articulated/articulated.h"
@@ -328,12 +329,11 @@ Result<JointsFound> joints(const data::Recording& recording, const JointsOptions
              found.skeleton.ends.end();
     });
   }
-  if (const double off_m = internal::add_calibration_error(recording.trial.calibration_error, found.skeleton);
-      off_m > 0.0)
-    found.remarks.warnings.push_back(
-        fmt::format("Deviations of centres and lengths hold what the calibration leaves unknown of all "
-                    "positions: {:.2g} mm (RMS)",
-                    1e3 * off_m));
+  if (auto note =
+          data::note_held("Deviations of centres and lengths",
+                          internal::add_calibration_error(recording.trial.calibration_error, found.skeleton));
+      !note.empty())
+    found.remarks.warnings.push_back(std::move(note));
   judge(options, found);
   add_contradictions(recording.contradicted, found.remarks.gates);
   return found;

@@ -160,10 +160,10 @@ Status measure_all(const AskedMeasures& asked, const data::Recording& recording,
   if (!measured) return std::unexpected(measured.error());
   if (measured->measures.empty() && found.measures.empty())
     return fail(Code::bad_input, fmt::format("nothing can be measured: {}", why_nothing(*measured)));
-  if (trial.calibration_error.known() && of_paths.refits > 0)
-    found.remarks.warnings.push_back(
-        fmt::format("Intervals hold what the calibration leaves unknown of all positions: {:.2g} mm (RMS)",
-                    1e3 * data::rms_of(trial.calibration_error, trial.markers)));
+  if (of_paths.refits > 0)
+    if (auto note = data::note_held("Intervals", data::rms_of(trial.calibration_error, trial.markers));
+        !note.empty())
+      found.remarks.warnings.push_back(std::move(note));
   found.curves = std::move(measured->curves);
   found.rhythms = std::move(measured->rhythms);
   found.noises = std::move(measured->noises);

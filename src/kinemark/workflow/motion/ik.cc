@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/smoother/camera_observations.h"
 #include "kinemark/stages/motion/smoother/smoother.h"
-#include "kinemark/workflow/motion/internal/calibration_note.h"
 #include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/used_markers.h"
 #include "kinemark/workflow/prepare/contradictions.h"
@@ -167,8 +167,11 @@ Result<IkFound> ik(const model::Model& model, const data::Recording& recording, 
   found.used = solved_markers(markers, fit, motion);
   auto& [warnings, gates] = found.remarks;
   warnings = fit.warnings;
-  if (auto note = internal::note_on_calibration(recording.trial, options.ik.error_bars); !note.empty())
-    warnings.push_back(std::move(note));
+  if (options.ik.error_bars)
+    if (auto note = data::note_held("Deviations of coordinates",
+                                    data::rms_of(recording.trial.calibration_error, markers));
+        !note.empty())
+      warnings.push_back(std::move(note));
   std::ranges::move(data::describe_all(fit.findings, motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
   add_gates(gates, options, model, markers, found.result);

@@ -11,12 +11,12 @@
 #include <string>
 #include <utility>
 
+#include "kinemark/data/calibration_error.h"
 #include "kinemark/data/finding.h"
 #include "kinemark/data/resample_forces.h"
 #include "kinemark/stages/motion/control/camera_task.h"
 #include "kinemark/stages/motion/dynamics/inverse_dynamics.h"
 #include "kinemark/stages/motion/ik.h"
-#include "kinemark/workflow/motion/internal/calibration_note.h"
 #include "kinemark/workflow/motion/internal/held_motion.h"
 #include "kinemark/workflow/motion/used_markers.h"
 #include "kinemark/workflow/prepare/contradictions.h"
@@ -54,15 +54,16 @@ Status add_images(const model::Model& model, const data::ImageTracks* images, mo
 /// Weight of a marker's squared errors among all that are followed: its own times that of its level.
 double weight_of(const std::string& marker, const motion::TrackOptions& asked,
                  const motion::TrackResult& result) {
+  const auto& levels = result.proposed ? result.proposed->levels : asked.levels;
   const auto own = std::ranges::find(asked.marker_weights, marker, &motion::MarkerWeight::marker);
   double weight = own != asked.marker_weights.end() ? own->weight : 1.0;
   const auto names = [&](const std::string& name) {
     return std::ranges::find_if(
-        asked.levels, [&](const auto& level) { return std::ranges::count(level.markers, name) > 0; });
+        levels, [&](const auto& level) { return std::ranges::count(level.markers, name) > 0; });
   };
   auto level = names(marker);
-  if (level == asked.levels.end()) level = names("*");
-  const auto index = static_cast<std::size_t>(level - asked.levels.begin());
+  if (level == levels.end()) level = names("*");
+  const auto index = static_cast<std::size_t>(level - levels.begin());
   if (index < result.levels.size() && result.levels[index].weight > 0.0)
     weight *= result.levels[index].weight;
   return weight;
@@ -169,8 +170,11 @@ Result<TrackFound> track(const model::Model& model, const data::Recording& recor
   warnings = fit.warnings;
   std::ranges::move(data::describe_all(fit.findings, found.result.motion.time), std::back_inserter(warnings));
   std::ranges::copy(found.torques.warnings, std::back_inserter(warnings));
-  if (auto note = internal::note_on_calibration(recording.trial, options.track.error_bars); !note.empty())
-    warnings.push_back(std::move(note));
+  if (options.track.error_bars)
+    if (auto note = data::note_held("Deviations of coordinates",
+                                    data::rms_of(recording.trial.calibration_error, markers));
+        !note.empty())
+      warnings.push_back(std::move(note));
   if (auto note = note_on_accuracy(found.result); !note.empty()) warnings.push_back(std::move(note));
   add_gates(found.remarks.gates, options.bounds, found.result);
   std::ranges::copy(found.torques.gates, std::back_inserter(found.remarks.gates));

@@ -82,6 +82,24 @@ TEST(Track, WhatTheCalibrationLeavesUnknownWidensDeviationsAndBounds) {
   }
 }
 
+TEST(Track, ProposedLevelsWeighInTheCalibrationsPartAsTheSameLevelsThatAreGiven) {
+  Followed followed;
+  auto& error = followed.recording.trial.calibration_error;
+  error.fields = {data::CalibrationError::Field::Zero()};
+  error.fields[0](1, 0) = error.fields[0](2, 1) = 0.02;  // grows over the room: moves the joints
+  TrackOptions options;
+  options.track.propose_levels = true;
+  const auto proposed = track(followed.model, followed.recording, options).value();
+  ASSERT_TRUE(proposed.result.proposed);
+  ASSERT_GT(proposed.result.levels.size(), 1U);
+  options.track.propose_levels = false;
+  options.track.levels = proposed.result.proposed->levels;
+  const auto given = track(followed.model, followed.recording, options).value();
+  const auto &a = proposed.result.motion, &b = given.result.motion;
+  for (std::size_t i = 0; i < a.q_sd.size(); ++i)
+    if (a.determined[i] != 0) ASSERT_EQ(a.q_sd[i], b.q_sd[i]) << i;
+}
+
 TEST(Track, WithForcesTorquesAreThoseOfTheMotionAndTheForces) {
   Followed followed;
   const auto& time = followed.recording.trial.markers.time;

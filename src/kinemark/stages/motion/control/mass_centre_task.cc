@@ -12,6 +12,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/goal_curve.h"
+#include "kinemark/stages/motion/control/internal/two_points.h"
 #include "kinemark/stages/motion/control/tasks.h"
 
 namespace kinemark::motion {
@@ -56,15 +57,11 @@ class MassCentreTask : public Task {
     for (int b = 0; b < static_cast<int>(share_.size()); ++b) {
       const double share = share_[at(b)];
       if (!(share > 0.0)) continue;
-      const auto& body = model.bodies()[at(b)];
-      const Vector3d centre = model::point_in_world(w, b, body.com_in_body);
+      const Vector3d centre = model::point_in_world(w, b, model.bodies()[at(b)].com_in_body);
       place += share * centre[axis_];
       out.velocity[0] += share * model::point_velocity(w, b, centre)[axis_];
       out.bias[0] += share * model::point_bias_acceleration(w, b, centre)[axis_];
-      for (const int column : body.support) {
-        const auto& s = w.column[at(column)];
-        out.jacobian(0, model.columns()[at(column)].speed) += share * (s.v + s.w.cross(centre))[axis_];
-      }
+      internal::add_point(model, w, {b, centre}, share * Vector3d::Unit(axis_), out.jacobian);
     }
     out.error[0] = value[0] - place;
     out.goal_velocity[0] = value[1];

@@ -11,6 +11,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
 #include "kinemark/stages/motion/internal/frame_solver.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -60,13 +61,9 @@ void ExpectedPoseFit::build(const Expectation& expected) {
     H_.noalias() += (C_.transpose() * C_) / (kLoopSd_m * kLoopSd_m);
     g_.noalias() -= C_.transpose() * gap_ / (kLoopSd_m * kLoopSd_m);
   }
-  for (Eigen::Index i = 0; i < g_.size(); ++i) {
-    if (!problem_.fixed_speed[at(i)]) continue;
-    H_.row(i).setZero();
-    H_.col(i).setZero();
-    H_(i, i) = 1.0;
-    g_[i] = 0.0;
-  }
+  hold_speeds(H_, problem_.fixed_speed);
+  for (Eigen::Index i = 0; i < g_.size(); ++i)
+    if (problem_.fixed_speed[at(i)] != 0) g_[i] = 0.0;
   llt_.compute(H_);
 }
 

@@ -10,6 +10,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -147,13 +148,9 @@ bool FrameSolver::step(double damping, bool exact) {
     H_.noalias() += HinvC_ * C_;
     dx_.noalias() -= HinvC_ * gap_;
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!held_[at(i)]) continue;
-    H_.row(i).setZero();
-    H_.col(i).setZero();
-    H_(i, i) = 1.0;
-    dx_[i] = 0.0;
-  }
+  hold_speeds(H_, held_);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (held_[at(i)] != 0) dx_[i] = 0.0;
   llt_.compute(H_);
   if (llt_.info() != Eigen::Success) return false;
   llt_.solveInPlace(dx_);

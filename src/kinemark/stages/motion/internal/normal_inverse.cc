@@ -5,18 +5,14 @@
 #include <algorithm>
 
 #include "kinemark/core/index.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 
 void NormalInverse::invert(Eigen::MatrixXd& H, const Eigen::MatrixXd& C, double floor, Eigen::MatrixXd& K) {
   const Eigen::Index n = H.rows();
   H.diagonal().array() += floor;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!problem_.fixed_speed[at(i)]) continue;
-    H.row(i).setZero();
-    H.col(i).setZero();
-    H(i, i) = 1.0;
-  }
+  hold_speeds(H, problem_.fixed_speed);
   llt_.compute(H);
   while (llt_.info() != Eigen::Success) {  // rounding made the pivot of an undetermined direction negative
     floor = std::max(10.0 * floor, 1e-16);

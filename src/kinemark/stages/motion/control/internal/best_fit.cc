@@ -9,6 +9,7 @@
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
 #include "kinemark/stages/motion/control/internal/goals.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 #include "kinemark/stages/motion/internal/problem.h"
 
 namespace kinemark::motion::internal {
@@ -55,12 +56,7 @@ bool BestFit::hold_pressed() {
 
 bool BestFit::factorise() {
   held_H_ = H_;
-  for (Eigen::Index k = 0; k < H_.rows(); ++k) {
-    if (held_[at(k)] == 0) continue;
-    held_H_.row(k).setZero();
-    held_H_.col(k).setZero();
-    held_H_(k, k) = 1.0;
-  }
+  hold_speeds(held_H_, held_);
   llt_.compute(held_H_);
   return llt_.info() == Eigen::Success;
 }
@@ -87,7 +83,7 @@ bool BestFit::find(const Eigen::VectorXd& x, const Eigen::VectorXd& q, const Goa
       model::subtract_force_curvature(model, w_, H_);
     }
     if ((hold_pressed() || slow) && !factorise()) {
-      // Residuals turn more than the goals hold: the way as equation 15 has it leads out of there.
+      // The residuals make H indefinite here. J'WJ alone, the step of equation 15, leads out of such a place.
       model::marker_normal_matrix(model, w_, goal.weight, H_);
       if (!factorise()) return false;
     }

@@ -11,6 +11,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/stages/motion/control/internal/goal_task.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -235,12 +236,7 @@ void Bounds::judge(const MarkerVariances& noise) {
 void Bounds::solve_levels(const Eigen::VectorXd& q, const GoalValues& goal, double time_s,
                           const MarkerVariances& noise) {
   mass_ = M_;
-  for (Eigen::Index k = 0; k < M_.rows(); ++k) {
-    if (held_[at(k)] == 0) continue;
-    mass_.row(k).setZero();
-    mass_.col(k).setZero();
-    mass_(k, k) = 1.0;
-  }
+  hold_speeds(mass_, held_);
   llt_.compute(mass_);
   rank_ = 0;
   smallest_ = std::numeric_limits<double>::infinity();

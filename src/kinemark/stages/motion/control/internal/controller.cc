@@ -10,6 +10,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -74,13 +75,9 @@ void Controller::start(const Eigen::VectorXd& x, const GoalValues& goal, double 
     }
   model::mass_matrix(model_, w_, M_);
   H_ += kStartDamping * kStartDamping * M_;
-  for (Eigen::Index k = 0; k < v_.size(); ++k) {
-    if (plan_.problem.fixed_speed[at(k)] == 0) continue;
-    H_.row(k).setZero();
-    H_.col(k).setZero();
-    H_(k, k) = 1.0;
-    normal_force_[k] = 0.0;
-  }
+  hold_speeds(H_, plan_.problem.fixed_speed);
+  for (Eigen::Index k = 0; k < v_.size(); ++k)
+    if (plan_.problem.fixed_speed[at(k)] != 0) normal_force_[k] = 0.0;
   llt_.compute(H_);
   if (plan_.feed_forward && llt_.info() == Eigen::Success) v_ = llt_.solve(normal_force_);
   if (!v_.allFinite()) v_.setZero();

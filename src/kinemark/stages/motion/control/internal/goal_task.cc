@@ -6,12 +6,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "kinemark/core/index.h"
+#include "kinemark/math/rotation_fit.h"
+#include "kinemark/math/se3.h"
 #include "kinemark/stages/motion/control/internal/body_name.h"
 #include "kinemark/stages/motion/control/internal/two_points.h"
 
@@ -22,12 +23,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLine_m2 = 1e-4;  // sum of squared distances from a line: below, markers lie in it
-
-Matrix3d cross_matrix(const Vector3d& r) {
-  Matrix3d m;
-  m << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return m;
-}
 
 /// Part of a marker's weight that its goal has at this instant, 0 to 1.
 double seen_share(const GoalValues& goal, const Eigen::VectorXd& full, int marker) {
@@ -94,9 +89,9 @@ class OrientationOfMarkers : public GoalTask {
     if (gains == nullptr) return;
     const Vector3d middle = mean(goal, full, [this](std::size_t i) { return in_body_[i]; });
     for (std::size_t i = 0; i < markers_.size(); ++i)
-      gains->middleCols<3>(3 * static_cast<Eigen::Index>(i)) =
-          share(goal, full, i) * to_axes * laid.spread_inverse *
-          cross_matrix(laid.turn * (in_body_[i] - middle));
+      gains->middleCols<3>(3 * static_cast<Eigen::Index>(i)) = share(goal, full, i) * to_axes *
+                                                               laid.spread_inverse *
+                                                               math::skew(laid.turn * (in_body_[i] - middle));
   }
 
  private:
@@ -127,10 +122,8 @@ class OrientationOfMarkers : public GoalTask {
     for (std::size_t i = 0; i < markers_.size(); ++i)
       if (const double w = share(goal, full, i); w > 0.0)
         product += w * (goal.x.col(markers_[i]) - x) * (in_body_[i] - p).transpose();
-    const Eigen::JacobiSVD<Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double side = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
     Laid laid;
-    laid.turn = svd.matrixU() * Vector3d(1.0, 1.0, side).asDiagonal() * svd.matrixV().transpose();
+    laid.turn = math::fit_rotation(product).rotation;
     Matrix3d spread = Matrix3d::Zero();
     Vector3d turning = Vector3d::Zero();
     for (std::size_t i = 0; i < markers_.size(); ++i) {

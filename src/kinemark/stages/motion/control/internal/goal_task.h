@@ -23,9 +23,8 @@ class GoalTask : public Task {
 
   /// Fill rows as evaluate() does, from goals of the markers at that instant.
   /// @param full   M, weight of each marker in `goal` where it is fully seen
-  /// @param gains  if given: what an error of the markers' goals changes the goal by (rows x 3 K, in the
-  /// order
-  ///               of markers())
+  /// @param gains  if given: what an error of the markers' goals changes the goal by (rows x 3 K, in
+  ///               the order of markers())
   virtual void follow(const model::Model& model, const model::Workspace& w, const GoalValues& goal,
                       const Eigen::VectorXd& full, TaskRows& out, Eigen::MatrixXd* gains) const = 0;
 

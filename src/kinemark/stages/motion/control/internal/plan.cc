@@ -19,6 +19,7 @@
 #include "kinemark/stages/motion/control/internal/goal_task.h"
 #include "kinemark/stages/motion/control/internal/levels.h"
 #include "kinemark/stages/motion/control/internal/place_tasks.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -372,12 +373,7 @@ Status check_mass(const Plan& plan, const Eigen::VectorXd& x) {
   }
   for (const auto& free : model.free_joints())
     if (M.diagonal().segment<6>(free.speed_idx).minCoeff() < kNoMass) return massless("its free root");
-  for (Eigen::Index k = 0; k < M.rows(); ++k)
-    if (plan.problem.fixed_speed[at(k)] != 0) {
-      M.row(k).setZero();
-      M.col(k).setZero();
-      M(k, k) = 1.0;
-    }
+  hold_speeds(M, plan.problem.fixed_speed);
   if (Eigen::LLT<Eigen::MatrixXd>(M).info() != Eigen::Success)
     return massless("some combination of its coordinates");
   return {};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stages/motion/control/internal/priority_solver.h"
 
+#include "kinemark/stages/motion/internal/held_speeds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,13 +48,7 @@ bool PrioritySolver::begin(const Eigen::MatrixXd& M, const std::vector<std::uint
 }
 
 void PrioritySolver::detach_held(Eigen::MatrixXd& S) const {
-  if (!any_held_) return;
-  for (Eigen::Index k = 0; k < S.rows(); ++k) {
-    if (held_[static_cast<std::size_t>(k)] == 0) continue;
-    S.row(k).setZero();
-    S.col(k).setZero();
-    S(k, k) = 1.0;
-  }
+  if (any_held_) hold_speeds(S, held_);
 }
 
 void PrioritySolver::add_level(const Eigen::Ref<const Eigen::MatrixXd>& J,

@@ -16,6 +16,7 @@
 #include "kinemark/core/index.h"
 #include "kinemark/model/dynamics.h"
 #include "kinemark/model/kinematics.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -49,12 +50,7 @@ class Metric {
     model::kinematics(model, w_, x);
     model::velocities(model, w_, Eigen::VectorXd::Zero(model.speed_count()));
     model::mass_matrix(model, w_, mass_);
-    for (Index k = 0; k < mass_.rows(); ++k) {
-      if (plan_.problem.fixed_speed[at(k)] == 0) continue;
-      mass_.row(k).setZero();
-      mass_.col(k).setZero();
-      mass_(k, k) = 1.0;
-    }
+    hold_speeds(mass_, plan_.problem.fixed_speed);
     llt_.compute(mass_);
   }
   /// Columns: rows of a Jacobian in this metric.

@@ -12,7 +12,8 @@ using Eigen::Vector3d;
 
 constexpr double kCoincide_m = 1e-9;  // nearer, the direction is undefined
 
-/// Add u . d(point)/dv to the row.
+}  // namespace
+
 void add_point(const model::Model& model, const model::Workspace& w, const RidingPoint& point,
                const Vector3d& u, Eigen::MatrixXd& J) {
   if (point.body < 0) return;
@@ -21,8 +22,6 @@ void add_point(const model::Model& model, const model::Workspace& w, const Ridin
     J(0, model.columns()[at(column)].speed) += u.dot(s.v + s.w.cross(point.x_in_world));
   }
 }
-
-}  // namespace
 
 LengthRates::LengthRates(const Vector3d& way, const Vector3d& rate, const Vector3d& rate_2) {
   const double length = way.norm();

@@ -14,6 +14,10 @@ struct RidingPoint {
   Eigen::Vector3d x_in_world;  ///< m
 };
 
+/// Add u . d(point)/dv to row 0.
+void add_point(const model::Model& model, const model::Workspace& w, const RidingPoint& point,
+               const Eigen::Vector3d& u, Eigen::MatrixXd& J);
+
 /// First and second rate of the length of a way.
 /// @param rate, rate_2  of the way itself
 struct LengthRates {

@@ -8,6 +8,7 @@
 #include "kinemark/model/kinematics.h"
 #include "kinemark/model/state.h"
 #include "kinemark/model/weighted_normal.h"
+#include "kinemark/stages/motion/internal/held_speeds.h"
 
 namespace kinemark::motion::internal {
 namespace {
@@ -104,13 +105,9 @@ void FrameEquations::visit(const Eigen::Matrix3Xd& y, const VectorXd& given_weig
   model::marker_normal_matrix(model, w, weight, H_);
   add_tasks(total, x);
   H_.diagonal().array() += kFloor * total;
-  for (Eigen::Index i = 0; i < H_.rows(); ++i) {
-    if (!problem_.fixed_speed[at(i)]) continue;
-    H_.row(i).setZero();
-    H_.col(i).setZero();
-    H_(i, i) = 1.0;
-    J.col(i).setZero();
-  }
+  hold_speeds(H_, problem_.fixed_speed);
+  for (Eigen::Index i = 0; i < J.cols(); ++i)
+    if (problem_.fixed_speed[at(i)] != 0) J.col(i).setZero();
   llt.compute(H_);
 
   for (std::size_t t = 0; t < velocity_.size(); ++t)
