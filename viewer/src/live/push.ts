@@ -5,7 +5,7 @@ import { add, distance, length, scaled, sub, unit, type Vec } from "../scene/vec
 import type { LiveBody } from "./body.ts";
 
 /** N for a metre that the pointer moves in the picture. */
-export const springNPerM = 1000;
+export const dragNPerM = 1000;
 /** N, as the server has it. */
 export const mostN = 500;
 /** A force that lasts is said again so often, ms: the server lets go of what is not said for a second. */
@@ -67,7 +67,7 @@ export class PushHand {
     if (this.#held === null) return;
     const { right, up } = eyes.pixel(this.body.world(this.#held.body, this.#held.point));
     const way = add(scaled(right, x - this.#held.from[0]), up, this.#held.from[1] - y);
-    this.#set(scaled(way, springNPerM));
+    this.#set(scaled(way, dragNPerM));
   }
 
   /** Push the mass centre of a body without a pointer. */
@@ -93,7 +93,7 @@ export class PushHand {
   tick(now_ms: number): void {
     if (this.#held === null || this.force === null) return;
     const from = this.body.world(this.#held.body, this.#held.point);
-    this.body.goals.push = Number.isNaN(from[0]) ? null : [from, add(from, this.force, 1 / springNPerM)];
+    this.body.goals.push = Number.isNaN(from[0]) ? null : [from, add(from, this.force, 1 / dragNPerM)];
     if (length(this.force) === 0 && this.#said === null) return;
     const isNew = this.#said === null || distance(this.#said, this.force) > 0;
     if (!isNew && now_ms - this.#saidAt < again_ms) return;

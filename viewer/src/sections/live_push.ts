@@ -31,6 +31,9 @@ function ringPath(corners: number): string {
 
 const arrows: Readonly<Record<string, readonly [number, number]>> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+/** How far the markers of a level are from their goals; a level of tasks alone has none. */
+const distanceWords = (mm: number, hasMarkers: boolean): string => (!hasMarkers ? "no markers" : Number.isNaN(mm) ? "no goal now" : `${number(mm, 1)} mm RMS`);
+
 export function livePush(summary: LiveSummary, body: LiveBody, options: LivePushOptions): { node: HTMLElement; tell: () => void } {
   const { hand } = options;
   const now = summary.levels.map(() => el("span", { class: "now" }, "–"));
@@ -101,7 +104,7 @@ export function livePush(summary: LiveSummary, body: LiveBody, options: LivePush
   }
 
   function tell(): void {
-    body.levelDistances().forEach((mm, level) => (now[level]!.textContent = Number.isNaN(mm) ? "no goal now" : `${number(mm, 1)} mm RMS`));
+    body.levelDistances().forEach((mm, level) => (now[level]!.textContent = distanceWords(mm, summary.targets.some((t) => t.level === level))));
     const text = words();
     if (status.textContent !== text) status.textContent = text;
     status.classList.toggle("pushed", body.pushed_mm !== null);

@@ -9,7 +9,7 @@ import { install, type FakeElement } from "../fake_dom.ts";
 
 install();
 const { LiveBody, turned } = await import("../../src/live/body.ts");
-const { PushHand, mostN, springNPerM } = await import("../../src/live/push.ts");
+const { PushHand, mostN, dragNPerM } = await import("../../src/live/push.ts");
 const { livePush } = await import("../../src/sections/live_push.ts");
 
 const summary: LiveSummary = {
@@ -69,9 +69,9 @@ describe("the body that follows", () => {
 /** A picture that looks along y: a millimetre is a pixel. */
 const eyes: Eyes = { place: (x) => [1000 * x[0], -1000 * x[2], 1], pixel: () => ({ right: [0.001, 0, 0], up: [0, 0, 0.001] }) };
 
-function holding(): { hand: Hand; sent: [number, Vec, Vec][]; body: InstanceType<typeof LiveBody> } {
+function holding(facts = summary): { hand: Hand; sent: [number, Vec, Vec][]; body: InstanceType<typeof LiveBody> } {
   const sent: [number, Vec, Vec][] = [];
-  const body = new LiveBody(summary, 4);
+  const body = new LiveBody(facts, 4);
   body.push(message());
   return { hand: new PushHand(body, (...words) => void sent.push(words)), sent, body };
 }
@@ -95,7 +95,7 @@ describe("a push", () => {
     expect(sent).toHaveLength(1);
     expect(sent[0]![0]).toBe(0);
     near(sent[0]![1], [0, 0, 0.3]);
-    near(sent[0]![2], [0.15 * springNPerM, 0, 0.1 * springNPerM]);
+    near(sent[0]![2], [0.15 * dragNPerM, 0, 0.1 * dragNPerM]);
     near(body.goals.push![0], [0, 0, 0.3]);
     near(body.goals.push![1], [0.15, 0, 0.4]);
   });
@@ -127,9 +127,9 @@ describe("a push", () => {
 });
 
 describe("the controls below the picture", () => {
-  function shown(): ReturnType<typeof holding> & { tell: () => void; find: (id: string) => FakeElement; key: (type: string, key: string) => void } {
-    const made = holding();
-    const { node, tell } = livePush(summary, made.body, { hand: made.hand, picture: () => ({ right: [1, 0, 0], up: [0, 0, 1] }), dragging: () => undefined, changed: () => made.hand.tick(0) });
+  function shown(facts = summary): ReturnType<typeof holding> & { tell: () => void; find: (id: string) => FakeElement; key: (type: string, key: string) => void } {
+    const made = holding(facts);
+    const { node, tell } = livePush(facts, made.body, { hand: made.hand, picture: () => ({ right: [1, 0, 0], up: [0, 0, 1] }), dragging: () => undefined, changed: () => made.hand.tick(0) });
     const all = (n: FakeElement): FakeElement[] => [n, ...n.children.flatMap((c) => ("children" in c ? all(c as FakeElement) : []))];
     const find = (id: string): FakeElement => all(node as unknown as FakeElement).find((n) => n.getAttribute("id") === id)!;
     find("push-force").value = "200";
@@ -143,6 +143,11 @@ describe("the controls below the picture", () => {
     const { tell, find } = shown();
     tell();
     expect(find("live-levels").textContent).toBe("Level 1: A, 3.0 mm RMSLevel 2: all others, no goal now");
+  });
+  it("say of a level of tasks alone that it has no markers, not that it has no goal", () => {
+    const { tell, find } = shown({ ...summary, levels: ["A", "com:y=0.9m", "all others"], targets: [{ ...summary.targets[0]! }, { ...summary.targets[1]!, level: 2 }] });
+    tell();
+    expect(find("live-levels").textContent).toBe("Level 1: A, 3.0 mm RMSLevel 2: com:y=0.9m, no markersLevel 3: all others, no goal now");
   });
   it("push by keys as long as they are held", () => {
     const { sent, key } = shown();

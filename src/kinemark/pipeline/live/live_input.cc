@@ -159,8 +159,9 @@ void add_body(const model::Model& model, const motion::TrackOptions& track, repo
   for (const auto& level : track.levels) {
     const auto index = static_cast<int>(report.levels.size());
     for (const auto& name : level.markers) level_of.emplace(name, index);
-    report.levels.push_back(level.markers == std::vector<std::string>{"*"} ? "all others"
-                                                                           : join(level.markers));
+    auto names = level.names();
+    std::ranges::replace(names, "*", "all others");
+    report.levels.push_back(join(names));
   }
   if (track.levels.empty()) {
     report.levels.emplace_back("all markers");

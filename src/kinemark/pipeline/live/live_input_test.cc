@@ -112,6 +112,15 @@ TEST_F(LiveInputFile, AFileThatIsNotThereIsSaidByItsReader) {
   EXPECT_THAT(refused("replay:" + (scratch_ / "none.trc").string(), Code::io), HasSubstr("none.trc"));
 }
 
+TEST(LiveInput, ThePageNamesTasksOfLevelsBesideTheirMarkers) {
+  const auto source = open_live_input("sim:walk?seconds=1").value();
+  motion::TrackOptions track;
+  for (const auto* level : {"orientation:thorax,LASI", "com:y=0.9m", "RASI,*"})
+    track.levels.push_back(motion::TrackLevel::parse(level).value());
+  const auto page = live_page(source, {}, track);
+  EXPECT_THAT(page, HasSubstr(R"("orientation:thorax, LASI","com:y=0.9m","RASI, all others")"));
+}
+
 TEST_F(LiveInputFile, ThePageKnowsWhereMarkersWillBe) {
   const auto source = open_live_input("replay:" + file_.string()).value();
   const auto page = live_page(source, "folder/live.mcap");

@@ -25,14 +25,6 @@ namespace {
 
 std::string list(const std::vector<std::string>& names) { return names.empty() ? "none" : join(names); }
 
-/// Names of tasks, then of markers.
-std::vector<std::string> contents_of(const motion::TrackLevel& level) {
-  std::vector<std::string> names;
-  for (const auto& task : level.named) names.push_back(task.text);
-  names.insert(names.end(), level.markers.begin(), level.markers.end());
-  return names;
-}
-
 /// Why each marker of a level was chosen.
 std::string describe_choice(const motion::LevelProposal& proposal, std::size_t level) {
   std::vector<std::string> words;
@@ -55,7 +47,7 @@ std::vector<std::pair<std::string, std::string>> describe_options(const TrackJob
   std::vector<std::pair<std::string, std::string>> options{
       {"levels of priority", std::to_string(std::max<std::size_t>(1, levels.size()))}};
   for (std::size_t i = 0; i < levels.size(); ++i)
-    options.emplace_back(fmt::format("level {}", i + 1), list(contents_of(levels[i])));
+    options.emplace_back(fmt::format("level {}", i + 1), list(levels[i].names()));
   if (result.proposed)
     for (std::size_t i = 0; i < result.proposed->smallest.size(); ++i)
       options.emplace_back(fmt::format("level {} was proposed", i + 1), describe_choice(*result.proposed, i));

@@ -81,6 +81,13 @@ Result<NamedTask> read_task(std::string_view word, std::string_view rest, Kind k
 
 }  // namespace
 
+std::vector<std::string> TrackLevel::names() const {
+  std::vector<std::string> out;
+  for (const auto& task : named) out.push_back(task.text);
+  out.insert(out.end(), markers.begin(), markers.end());
+  return out;
+}
+
 Result<TrackLevel> TrackLevel::parse(std::string_view text) {
   TrackLevel level;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -49,6 +49,8 @@ struct TrackLevel {
   /// coordinate:NAME=VALUE (a number in rad or m, with a unit deg, rad, m or mm, or `rest`),
   /// distance:MARKER-MARKER and com:AXIS=VALUE.
   static Result<TrackLevel> parse(std::string_view text);
+  /// Its tasks and then its markers, as a text names them; tasks that only C++ knows are not among them.
+  [[nodiscard]] std::vector<std::string> names() const;
 };
 
 /// Treatment of coordinates that no tracked marker moves by more than 1 cm per rad (per m: 1 cm).
