@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/screens/plan_text.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "kinemark/core/number.h"
+
+namespace kinemark::screens {
+namespace {
+
+constexpr int kMostLedsTyped = 64;
+
+std::string trimmed(const std::string& text) { return std::string(trim(text)); }
+
+Result<double> parse_positive(const std::string& text, const char* what) {
+  if (text.empty()) return 0.0;
+  const auto number = parse_number(text);
+  if (!number || !(*number > 0.0))
+    return fail(Code::usage, fmt::format("{}: '{}' is no number above 0", what, text));
+  return *number;
+}
+
+}  // namespace
+
+std::string next_trial(const std::string& name) {
+  std::size_t digits = 0;
+  while (digits < name.size() && digits < 9 &&
+         std::isdigit(static_cast<unsigned char>(name[name.size() - 1 - digits])) != 0)
+    ++digits;
+  if (digits == 0) return name + "_02";
+  const std::string number = name.substr(name.size() - digits);
+  return name.substr(0, name.size() - digits) + fmt::format("{:0{}}", std::stol(number) + 1, digits);
+}
+
+Result<std::vector<std::string>> parse_leds(const std::string& text) {
+  std::vector<std::string> names;
+  const auto count = parse_number(text);
+  if (count) {
+    if (*count < 1 || *count > kMostLedsTyped || *count != std::floor(*count))
+      return fail(Code::usage, fmt::format("LEDs: '{}' is no count from 1 to {}", text, kMostLedsTyped));
+    for (int i = 1; i <= static_cast<int>(*count); ++i) names.push_back(fmt::format("LED {}", i));
+    return names;
+  }
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    names.push_back(trimmed(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) return fail(Code::usage, fmt::format("LEDs: a name is missing in '{}'", text));
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      return fail(Code::usage, fmt::format("LEDs: '{}' is named twice", names[i]));
+  }
+  return names;
+}
+
+Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device) {
+  auto leds = parse_leds(wanted.leds);
+  if (!leds) return std::unexpected(leds.error());
+  const auto rate = parse_positive(wanted.rate_hz, "Rate");
+  if (!rate) return std::unexpected(rate.error());
+  const auto duration = parse_positive(wanted.duration_s, "Duration");
+  if (!duration) return std::unexpected(duration.error());
+  if (trimmed(wanted.trial).empty()) return fail(Code::usage, "Trial: a name is missing");
+  Plan plan;
+  plan.duration_s = *duration;
+  plan.scan.leds = std::move(*leds);
+  plan.scan.rate_hz = *rate;
+  plan.scan.timing = device.fastest;
+  for (int c = 0; c < device.cameras; ++c) plan.scan.cameras.emplace_back(1, static_cast<char>('A' + c));
+  return plan;
+}
+
+}  // namespace kinemark::screens

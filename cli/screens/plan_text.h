@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// A set-up as it is typed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/stream/device.h"
+
+namespace kinemark::screens {
+
+/// What is known before the first screen, and what was typed since.
+struct Wanted {
+  std::string source;        ///< to open at once; empty: ask
+  std::string leds = "3";    ///< a count, or names with commas
+  std::string rate_hz;       ///< empty: the highest
+  std::string duration_s;    ///< of a trial; empty: until it is stopped
+  std::string subject;       ///< may be empty
+  std::string trial = "01";  ///< name of the first trial; later ones count on
+};
+
+/// A set-up in numbers.
+struct Plan {
+  stream::ScanPlan scan;    ///< cameras are called A, B, ...; slots are the device's shortest
+  double duration_s = 0.0;  ///< 0: until it is stopped
+};
+
+/// LEDs as typed: a count from 1 ("3": "LED 1" and so on), or names with commas. Code::usage for others.
+[[nodiscard]] Result<std::vector<std::string>> parse_leds(const std::string& text);
+
+/// The set-up of a device. Code::usage for a line that makes no sense, named.
+[[nodiscard]] Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device);
+
+/// The name after this one: its number at the end counted up, as wide as before; one without gets "_02".
+[[nodiscard]] std::string next_trial(const std::string& name);
+
+}  // namespace kinemark::screens

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/screens/plan_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace kinemark::screens {
+namespace {
+
+TEST(ParseLeds, TakesACountOrNames) {
+  EXPECT_THAT(*parse_leds("2"), testing::ElementsAre("LED 1", "LED 2"));
+  EXPECT_THAT(*parse_leds(" hand , left elbow"), testing::ElementsAre("hand", "left elbow"));
+  for (const char* wrong : {"", "0", "65", "2.5", "-1", "a,", ",a", "a,b,a"})
+    EXPECT_FALSE(parse_leds(wrong)) << wrong;
+}
+
+TEST(PlanOf, TakesSlotsAndCamerasOfTheDevice) {
+  stream::DeviceCapabilities device;
+  device.cameras = 3;
+  device.fastest.settle_s = 1e-4;
+  Wanted wanted;
+  wanted.duration_s = "2.5";
+  const auto plan = plan_of(wanted, device);
+  ASSERT_TRUE(plan);
+  EXPECT_THAT(plan->scan.cameras, testing::ElementsAre("A", "B", "C"));
+  EXPECT_EQ(plan->scan.timing.settle_s, 1e-4);
+  EXPECT_EQ(plan->scan.rate_hz, 0.0);
+  EXPECT_EQ(plan->duration_s, 2.5);
+}
+
+TEST(NextTrial, CountsTheNumberAtTheEnd) {
+  EXPECT_EQ(next_trial("01"), "02");
+  EXPECT_EQ(next_trial("reach_09"), "reach_10");
+  EXPECT_EQ(next_trial("99"), "100");
+  EXPECT_EQ(next_trial("walk"), "walk_02");
+}
+
+}  // namespace
+}  // namespace kinemark::screens

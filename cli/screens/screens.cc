@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/screens/screens.h"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+
+#include "cli/screens/lines.h"
+#include "cli/screens/menu.h"
+
+namespace kinemark::screens {
+namespace {
+
+constexpr int kTick_ms = 100;           // between two looks at the device
+constexpr std::size_t kLongest = 4096;  // bytes of a line: a longer one is none that a person typed
+
+// Lines of standard input, without waiting longer than asked.
+class StandardInput {
+ public:
+  TypedLine read(int milliseconds) {
+    while (true) {
+      if (const std::size_t end = waiting_.find('\n'); end != std::string::npos) {
+        TypedLine line{TypedLine::Kind::line, waiting_.substr(0, end)};
+        waiting_.erase(0, end + 1);
+        return line;
+      }
+      pollfd input{STDIN_FILENO, POLLIN, 0};
+      if (::poll(&input, 1, milliseconds) <= 0) return {};
+      std::array<char, 512> bytes;
+      const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+      if (count <= 0 || waiting_.size() > kLongest) return {TypedLine::Kind::closed, {}};
+      waiting_.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  std::string waiting_;
+};
+
+}  // namespace
+
+std::vector<std::string> show_menus(Desk& desk, const Wanted& wanted, Terminal& terminal) {
+  Menu menu(desk, wanted);
+  while (menu.screen() != Menu::Screen::ended) {
+    terminal.show(menu.draw(terminal.rows(), terminal.columns()));
+    menu.press(terminal.wait(kTick_ms));
+    menu.tick();
+  }
+  return menu.kept();
+}
+
+std::vector<std::string> acquire_by_hand(Desk& desk, const Wanted& wanted) {
+  if (auto terminal = Terminal::open()) {
+    if ((*terminal)->rows() >= kLeastRows && (*terminal)->columns() >= kLeastColumns)
+      return show_menus(desk, wanted, **terminal);
+    const int columns = (*terminal)->columns(), rows = (*terminal)->rows();
+    terminal->reset();
+    fmt::print("This terminal is {} x {}; the menus need {} x {}. In lines, then.\n", columns, rows,
+               kLeastColumns, kLeastRows);
+  }
+  StandardInput input;
+  return ask_in_lines(desk, wanted,
+                      {[&](int milliseconds) { return input.read(milliseconds); },
+                       [](const std::string& text) {
+                         fmt::print("{}", text);
+                         std::fflush(stdout);
+                       }});
+}
+
+}  // namespace kinemark::screens
