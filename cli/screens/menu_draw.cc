@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kName = 10, kBar = 5,
               kCamera = 17;  // columns of a name, of a bar, of what a camera says of an LED
+constexpr int kFrame = 6;    // rows of heading, guide, message and keys
 
 std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.0f}%", 100.0 * share); }
 
@@ -131,14 +132,21 @@ void Menu::draw_plan(Canvas& canvas) const {
               Ink::dim);
 }
 
+// Detectors side by side, as large as they can be: the table of LEDs stands beside them or below.
 void Menu::draw_live(Canvas& canvas) const {
-  const int cameras = static_cast<int>(granted_.plan.cameras.size());
-  const int table = kName + 6 + kCamera * std::max(cameras, 1);
-  const int room = std::max((canvas.columns() - table - 2) / std::max(cameras, 1), 8);
-  const int rows = std::min(room / 2, canvas.rows() - 8);
+  const int cameras = std::max(static_cast<int>(granted_.plan.cameras.size()), 1);
+  const int table = kName + 6 + kCamera * cameras;
+  const int room = canvas.rows() - kFrame;
+  const int beside = std::min((canvas.columns() - table - 3) / (2 * cameras), room);
+  const int below = std::min((canvas.columns() - 2) / (2 * cameras),
+                             room - 1 - static_cast<int>(granted_.plan.leds.size()));
+  const int rows = std::max({beside, below, 4});
   draw_detectors(canvas, rows, 2 * rows);
-  draw_leds(canvas, 2, cameras * 2 * rows + 2);
-  if (!live_.guide.empty()) canvas.text(canvas.rows() - 5, 1, "Alignment: " + live_.guide);
+  if (beside >= below)
+    draw_leds(canvas, 2, cameras * 2 * rows + 2);
+  else
+    draw_leds(canvas, 2 + rows, 1);
+  if (!live_.guide.empty()) canvas.text(canvas.rows() - 4, 1, "Alignment: " + live_.guide);
 }
 
 void Menu::draw_detectors(Canvas& canvas, int rows, int width) const {
@@ -160,7 +168,7 @@ void Menu::draw_leds(Canvas& canvas, int row, int column) const {
                 fmt::format("{:<5.5} noise hid", granted_.plan.cameras[c]), Ink::dim);
   for (std::size_t l = 0; l < leds; ++l) {
     const int at = row + 1 + static_cast<int>(l);
-    if (at >= canvas.rows() - 5) break;
+    if (at >= canvas.rows() - 4) break;
     const bool chosen = l == chosen_led_;
     canvas.text(at, column, (chosen ? ">" : " ") + granted_.plan.leds[l], chosen ? Ink::bold : Ink::plain,
                 kName - 1);

@@ -208,6 +208,8 @@ TEST(Menu, FitsIntoTheSmallestScreenAndUsesALargeOne) {
   EXPECT_THAT(small.to_text(), HasSubstr("LED 8"));
   EXPECT_EQ(small.at(2, 1).glyph, U'┌');
   EXPECT_THAT(large.to_text(), HasSubstr("r record"));
+  EXPECT_EQ(large.at(2, 1).glyph, U'┌');
+  EXPECT_EQ(large.at(40, 1).glyph, U'└') << large.to_text();
 }
 
 TEST(Menu, WrongLinesOfTheSetUpAreNamed) {
