@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/screens/acquire_desk.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/acquire/trial_notes.h"
+
+namespace kinemark::screens {
+namespace {
+
+constexpr double kLeastRoom_s = 60.0;  // of a trial without a duration
+constexpr int kSeconds = 1;            // of frames that the live view shows
+
+// Bytes that a frame takes in the file, beside its counts: message, check and index.
+constexpr double kFrameBytes = 90.0;
+
+std::size_t size_of(std::int64_t n) { return static_cast<std::size_t>(n); }
+
+}  // namespace
+
+// Looks at frames on the recorder's thread for followers; the screens ask for what it saw.
+class AcquireDesk::Watcher final : public pipeline::BlockFollower {
+ public:
+  explicit Watcher(const stream::GrantedPlan& plan)
+      : observations_(size_of(plan.layout.led_count() * plan.layout.camera_count())),
+        cameras_(size_of(plan.layout.camera_count())),
+        monitor_(plan.layout, std::max(4, static_cast<int>(kSeconds * plan.plan.rate_hz))) {}
+
+  void take(const stream::Block& block) override {
+    const std::scoped_lock lock(mutex_);
+    const std::size_t dark = block.dark.empty() ? 0 : 4 * cameras_;
+    for (std::size_t f = 0; f < size_of(block.frames); ++f)
+      monitor_.push(block.first_frame + static_cast<std::int64_t>(f),
+                    std::span(block.counts).subspan(4 * observations_ * f, 4 * observations_),
+                    std::span(block.flags).subspan(observations_ * f, observations_),
+                    std::span(block.dark).subspan(dark * f, dark));
+  }
+
+  void tell(LiveView& view) const {
+    const std::scoped_lock lock(mutex_);
+    view.frames = monitor_.frames();
+    for (std::size_t o = 0; o < observations_; ++o) {
+      const int led = static_cast<int>(o / cameras_), camera = static_cast<int>(o % cameras_);
+      view.seen.push_back(monitor_.seen(led, camera));
+      view.spots.push_back(monitor_.spots(led, camera));
+    }
+  }
+
+ private:
+  std::size_t observations_, cameras_;
+  mutable std::mutex mutex_;
+  workflow::CountsMonitor monitor_;
+};
+
+AcquireDesk::AcquireDesk(TrialFiles files) : files_(std::move(files)) {}
+AcquireDesk::~AcquireDesk() { close(); }
+
+std::vector<stream::DeviceInfo> AcquireDesk::sources() { return pipeline::enumerate_devices(); }
+
+Result<stream::DeviceCapabilities> AcquireDesk::open(const std::string& uri) {
+  close();
+  auto device = pipeline::open_device(uri, files_.seed);
+  if (!device) return std::unexpected(device.error());
+  uri_ = uri;
+  device_ = std::move(*device);
+  return device_->capabilities();
+}
+
+Result<stream::GrantedPlan> AcquireDesk::run(const stream::ScanPlan& plan) {
+  recorder_.reset();
+  auto granted = device_->configure(plan);
+  if (!granted) return std::unexpected(granted.error());
+  granted_ = std::move(*granted);
+  if (const auto started = start({}); !started) return std::unexpected(started.error());
+  return granted_;
+}
+
+// Whatever ran before has ended.
+Status AcquireDesk::start(pipeline::RecorderOptions options) {
+  recorder_.reset();
+  trouble_.clear();
+  watcher_ = std::make_shared<Watcher>(granted_);
+  options.followers.push_back(watcher_);
+  auto recorder = pipeline::Recorder::start(*device_, granted_, std::move(options));
+  if (!recorder) return std::unexpected(recorder.error());
+  recorder_ = std::move(*recorder);
+  return {};
+}
+
+LiveView AcquireDesk::live() {
+  LiveView view;
+  if (watcher_) watcher_->tell(view);
+  view.trouble = trouble_;
+  if (!recorder_) return view;
+  const pipeline::RecorderProgress progress = recorder_->progress();
+  if (progress.away)
+    view.trouble = uri_ + ": the device does not answer; look at its plug. What came is kept";
+  if (!recording_) return view;
+  view.acknowledged = progress.acknowledged;
+  view.dropped_by_device = progress.dropped_by_device;
+  view.dropped_here = progress.dropped_here;
+  view.recorded_s = static_cast<double>(progress.frames) / granted_.plan.rate_hz;
+  view.ended = recorder_->wait_for(std::chrono::milliseconds(0));
+  return view;
+}
+
+Status AcquireDesk::set_intensity(int led, double intensity) {
+  stream::ScanPlan plan = granted_.plan;
+  if (plan.intensity.empty()) plan.intensity.assign(plan.leds.size(), 1.0);
+  plan.intensity[static_cast<std::size_t>(led)] = intensity;
+  const auto granted = run(plan);
+  return granted ? Status{} : std::unexpected(granted.error());
+}
+
+Status AcquireDesk::check_room(const TrialName& name) const {
+  std::error_code none;
+  const auto space = std::filesystem::space(files_.folder, none);
+  if (none) return {};
+  const double frame =
+      9.0 * static_cast<double>(granted_.layout.led_count() * granted_.layout.camera_count()) +
+      8.0 * static_cast<double>(granted_.layout.camera_count()) + kFrameBytes;
+  const double seconds = static_cast<double>(space.available) / (frame * granted_.plan.rate_hz);
+  if (seconds >= std::max(name.duration_s, kLeastRoom_s)) return {};
+  return fail(
+      Code::io,
+      fmt::format("{}: the disk has room for {:.0f} s of this trial; make room or choose another folder",
+                  files_.folder.string(), seconds));
+}
+
+std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) const {
+  return pipeline::describe_source({.source = uri_, .subject = name.subject, .trial = name.trial}, granted_,
+                                   device_->capabilities());
+}
+
+Status AcquireDesk::record(const TrialName& name) {
+  std::error_code failed;
+  std::filesystem::create_directories(files_.folder, failed);
+  if (failed)
+    return fail(Code::io, fmt::format("{}: cannot be made: {}", files_.folder.string(), failed.message()));
+  if (name.trial.find('/') != std::string::npos)
+    return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
+  if (const auto room = check_room(name); !room) return room;
+  trial_ = files_.folder / (name.trial + ".mcap");
+  pipeline::RecorderOptions options;
+  options.file = trial_;
+  options.recording = files_.recording;
+  options.metadata = about(name);
+  options.frames = static_cast<std::int64_t>(name.duration_s * granted_.plan.rate_hz + 0.5);
+  if (const auto started = start(std::move(options)); !started) {
+    if (const auto again = start({}); !again) trouble_ = again.error().message;
+    return started;
+  }
+  recording_ = true;
+  return {};
+}
+
+Result<std::vector<CheckLine>> AcquireDesk::stop() {
+  recorder_->stop();
+  const pipeline::Recorded recorded = recorder_->finish();
+  recording_ = false;
+  std::vector<CheckLine> lines;
+  if (recorded.error) lines.push_back({false, recorded.error->message});
+  for (const pipeline::TrialNote& note : pipeline::describe_trial(recorded, granted_.layout))
+    lines.push_back({note.good, note.text});
+  if (const auto again = start({}); !again) trouble_ = again.error().message;
+  return lines;
+}
+
+Result<std::string> AcquireDesk::keep() { return std::exchange(trial_, {}).string(); }
+
+Status AcquireDesk::discard() {
+  std::error_code failed;
+  std::filesystem::remove(trial_, failed);
+  if (failed)
+    return fail(Code::io, fmt::format("{}: cannot be removed: {}", trial_.string(), failed.message()));
+  trial_.clear();
+  return {};
+}
+
+void AcquireDesk::close() {
+  if (recorder_) {
+    recorder_->stop();
+    (void)recorder_->finish();  // a trial that was recorded is closed and stays
+  }
+  recorder_.reset();
+  watcher_.reset();
+  device_.reset();
+  recording_ = false;
+}
+
+}  // namespace kinemark::screens

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// The desk of the menus: real sources, a recorder, files.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/screens/desk.h"
+#include "kinemark/io/recording/writer.h"
+#include "kinemark/pipeline/acquire/recorder.h"
+
+namespace kinemark::screens {
+
+/// Where trials go, and how.
+struct TrialFiles {
+  std::filesystem::path folder = ".";  ///< of the trials, named TRIAL.mcap; made when it is absent
+  std::uint64_t seed = 1;              ///< of simulated sources
+  io::RecordingOptions recording;      ///< forcing to the disk; a file that is there is never replaced
+};
+
+/// See Desk. A device runs all the time: into a file while a trial is recorded, for the live view otherwise.
+class AcquireDesk final : public Desk {
+ public:
+  explicit AcquireDesk(TrialFiles files);
+  ~AcquireDesk() override;
+  [[nodiscard]] std::vector<stream::DeviceInfo> sources() override;
+  [[nodiscard]] Result<stream::DeviceCapabilities> open(const std::string& uri) override;
+  [[nodiscard]] Result<stream::GrantedPlan> run(const stream::ScanPlan& plan) override;
+  [[nodiscard]] LiveView live() override;
+  [[nodiscard]] Status set_intensity(int led, double intensity) override;
+  /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
+  /// pipeline::Recorder::start().
+  [[nodiscard]] Status record(const TrialName& name) override;
+  [[nodiscard]] Result<std::vector<CheckLine>> stop() override;
+  [[nodiscard]] Result<std::string> keep() override;
+  [[nodiscard]] Status discard() override;
+  void close() override;
+
+ private:
+  class Watcher;
+  [[nodiscard]] Status start(pipeline::RecorderOptions options);
+  [[nodiscard]] Status check_room(const TrialName& name) const;
+  [[nodiscard]] std::vector<io::RecordingMetadata> about(const TrialName& name) const;
+
+  TrialFiles files_;
+  std::string uri_;
+  std::unique_ptr<stream::Device> device_;
+  stream::GrantedPlan granted_;
+  std::shared_ptr<Watcher> watcher_;
+  std::unique_ptr<pipeline::Recorder> recorder_;  // after the device, which it uses
+  std::filesystem::path trial_;                   // that is recorded, or was and is not judged yet
+  bool recording_ = false;
+  std::string trouble_;
+};
+
+}  // namespace kinemark::screens
