@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "cli/screens/plan_text.h"
 #include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 
 namespace kinemark::screens {
 namespace {
@@ -18,7 +18,7 @@ constexpr int kTick_ms = 100;  // between two looks at a trial that is recorded
 
 class Dialogue {
  public:
-  Dialogue(Desk& desk, Wanted wanted, const LineTerminal& terminal)
+  Dialogue(pipeline::Desk& desk, pipeline::Wanted wanted, const LineTerminal& terminal)
       : desk_(desk), wanted_(std::move(wanted)), terminal_(terminal) {}
 
   std::vector<std::string> run() {
@@ -75,7 +75,7 @@ class Dialogue {
         if (!typed) return false;
         *value = *typed;
       }
-      const auto plan = plan_of(wanted_, device_);
+      const auto plan = pipeline::plan_of(wanted_, device_);
       const auto granted = plan ? desk_.run(plan->scan) : std::unexpected(plan.error());
       if (granted) {
         duration_s_ = plan->duration_s;
@@ -114,7 +114,7 @@ class Dialogue {
     const auto check = desk_.stop();
     if (!check) say(check.error().message);
     if (check)
-      for (const CheckLine& told : *check) say((told.good ? "  " : "! ") + told.text);
+      for (const pipeline::CheckLine& told : *check) say((told.good ? "  " : "! ") + told.text);
     if (line.kind == TypedLine::Kind::closed) return keep(), false;
     const auto answer = ask("k keep, d discard", "k");
     if (answer && *answer == "d")
@@ -129,15 +129,15 @@ class Dialogue {
     if (!file) return say(file.error().message);
     kept_.push_back(*file);
     say("Kept: " + *file);
-    wanted_.trial = next_trial(wanted_.trial);
+    wanted_.trial = pipeline::next_trial(wanted_.trial);
   }
   void discard() {
     const auto gone = desk_.discard();
     say(gone ? "Discarded: " + wanted_.trial : gone.error().message);
   }
 
-  Desk& desk_;
-  Wanted wanted_;
+  pipeline::Desk& desk_;
+  pipeline::Wanted wanted_;
   const LineTerminal& terminal_;
   stream::DeviceCapabilities device_;
   double duration_s_ = 0.0;
@@ -146,7 +146,8 @@ class Dialogue {
 
 }  // namespace
 
-std::vector<std::string> ask_in_lines(Desk& desk, const Wanted& wanted, const LineTerminal& terminal) {
+std::vector<std::string> ask_in_lines(pipeline::Desk& desk, const pipeline::Wanted& wanted,
+                                      const LineTerminal& terminal) {
   return Dialogue(desk, wanted, terminal).run();
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/screens/desk.h"
 #include "cli/screens/menu.h"
+#include "kinemark/pipeline/desk/desk.h"
 
 namespace kinemark::screens {
 
@@ -28,7 +28,7 @@ struct LineTerminal {
 
 /// Ask for source, set-up and trials, one line each, until `q` or the end of the input; a trial that is
 /// recorded then is kept. Empty lines take what stands in brackets. Files of the trials that were kept.
-[[nodiscard]] std::vector<std::string> ask_in_lines(Desk& desk, const Wanted& wanted,
+[[nodiscard]] std::vector<std::string> ask_in_lines(pipeline::Desk& desk, const pipeline::Wanted& wanted,
                                                     const LineTerminal& terminal);
 
 }  // namespace kinemark::screens

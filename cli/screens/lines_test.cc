@@ -7,10 +7,14 @@
 
 #include <deque>
 
-#include "cli/screens/testing/fake_desk.h"
+#include "kinemark/pipeline/desk/testing/fake_desk.h"
 
 namespace kinemark::screens {
 namespace {
+
+using pipeline::FakeDesk;
+using pipeline::rig_at;
+using pipeline::Wanted;
 
 using testing::Contains;
 using testing::ElementsAre;

@@ -5,15 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/screens/testing/fake_desk.h"
+#include "kinemark/pipeline/desk/testing/fake_desk.h"
 
 namespace kinemark::screens {
 namespace {
 
+using pipeline::DeskStep;
+using pipeline::FakeDesk;
+using pipeline::for_seconds;
+using pipeline::rig_at;
+using pipeline::Wanted;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-using Screen = Menu::Screen;
 
 void type(Menu& menu, const std::u32string& keys) {
   for (const char32_t c : keys) menu.press(Key::of(c));
@@ -32,21 +36,21 @@ TEST(Menu, FromTheSourceToAKeptTrial) {
   press(menu, Key::Kind::enter);
   EXPECT_THAT(shown(menu), HasSubstr("rig 1986: up to 8 LEDs, 2 cameras, 12 bits"));
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::live);
+  EXPECT_EQ(menu.state().step, DeskStep::live);
   EXPECT_THAT(desk.asked.leds, ElementsAre("LED 1", "LED 2", "LED 3"));
   EXPECT_THAT(desk.asked.cameras, ElementsAre("A", "B"));
   type(menu, U"r");
-  EXPECT_EQ(menu.screen(), Screen::recording);
+  EXPECT_EQ(menu.state().step, DeskStep::recording);
   type(menu, U"s");
   EXPECT_THAT(shown(menu), HasSubstr("! LED 2 is dark in camera B: look at its wire"));
   type(menu, U"k");
-  EXPECT_EQ(menu.screen(), Screen::live);
-  EXPECT_THAT(menu.kept(), ElementsAre("raw/01.mcap"));
+  EXPECT_EQ(menu.state().step, DeskStep::live);
+  EXPECT_THAT(menu.state().kept, ElementsAre("raw/01.mcap"));
   EXPECT_THAT(shown(menu), HasSubstr("Kept: raw/01.mcap"));
   type(menu, U"rsk");
-  EXPECT_THAT(menu.kept(), ElementsAre("raw/01.mcap", "raw/02.mcap"));
+  EXPECT_THAT(menu.state().kept, ElementsAre("raw/01.mcap", "raw/02.mcap"));
   type(menu, U"q");
-  EXPECT_EQ(menu.screen(), Screen::ended);
+  EXPECT_EQ(menu.state().step, DeskStep::ended);
   EXPECT_EQ(desk.calls.back(), "close");
 }
 
@@ -57,26 +61,26 @@ TEST(Menu, ATrialIsDiscardedOnlyAfterASecondKey) {
   type(menu, U"rsd");
   EXPECT_THAT(shown(menu), HasSubstr("Discard 01? Its frames are gone then."));
   type(menu, U"n");
-  EXPECT_EQ(menu.screen(), Screen::check);
+  EXPECT_EQ(menu.state().step, DeskStep::check);
   EXPECT_THAT(desk.calls, Not(testing::Contains("discard")));
   EXPECT_THAT(shown(menu), Not(HasSubstr("Discard 01?")));
   type(menu, U"dy");
   EXPECT_EQ(desk.calls.back(), "discard");
   EXPECT_THAT(shown(menu), HasSubstr("Discarded: 01"));
-  EXPECT_TRUE(menu.kept().empty());
+  EXPECT_TRUE(menu.state().kept.empty());
 }
 
 TEST(Menu, ARateThatDoesNotFitIsRefusedWithTheHighest) {
   FakeDesk desk;
   Menu menu(desk, rig_at("8", "200"));
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::plan);
+  EXPECT_EQ(menu.state().step, DeskStep::plan);
   EXPECT_THAT(shown(menu), HasSubstr("8 LEDs at 200 Hz do not fit: the highest rate is 138 Hz"));
   press(menu, Key::Kind::down);
   press(menu, Key::Kind::backspace, 3);
   type(menu, U"138");
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::live);
+  EXPECT_EQ(menu.state().step, DeskStep::live);
   EXPECT_THAT(shown(menu), Not(HasSubstr("do not fit")));
 }
 
@@ -86,7 +90,7 @@ TEST(Menu, ASourceThatAnotherHasIsRefusedAndTheListStays) {
   EXPECT_THAT(shown(menu), HasSubstr("in use by another program"));
   press(menu, Key::Kind::down, 5);
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::source);
+  EXPECT_EQ(menu.state().step, DeskStep::source);
   EXPECT_THAT(shown(menu), HasSubstr("serial:/dev/ttyACM0: another program has it"));
 }
 
@@ -96,12 +100,12 @@ TEST(Menu, AnAddressCanBeTyped) {
   Menu menu(desk, {});
   EXPECT_THAT(shown(menu), HasSubstr("No device was found"));
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::source);
+  EXPECT_EQ(menu.state().step, DeskStep::source);
   type(menu, U"o");
   type(menu, U"sim:rigq");
   press(menu, Key::Kind::backspace);
   press(menu, Key::Kind::enter);
-  EXPECT_EQ(menu.screen(), Screen::plan);
+  EXPECT_EQ(menu.state().step, DeskStep::plan);
   EXPECT_EQ(desk.calls.back(), "open sim:rig");
 }
 
@@ -112,10 +116,10 @@ TEST(Menu, ATrialEndsWhenItsTimeIsUp) {
   type(menu, U"r");
   desk.now.recorded_s = 4.9;
   menu.tick();
-  EXPECT_EQ(menu.screen(), Screen::recording);
+  EXPECT_EQ(menu.state().step, DeskStep::recording);
   desk.now.recorded_s = 5.0;
   menu.tick();
-  EXPECT_EQ(menu.screen(), Screen::check);
+  EXPECT_EQ(menu.state().step, DeskStep::check);
 }
 
 TEST(Menu, ADiskThatIsFullIsSaidBeforeTheTrial) {
@@ -124,7 +128,7 @@ TEST(Menu, ADiskThatIsFullIsSaidBeforeTheTrial) {
   Menu menu(desk, rig_at());
   press(menu, Key::Kind::enter);
   type(menu, U"r");
-  EXPECT_EQ(menu.screen(), Screen::live);
+  EXPECT_EQ(menu.state().step, DeskStep::live);
   EXPECT_THAT(shown(menu), HasSubstr("the disk has room for 2 minutes"));
 }
 
@@ -183,8 +187,8 @@ TEST(Menu, InterruptedItKeepsWhatIsRecorded) {
     press(menu, Key::Kind::enter);
     type(menu, keys);
     press(menu, Key::Kind::interrupt);
-    EXPECT_EQ(menu.screen(), Screen::ended);
-    EXPECT_EQ(menu.kept().size(), keys.empty() ? 0U : 1U);
+    EXPECT_EQ(menu.state().step, DeskStep::ended);
+    EXPECT_EQ(menu.state().kept.size(), keys.empty() ? 0U : 1U);
     EXPECT_EQ(desk.calls.back(), "close");
   }
 }
@@ -225,7 +229,7 @@ TEST(Menu, WrongLinesOfTheSetUpAreNamed) {
     FakeDesk desk;
     Menu menu(desk, wanted);
     press(menu, Key::Kind::enter);
-    EXPECT_EQ(menu.screen(), Screen::plan) << said;
+    EXPECT_EQ(menu.state().step, DeskStep::plan) << said;
     EXPECT_THAT(shown(menu), HasSubstr(said));
   }
 }

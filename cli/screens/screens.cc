@@ -43,17 +43,18 @@ class StandardInput {
 
 }  // namespace
 
-std::vector<std::string> show_menus(Desk& desk, const Wanted& wanted, Terminal& terminal) {
+std::vector<std::string> show_menus(pipeline::Desk& desk, const pipeline::Wanted& wanted,
+                                    Terminal& terminal) {
   Menu menu(desk, wanted);
-  while (menu.screen() != Menu::Screen::ended) {
+  while (menu.state().step != pipeline::DeskStep::ended) {
     terminal.show(menu.draw(terminal.rows(), terminal.columns()));
     menu.press(terminal.wait(kTick_ms));
     menu.tick();
   }
-  return menu.kept();
+  return menu.state().kept;
 }
 
-std::vector<std::string> acquire_by_hand(Desk& desk, const Wanted& wanted) {
+std::vector<std::string> acquire_by_hand(pipeline::Desk& desk, const pipeline::Wanted& wanted) {
   if (auto terminal = Terminal::open()) {
     if ((*terminal)->rows() >= kLeastRows && (*terminal)->columns() >= kLeastColumns)
       return show_menus(desk, wanted, **terminal);

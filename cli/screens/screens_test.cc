@@ -7,10 +7,12 @@
 
 #include <deque>
 
-#include "cli/screens/testing/fake_desk.h"
+#include "kinemark/pipeline/desk/testing/fake_desk.h"
 
 namespace kinemark::screens {
 namespace {
+
+using pipeline::FakeDesk;
 
 // A terminal whose keys are known before; keeps what it was shown.
 struct FakeTerminal final : Terminal {

@@ -12,7 +12,7 @@
 #include "kinemark/stream/device.h"
 #include "kinemark/workflow/rig/counts_monitor.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 
 /// Live numbers of a device that runs.
 struct LiveView {
@@ -22,8 +22,9 @@ struct LiveView {
   std::int64_t acknowledged = 0;                         ///< of the trial that is recorded
   std::int64_t dropped_by_device = 0, dropped_here = 0;  ///< of the trial
   double recorded_s = 0.0;                               ///< of the trial
-  std::string guide;                                     ///< how to align the cameras; empty: nothing known
-  std::string trouble;                                   ///< of the device or the disk; empty: none
+  bool ended = false;   ///< the trial has ended by itself: the device gives no more, or failed
+  std::string guide;    ///< how to align the cameras; empty: nothing known
+  std::string trouble;  ///< of the device or the disk; empty: none
 };
 
 /// How a trial is called.
@@ -70,4 +71,4 @@ class Desk {
   Desk& operator=(const Desk&) = default;
 };
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

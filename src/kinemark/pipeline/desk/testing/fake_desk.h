@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/screens/desk.h"
-#include "cli/screens/plan_text.h"
+#include "kinemark/pipeline/desk/desk.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 
 /// A rig with two cameras that refuses more than 138 Hz and has a disk that can be full.
 struct FakeDesk final : Desk {
@@ -87,4 +87,4 @@ inline Wanted for_seconds(const std::string& duration_s) {
   return wanted;
 }
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

@@ -9,7 +9,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/stream/device.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 
 /// What is known before the first screen, and what was typed since.
 struct Wanted {
@@ -36,4 +36,4 @@ struct Plan {
 /// The name after this one: its number at the end counted up, as wide as before; one without gets "_02".
 [[nodiscard]] std::string next_trial(const std::string& name);
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

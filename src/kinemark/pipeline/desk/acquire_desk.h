@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/screens/desk.h"
 #include "kinemark/io/recording/writer.h"
 #include "kinemark/pipeline/acquire/recorder.h"
+#include "kinemark/pipeline/desk/desk.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 
 /// Where trials go, and how.
 struct TrialFiles {
@@ -33,7 +33,7 @@ class AcquireDesk final : public Desk {
   [[nodiscard]] LiveView live() override;
   [[nodiscard]] Status set_intensity(int led, double intensity) override;
   /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
-  /// pipeline::Recorder::start().
+  /// Recorder::start().
   [[nodiscard]] Status record(const TrialName& name) override;
   [[nodiscard]] Result<std::vector<CheckLine>> stop() override;
   [[nodiscard]] Result<std::string> keep() override;
@@ -42,7 +42,7 @@ class AcquireDesk final : public Desk {
 
  private:
   class Watcher;
-  [[nodiscard]] Status start(pipeline::RecorderOptions options);
+  [[nodiscard]] Status start(RecorderOptions options);
   [[nodiscard]] Status check_room(const TrialName& name) const;
   [[nodiscard]] std::vector<io::RecordingMetadata> about(const TrialName& name) const;
 
@@ -51,10 +51,10 @@ class AcquireDesk final : public Desk {
   std::unique_ptr<stream::Device> device_;
   stream::GrantedPlan granted_;
   std::shared_ptr<Watcher> watcher_;
-  std::unique_ptr<pipeline::Recorder> recorder_;  // after the device, which it uses
-  std::filesystem::path trial_;                   // that is recorded, or was and is not judged yet
+  std::unique_ptr<Recorder> recorder_;  // after the device, which it uses
+  std::filesystem::path trial_;         // that is recorded, or was and is not judged yet
   bool recording_ = false;
   std::string trouble_;
 };
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

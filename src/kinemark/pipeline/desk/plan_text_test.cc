@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/screens/plan_text.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 namespace {
 
 TEST(ParseLeds, TakesACountOrNames) {
@@ -37,4 +37,4 @@ TEST(NextTrial, CountsTheNumberAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/screens/acquire_desk.h"
+#include "kinemark/pipeline/desk/acquire_desk.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 namespace {
 
 constexpr double kLeastRoom_s = 60.0;  // of a trial without a duration
@@ -24,7 +24,7 @@ std::size_t size_of(std::int64_t n) { return static_cast<std::size_t>(n); }
 }  // namespace
 
 // Looks at frames on the recorder's thread for followers; the screens ask for what it saw.
-class AcquireDesk::Watcher final : public pipeline::BlockFollower {
+class AcquireDesk::Watcher final : public BlockFollower {
  public:
   explicit Watcher(const stream::GrantedPlan& plan)
       : observations_(size_of(plan.layout.led_count() * plan.layout.camera_count())),
@@ -60,11 +60,11 @@ class AcquireDesk::Watcher final : public pipeline::BlockFollower {
 AcquireDesk::AcquireDesk(TrialFiles files) : files_(std::move(files)) {}
 AcquireDesk::~AcquireDesk() { close(); }
 
-std::vector<stream::DeviceInfo> AcquireDesk::sources() { return pipeline::enumerate_devices(); }
+std::vector<stream::DeviceInfo> AcquireDesk::sources() { return enumerate_devices(); }
 
 Result<stream::DeviceCapabilities> AcquireDesk::open(const std::string& uri) {
   close();
-  auto device = pipeline::open_device(uri, files_.seed);
+  auto device = open_device(uri, files_.seed);
   if (!device) return std::unexpected(device.error());
   uri_ = uri;
   device_ = std::move(*device);
@@ -81,12 +81,12 @@ Result<stream::GrantedPlan> AcquireDesk::run(const stream::ScanPlan& plan) {
 }
 
 // Whatever ran before has ended.
-Status AcquireDesk::start(pipeline::RecorderOptions options) {
+Status AcquireDesk::start(RecorderOptions options) {
   recorder_.reset();
   trouble_.clear();
   watcher_ = std::make_shared<Watcher>(granted_);
   options.followers.push_back(watcher_);
-  auto recorder = pipeline::Recorder::start(*device_, granted_, std::move(options));
+  auto recorder = Recorder::start(*device_, granted_, std::move(options));
   if (!recorder) return std::unexpected(recorder.error());
   recorder_ = std::move(*recorder);
   return {};
@@ -97,7 +97,7 @@ LiveView AcquireDesk::live() {
   if (watcher_) watcher_->tell(view);
   view.trouble = trouble_;
   if (!recorder_) return view;
-  const pipeline::RecorderProgress progress = recorder_->progress();
+  const RecorderProgress progress = recorder_->progress();
   if (progress.away)
     view.trouble = uri_ + ": the device does not answer; look at its plug. What came is kept";
   if (!recording_) return view;
@@ -133,8 +133,8 @@ Status AcquireDesk::check_room(const TrialName& name) const {
 }
 
 std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) const {
-  return pipeline::describe_source({.source = uri_, .subject = name.subject, .trial = name.trial}, granted_,
-                                   device_->capabilities());
+  return describe_source({.source = uri_, .subject = name.subject, .trial = name.trial}, granted_,
+                         device_->capabilities());
 }
 
 Status AcquireDesk::record(const TrialName& name) {
@@ -146,7 +146,7 @@ Status AcquireDesk::record(const TrialName& name) {
     return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
   if (const auto room = check_room(name); !room) return room;
   trial_ = files_.folder / (name.trial + ".mcap");
-  pipeline::RecorderOptions options;
+  RecorderOptions options;
   options.file = trial_;
   options.recording = files_.recording;
   options.metadata = about(name);
@@ -161,11 +161,11 @@ Status AcquireDesk::record(const TrialName& name) {
 
 Result<std::vector<CheckLine>> AcquireDesk::stop() {
   recorder_->stop();
-  const pipeline::Recorded recorded = recorder_->finish();
+  const Recorded recorded = recorder_->finish();
   recording_ = false;
   std::vector<CheckLine> lines;
   if (recorded.error) lines.push_back({false, recorded.error->message});
-  for (const pipeline::TrialNote& note : pipeline::describe_trial(recorded, granted_.layout))
+  for (const TrialNote& note : describe_trial(recorded, granted_.layout))
     lines.push_back({note.good, note.text});
   if (const auto again = start({}); !again) trouble_ = again.error().message;
   return lines;
@@ -193,4 +193,4 @@ void AcquireDesk::close() {
   recording_ = false;
 }
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/screens/plan_text.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 
 #include "kinemark/core/number.h"
 
-namespace kinemark::screens {
+namespace kinemark::pipeline {
 namespace {
 
 constexpr int kMostLedsTyped = 64;
@@ -77,4 +77,4 @@ Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& dev
   return plan;
 }
 
-}  // namespace kinemark::screens
+}  // namespace kinemark::pipeline
