@@ -28,6 +28,7 @@ struct CommonOptions {
 /// A command adds itself to the program and stores its action in `run`, which returns the exit status.
 using Run = std::function<int()>;
 
+void add_acquire(CLI::App& app, const CommonOptions& common, Run& run);
 void add_calibrate(CLI::App& app, const CommonOptions& common, Run& run);
 void add_reconstruct(CLI::App& app, const CommonOptions& common, Run& run);
 void add_study(CLI::App& app, const CommonOptions& common, Run& run);

@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -19,11 +21,16 @@
 namespace kinemark::cli {
 namespace {
 
+/// Number of the signal that somebody ends his work for by himself; -1: nobody does.
+std::atomic<int> ended_gently = -1;
+
 /// Wait for one of the signals, which every thread has blocked, and end the program. Files that get their
-/// names in this moment get all of them.
+/// names in this moment get all of them. Where work is ended gently the first one is noted alone.
 [[noreturn]] void end_by_signal(sigset_t signals) {
   int number = 0;
   while (sigwait(&signals, &number) != 0) continue;
+  if (int nobody = 0; ended_gently.compare_exchange_strong(nobody, number))
+    while (sigwait(&signals, &number) != 0) continue;
   std::fprintf(stderr, "kinemark: the command was stopped (%s)\n",
                number == SIGINT    ? "SIGINT"
                : number == SIGTERM ? "SIGTERM"
@@ -99,6 +106,13 @@ Progress show_progress(const CommonOptions& common, std::string what) {
     return true;
   };
 }
+
+void end_gently() {
+  int nobody = -1;
+  ended_gently.compare_exchange_strong(nobody, 0);
+}
+
+int signal_that_came() { return std::max(0, ended_gently.load()); }
 
 void watch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);

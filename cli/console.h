@@ -57,4 +57,10 @@ template <class Job, class RunJob, class Print>
 /// grows beyond the limit (ulimit -f) are failures to write. To be called before any other thread is made.
 void watch_signals();
 
+/// From here on the first of these signals ends nothing: signal_that_came() tells of it, and the command ends
+/// by itself. The second one ends the program at once.
+void end_gently();
+/// Number of the signal that came after end_gently(); 0: none.
+[[nodiscard]] int signal_that_came();
+
 }  // namespace kinemark::cli

@@ -64,6 +64,7 @@ void add_everything(CLI::App& app, CommonOptions& common, Run& run) {
   app.get_formatter()->column_width(36);
   add_common_options(app, common);
   add_simulate(app, common, run);
+  add_acquire(app, common, run);
   add_calibrate(app, common, run);
   add_reconstruct(app, common, run);
   add_edit(app, common, run);

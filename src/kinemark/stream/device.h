@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,24 +30,33 @@ enum class Trigger : std::uint8_t {
 
 /// What a device can do, as it says itself once it is open.
 struct DeviceCapabilities {
-  std::string name;                  ///< what it calls itself: "rig328p 1.0", "comedi_test"
-  int most_leds = 0;                 ///< that it can light in turn; 0: it lights none, they run by themselves
-  int cameras = 0;                   ///< with four electrodes each
-  int bits = 0;                      ///< of the converter
-  std::vector<VoltageRange> ranges;  ///< empty: not known
-  data::SlotTiming fastest;          ///< shortest slot
-  double lowest_rate_hz = 0.0;       ///< frames in a second; the highest follows from the slots
-  bool sets_intensity = false;       ///< of each LED, by the length of its pulse or its current
-  bool has_dark_slot = false;        ///< can convert with all LEDs dark
-  int analog_outputs = 0;            ///< channels of write_analog()
-  int digital_outputs = 0;           ///< lines of write_digital()
-  std::vector<Trigger> triggers;     ///< at least at_once
+  std::string name;               ///< what it calls itself: "rig328p 1.0", "comedi_test"
+  int most_leds = 0;              ///< that it can light in turn; 0: it lights none, they run by themselves
+  std::vector<std::string> leds;  ///< names that it has for them; empty: none, see own_names()
+  std::vector<std::string> camera_names;  ///< likewise, of its cameras
+  int cameras = 0;                        ///< with four electrodes each
+  int bits = 0;                           ///< of the converter
+  std::vector<VoltageRange> ranges;       ///< empty: not known
+  data::SlotTiming fastest;               ///< shortest slot
+  double lowest_rate_hz = 0.0;            ///< frames in a second; the highest follows from the slots
+  bool sets_intensity = false;            ///< of each LED, by the length of its pulse or its current
+  bool has_dark_slot = false;             ///< can convert with all LEDs dark
+  int analog_outputs = 0;                 ///< channels of write_analog()
+  int digital_outputs = 0;                ///< lines of write_digital()
+  std::vector<Trigger> triggers;          ///< at least at_once
+  /// Seconds of its own clock in one of the host's: 1 but for simulations and recordings. 0: frames come when
+  /// they are asked for, however late, and none is lost.
+  double speed = 1.0;
 };
+
+/// Names of the first `count`: those given, then "1", "2" ... or, for cameras, "A", "B" ...
+[[nodiscard]] std::vector<std::string> own_names(const std::vector<std::string>& given, int count,
+                                                 bool cameras);
 
 /// What is wanted of a device, and what it grants.
 struct ScanPlan {
-  std::vector<std::string> leds;     ///< L names, unique
-  std::vector<std::string> cameras;  ///< C names, unique
+  std::vector<std::string> leds;     ///< L names, unique; empty: all that it has, by own_names()
+  std::vector<std::string> cameras;  ///< C names, unique; empty: likewise
   double rate_hz = 0.0;              ///< frames in a second; 0: the highest that slots and device allow
   data::SlotTiming timing;           ///< of each LED's slot
   std::vector<double> intensity;     ///< L, of an LED's full light, in (0, 1]; empty: 1
@@ -57,14 +67,16 @@ struct ScanPlan {
 struct GrantedPlan {
   ScanPlan plan;        ///< with the rate, timing and intensities that it really has
   data::Counts layout;  ///< names, rate, codes and time of each conversion; without a frame
+  std::map<std::string, std::string> facts;  ///< to be kept with the recording: "firmware", "seed"
 };
 
 /// Frames that came together.
 struct Block {
-  std::int64_t first_frame = 0;      ///< from 0 at start(); a step says that the device lost those between
-  std::int64_t frames = 0;           ///< F in this block; at least 1
-  std::int64_t host_before_ns = 0;   ///< steady clock of the host before they were read ...
-  std::int64_t host_after_ns = 0;    ///< ... and after
+  std::int64_t first_frame = 0;  ///< from 0 at start(); a step says that the device lost those between
+  std::int64_t frames = 0;       ///< F in this block; at least 1
+  std::int64_t host_before_ns =
+      0;                           ///< steady clock of the host when it was last looked whether they came ...
+  std::int64_t host_after_ns = 0;  ///< ... and once they were read: the last of them ended before
   std::vector<std::int16_t> counts;  ///< F x L x C x 4, as in data::Counts
   std::vector<std::int16_t> dark;    ///< F x C x 4; empty without a dark slot
   std::vector<std::uint8_t> flags;   ///< F x L x C, bits of data::CountFlag

@@ -125,34 +125,11 @@ class Assembly {
     counts_.dark.resize(n * dark_size_, 0);
   }
 
-  bool possible(std::int16_t code) const { return code >= 0 && code <= counts_.highest_code; }
-
   void take(std::int64_t frame, std::span<const std::byte> data) {
-    const auto code_at = [data](std::size_t i) {
-      return static_cast<std::int16_t>(std::to_integer<unsigned>(data[2 * i]) |
-                                       std::to_integer<unsigned>(data[2 * i + 1]) << 8U);
-    };
     const auto f = static_cast<std::size_t>(frame);
-    std::int16_t* counts = counts_.counts.data() + 4 * f * observations_;
-    std::uint8_t* flags = counts_.flags.data() + f * observations_;
-    std::int16_t* dark = counts_.dark.data() + f * dark_size_;
-    bool good = true;
-    for (std::size_t i = 0; i < 4 * observations_; ++i) good = possible(counts[i] = code_at(i)) && good;
-    for (std::size_t i = 0; i < dark_size_; ++i)
-      good = possible(dark[i] = code_at(4 * observations_ + i)) && good;
-    const std::size_t flags_at = 2 * (4 * observations_ + dark_size_);
-    for (std::size_t i = 0; i < observations_; ++i)
-      flags[i] = std::to_integer<std::uint8_t>(data[flags_at + i]);
-    if (good) return;
-    for (std::size_t s = 0; s < observations_; ++s) {
-      if (std::all_of(counts + 4 * s, counts + 4 * s + 4, [this](std::int16_t c) { return possible(c); }))
-        continue;
-      std::fill_n(counts + 4 * s, 4, std::int16_t{0});
-      flags[s] = static_cast<std::uint8_t>(flags[s] | data::kCountLost);
-      ++impossible_;
-    }
-    for (std::size_t i = 0; i < dark_size_; ++i)
-      if (!possible(dark[i])) dark[i] = 0;
+    impossible_ +=
+        decode_frame(data, counts_, counts_.counts.data() + 4 * f * observations_,
+                     counts_.dark.data() + f * dark_size_, counts_.flags.data() + f * observations_);
   }
 
   data::Counts& counts_;

@@ -58,6 +58,10 @@ class CountsWriter {
   static Result<CountsWriter> create(const std::filesystem::path& path, const data::Counts& like,
                                      std::span<const RecordingMetadata> metadata = {},
                                      const RecordingOptions& options = {});
+  /// Note names and values, at any place among the frames; see RecordingWriter::add_metadata().
+  [[nodiscard]] Status add_metadata(const RecordingMetadata& metadata) {
+    return writer_.add_metadata(metadata);
+  }
   /// Returns once the frame is acknowledged. Shapes are a contract; frame in [0, 2^32).
   [[nodiscard]] Status push(const CountsFrame& frame);
   /// Bring what was pushed to the disk; Code::io when that fails.

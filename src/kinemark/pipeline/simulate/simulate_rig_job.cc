@@ -17,6 +17,7 @@
 #include "kinemark/io/set_mark.h"
 #include "kinemark/pipeline/files/file_set.h"
 #include "kinemark/pipeline/files/result_files.h"
+#include "kinemark/pipeline/simulate/rig_scenes.h"
 #include "kinemark/stages/simulation/rig_calibration.h"
 
 namespace kinemark::pipeline {
@@ -26,14 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr EnumNames<RigSceneKind::markers> kScenes{"tree", "wheel", "sign", "markers"};
 
-/// A scene, its default duration, and the stream of its noise.
-struct Staged {
-  simulation::RigScene scene;
-  double duration_s = 0.0;
-  std::uint64_t stream = 0;
-};
-
-Result<Staged> stage_markers(const SimulateRigJob& job) {
+Result<StagedScene> stage_markers(const SimulateRigJob& job) {
   if (job.markers.empty()) return fail(Code::usage, "the scene 'markers' needs a marker file");
   const auto input = io::read_marker_input({.path = job.markers});
   if (!input) return std::unexpected(input.error());
@@ -41,27 +35,17 @@ Result<Staged> stage_markers(const SimulateRigJob& job) {
   auto scene = simulation::markers_as_leds(markers, job.marker_options);
   if (!scene) return fail_at(job.markers.string(), scene.error());
   const auto& time = markers.time;
-  return Staged{std::move(*scene), static_cast<double>(time.frames - 1) / time.rate_hz, 440};
+  return StagedScene{std::move(*scene), static_cast<double>(time.frames - 1) / time.rate_hz, 440};
 }
 
-Result<Staged> stage(const SimulateRigJob& job) {
+Result<StagedScene> stage(const SimulateRigJob& job) {
   switch (job.scene) {
-    case RigSceneKind::tree: {
-      const auto& poses = simulation::tree_test_poses();
-      if (job.tree_pose < 0 || job.tree_pose >= static_cast<int>(poses.size()))
-        return fail(Code::usage,
-                    fmt::format("tree pose {}; there are 0 to {}", job.tree_pose, poses.size() - 1));
-      return Staged{simulation::still_tree(poses[static_cast<std::size_t>(job.tree_pose)]), 1.0,
-                    300 + static_cast<std::uint64_t>(job.tree_pose)};
-    }
+    case RigSceneKind::tree:
+      return stage_tree(job.tree_pose);
     case RigSceneKind::wheel:
-      if (!std::isfinite(job.wheel.rotation_deg))
-        return fail(Code::usage,
-                    fmt::format("a wheel turned by {} degrees; need a number", job.wheel.rotation_deg));
-      // The two orientations of the study have streams of their own.
-      return Staged{simulation::rotating_wheel(job.wheel), 2.2, job.wheel.rotation_deg > 20.0 ? 401U : 400U};
+      return stage_wheel(job.wheel);
     case RigSceneKind::sign:
-      return Staged{simulation::signing_arm(), 4.0, 420};
+      return stage_sign();
     case RigSceneKind::markers:
       return stage_markers(job);
   }
@@ -111,7 +95,7 @@ Status add_occlusion(std::string_view text, const data::Rig& rig, simulation::Ri
 }
 
 Result<simulation::RigRecordingOptions> recording_options(const SimulateRigJob& job, const data::Rig& rig,
-                                                          const Staged& staged) {
+                                                          const StagedScene& staged) {
   auto out = job.recording;
   out.stream = staged.stream;
   const auto leds = staged.scene.leds.size();

@@ -125,6 +125,34 @@ std::size_t frame_bytes(const data::Counts& like) {
   return 9 * observations + 2 * like.dark_time_s.size();
 }
 
+int decode_frame(std::span<const std::byte> data, const data::Counts& like, std::int16_t* counts,
+                 std::int16_t* dark, std::uint8_t* flags) {
+  const std::size_t observations = like.leds.size() * like.cameras.size(),
+                    dark_size = like.dark_time_s.size();
+  const auto possible = [&like](std::int16_t code) { return code >= 0 && code <= like.highest_code; };
+  const auto code_at = [data](std::size_t i) {
+    return static_cast<std::int16_t>(std::to_integer<unsigned>(data[2 * i]) |
+                                     std::to_integer<unsigned>(data[2 * i + 1]) << 8U);
+  };
+  bool good = true;
+  for (std::size_t i = 0; i < 4 * observations; ++i) good = possible(counts[i] = code_at(i)) && good;
+  for (std::size_t i = 0; i < dark_size; ++i)
+    good = possible(dark[i] = code_at(4 * observations + i)) && good;
+  const std::size_t flags_at = 2 * (4 * observations + dark_size);
+  for (std::size_t i = 0; i < observations; ++i) flags[i] = std::to_integer<std::uint8_t>(data[flags_at + i]);
+  if (good) return 0;
+  int impossible = 0;
+  for (std::size_t s = 0; s < observations; ++s) {
+    if (std::all_of(counts + 4 * s, counts + 4 * s + 4, possible)) continue;
+    std::fill_n(counts + 4 * s, 4, std::int16_t{0});
+    flags[s] = static_cast<std::uint8_t>(flags[s] | data::kCountLost);
+    ++impossible;
+  }
+  for (std::size_t i = 0; i < dark_size; ++i)
+    if (!possible(dark[i])) dark[i] = 0;
+  return impossible;
+}
+
 double epoch_s_of(const data::Counts& like) { return std::min(0.0, like.time.t0_s); }
 
 }  // namespace kinemark::io::internal

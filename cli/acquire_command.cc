@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "kinemark/core/enum_names.h"
+#include "kinemark/core/number.h"
+#include "kinemark/pipeline/acquire/acquire_job.h"
+#include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/files/json_text.h"
+
+namespace kinemark::cli {
+namespace {
+
+constexpr EnumNames<io::SyncPolicy::always> kSync{"never", "background", "always"};
+
+struct AcquireArguments {
+  pipeline::AcquireJob job;
+  std::string leds, begin, sync = "background";
+  std::vector<std::string> intensity;
+  bool list = false;
+};
+
+/// "4" for as many, or "hand,wrist" for these.
+Status take_leds(const std::string& text, pipeline::AcquireJob& job) {
+  if (text.empty()) return {};
+  if (const auto count = parse_number(text); count && *count == static_cast<int>(*count)) {
+    if (*count < 1.0) return fail(Code::usage, fmt::format("--leds: {} LEDs; need 1 or more", text));
+    job.led_count = static_cast<int>(*count);
+    return {};
+  }
+  for (std::size_t at = 0; at <= text.size();) {
+    const auto comma = std::min(text.find(',', at), text.size());
+    job.leds.push_back(text.substr(at, comma - at));
+    if (job.leds.back().empty())
+      return fail(Code::usage, fmt::format("--leds: '{}' has an empty name", text));
+    at = comma + 1;
+  }
+  return {};
+}
+
+Status take_intensity(const std::vector<std::string>& given, pipeline::AcquireJob& job) {
+  for (const auto& text : given) {
+    const auto equals = text.rfind('=');
+    const auto value = parse_number(equals == std::string::npos ? text : text.substr(equals + 1));
+    if (!value)
+      return fail(Code::usage, fmt::format("--intensity: '{}' is neither a number nor LED=NUMBER", text));
+    job.intensity.emplace_back(equals == std::string::npos ? "" : text.substr(0, equals), *value);
+  }
+  return {};
+}
+
+Status complete(AcquireArguments& arguments) {
+  auto& job = arguments.job;
+  if (job.source.empty())
+    return fail(Code::usage, "no device is given; 'kinemark acquire --list' shows those that are there");
+  if (job.output.empty()) return fail(Code::usage, "no recording is given; need --output FILE.mcap");
+  const auto sync = kSync.parse(arguments.sync, "--sync");
+  if (!sync) return std::unexpected(sync.error());
+  job.sync = *sync;
+  if (!arguments.begin.empty()) {
+    const auto begin = pipeline::parse_begin(arguments.begin);
+    if (!begin) return std::unexpected(begin.error());
+    job.begin = *begin;
+  }
+  if (auto s = take_leds(arguments.leds, job); !s) return s;
+  return take_intensity(arguments.intensity, job);
+}
+
+int list_devices(const CommonOptions& common) {
+  const auto devices = pipeline::enumerate_devices();
+  if (common.json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& device : devices)
+      list.push_back({{"uri", device.uri}, {"name", device.name}, {"state", device.state}});
+    print_result(pipeline::json_text(list) + "\n");
+    return 0;
+  }
+  for (const auto& device : devices)
+    print_result(fmt::format("{:<28} {}{}{}\n", device.uri, device.name, device.state.empty() ? "" : ": ",
+                             device.state));
+  return 0;
+}
+
+/// Until a line comes on standard input; false: a signal, or the end of it.
+bool wait_for_key(const CommonOptions& common) {
+  say(common, "press Enter to begin");
+  while (signal_that_came() == 0) {
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    const int ready = ::poll(&input, 1, 100);
+    if (ready < 0 && errno != EINTR) return false;
+    if (ready <= 0) continue;
+    char byte = 0;
+    if (::read(STDIN_FILENO, &byte, 1) != 1) return false;
+    if (byte == '\n') return true;
+  }
+  return false;
+}
+
+void print_progress(const CommonOptions& common, const pipeline::RecorderProgress& progress) {
+  if (common.json) {
+    print_result(pipeline::progress_json(progress).dump() + "\n");
+    (void)std::fflush(stdout);
+    return;
+  }
+  say(common, fmt::format("{} frames, {} kept, {} lost by the device, {} dropped here", progress.frames,
+                          progress.acknowledged, progress.dropped_by_device, progress.dropped_here));
+}
+
+int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome) {
+  for (const auto& note : outcome.notes) say(common, note);
+  say_written(common, outcome);
+  if (common.json) print_result(pipeline::acquire_json(outcome).dump() + "\n");
+  if (outcome.recorded.error) return report_error(*outcome.recorded.error);
+  if (const int number = signal_that_came(); number != 0) return 128 + number;
+  return outcome.exit_status();
+}
+
+int acquire(const CommonOptions& common, AcquireArguments& arguments) {
+  if (arguments.list) return list_devices(common);
+  if (auto s = complete(arguments); !s) return report_error(s.error());
+  auto& job = arguments.job;
+  settle(common, "frames", job);
+  end_gently();
+  job.stop = [] { return signal_that_came() != 0; };
+  job.say = [&common](const std::string& line) { say(common, line); };
+  job.each_second = [&common](const pipeline::RecorderProgress& p) { print_progress(common, p); };
+  const auto outcome = pipeline::run_acquire(job, [&common] { return wait_for_key(common); });
+  if (outcome) return finish(common, *outcome);
+  const int status = report_error(outcome.error());
+  return outcome.error().code == Code::cancelled && signal_that_came() != 0 ? 128 + signal_that_came()
+                                                                            : status;
+}
+
+void add_plan_options(CLI::App& command, AcquireArguments& arguments) {
+  auto& job = arguments.job;
+  command.add_option("--leds", arguments.leds, "How many LEDs to light, or their names with commas between")
+      ->type_name("N|NAMES");
+  command.add_option("--rate", job.rate_hz,
+                     "Frames per second; the highest that device and LEDs allow when absent");
+  command
+      .add_option("--intensity", arguments.intensity,
+                  "Light of an LED, above 0, at most 1: 0.5 for all, hand=0.5 for one; repeat")
+      ->allow_extra_args(false);
+  command.add_option("--duration", job.duration_s, "Length, s; until Ctrl-C when absent");
+  command.add_option("--frames", job.frames, "Length in frames, those that are lost included")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{4'294'967'296}));
+  command
+      .add_option(
+          "--trigger", arguments.begin,
+          "Begin with Enter (key), a digital line (digital), in some seconds (time=S), or once an LED "
+          "is bright (threshold=LED:COUNTS)")
+      ->type_name("WHAT");
+}
+
+}  // namespace
+
+void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
+  auto* command =
+      app.add_subcommand("acquire", "A trial from a device on the desk, checked as soon as it ends");
+  command->footer(
+      "Ctrl-C ends the trial and keeps it. Exit status 1 when a frame is missing, 4 when the disk, 5 when "
+      "the\n"
+      "device failed; what came before is kept. Devices: sim:rig?leds=8&rate=138, replay:FILE.mcap.");
+  const auto arguments = std::make_shared<AcquireArguments>();
+  auto& job = arguments->job;
+  command->add_option("SOURCE", job.source, "Address of the device, as --list shows it")->type_name("DEVICE");
+  command->add_option("-o,--output", job.output, "Recording to write, .mcap");
+  add_plan_options(*command, *arguments);
+  command
+      ->add_option("--sync", arguments->sync,
+                   "When frames are forced to the disk: never, background (every second), always")
+      ->type_name("WHEN")
+      ->capture_default_str();
+  command->add_option("--subject", job.subject, "Who was recorded; kept with the recording")
+      ->type_name("NAME");
+  command->add_option("--trial", job.trial, "What was recorded; kept with the recording")->type_name("NAME");
+  command->add_flag("--list", arguments->list, "Show the devices that are there, and record nothing");
+  command->callback(
+      [&common, arguments, &run] { run = [&common, arguments] { return acquire(common, *arguments); }; });
+}
+
+}  // namespace kinemark::cli

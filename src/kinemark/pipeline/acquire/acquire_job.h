@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kinemark/core/result.h"
+#include "kinemark/io/recording/writer.h"
+#include "kinemark/pipeline/acquire/recorder.h"
+#include "kinemark/pipeline/files/job_settings.h"
+#include "kinemark/stream/device.h"
+
+namespace kinemark::pipeline {
+
+/// What a trial begins with.
+struct TrialBegin {
+  enum class Kind : std::uint8_t { at_once, key, digital, time, threshold };
+  Kind kind = Kind::at_once;
+  double value = 0.0;  ///< time: s from now; threshold: counts, sum of the four electrodes
+  std::string led;     ///< threshold: whose; empty: the first
+};
+/// "key", "digital", "time=S", "threshold=COUNTS" or "threshold=LED:COUNTS".
+[[nodiscard]] Result<TrialBegin> parse_begin(std::string_view text);
+
+/// What `kinemark acquire` is asked to do.
+struct AcquireJob : JobSettings {
+  std::string source;             ///< address of a device, see open_device()
+  std::filesystem::path output;   ///< .mcap
+  std::vector<std::string> leds;  ///< names; empty: the device's own
+  int led_count = 0;              ///< where no names are given; 0: all that the device has
+  double rate_hz = 0.0;           ///< 0: the highest
+  double duration_s = 0.0;        ///< 0: until stopped, or the device ends
+  std::int64_t frames = 0;        ///< likewise; lost ones count
+  TrialBegin begin;               ///< what it begins with
+  std::vector<std::pair<std::string, double>> intensity;  ///< by name; an empty name means all
+  io::SyncPolicy sync = io::SyncPolicy::background;
+  std::string subject, trial;                                ///< kept with the recording
+  std::function<bool()> stop;                                ///< asked ten times a second; may be empty
+  std::function<void(const std::string&)> say;               ///< what happens meanwhile; may be empty
+  std::function<void(const RecorderProgress&)> each_second;  ///< may be empty
+};
+
+/// A trial that is kept. A failure of disk or device after its first frame is in recorded.error: the file is
+/// there. Gate: frames_missing.
+struct AcquireOutcome : JobOutcome {
+  stream::GrantedPlan plan;
+  Recorded recorded;
+  std::vector<std::string> notes;  ///< describe_trial()
+};
+
+/// Open the device, wait for what begins the trial, record it, check it. Code::device where the device cannot
+/// be had, Code::cancelled where it was stopped before it began. The key is asked of `stop`-like polling by
+/// the caller: see wait_for_key.
+/// @param wait_for_key  returns true once the key was pressed, false where stop() came first
+[[nodiscard]] Result<AcquireOutcome> run_acquire(const AcquireJob& job,
+                                                 const std::function<bool()>& wait_for_key = {});
+
+/// "frames", "acknowledged", "dropped_by_device", "dropped_here": a line of progress.
+[[nodiscard]] nlohmann::ordered_json progress_json(const RecorderProgress& progress);
+/// "written", "ended", the progress, "rate_hz", "clock" (null where it is not known), "leds" (levels of each
+/// LED at each camera), "notes", "warnings", "error".
+[[nodiscard]] nlohmann::ordered_json acquire_json(const AcquireOutcome& outcome);
+
+}  // namespace kinemark::pipeline

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/acquire/open_device.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "kinemark/core/utf8.h"
+#include "kinemark/pipeline/acquire/device_settings.h"
+#include "kinemark/pipeline/acquire/replay_device.h"
+#include "kinemark/pipeline/acquire/sim_rig.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using Clock = std::shared_ptr<stream::HostClock>;
+using Opened = Result<std::unique_ptr<stream::Device>>;
+
+/// A kind of device: its addresses, how one is opened, and those that are there.
+struct Kind {
+  std::string_view scheme, address;
+  Opened (*open)(DeviceSettings settings, std::uint64_t seed, Clock clock);
+  std::vector<stream::DeviceInfo> (*enumerate)();
+};
+
+Opened open_sim(DeviceSettings settings, std::uint64_t seed, Clock clock) {
+  if (settings.what() == "rig") return open_sim_rig(std::move(settings), seed, std::move(clock));
+  return fail(Code::usage, fmt::format("{}: is no simulated device that gives counts; there is sim:rig",
+                                       printable(settings.uri(), 200)));
+}
+
+std::vector<stream::DeviceInfo> find_sim() {
+  return {{.uri = "sim:rig", .name = "simulated rig of 1986", .state = ""}};
+}
+
+Opened open_replay(DeviceSettings settings, std::uint64_t /*seed*/, Clock clock) {
+  return ReplayDevice::open(std::move(settings), std::move(clock));
+}
+
+std::vector<stream::DeviceInfo> find_none() { return {}; }
+
+constexpr std::array<Kind, 2> kKinds{
+    {{"sim", "sim:rig", open_sim, find_sim}, {"replay", "replay:FILE.mcap", open_replay, find_none}}};
+
+}  // namespace
+
+Opened open_device(std::string_view uri, std::uint64_t seed, Clock clock) {
+  DeviceSettings settings(uri);
+  if (clock == nullptr) clock = std::make_shared<stream::SteadyHostClock>();
+  std::string addresses;
+  for (const auto& kind : kKinds) {
+    if (kind.scheme == settings.scheme()) return kind.open(std::move(settings), seed, std::move(clock));
+    addresses += fmt::format("{}{}", addresses.empty() ? "" : ", ", kind.address);
+  }
+  return fail(Code::usage,
+              fmt::format("{}: is the address of no device; those are {}", printable(uri, 200), addresses));
+}
+
+std::vector<stream::DeviceInfo> enumerate_devices() {
+  std::vector<stream::DeviceInfo> out;
+  for (auto kind = kKinds.rbegin(); kind != kKinds.rend(); ++kind)
+    for (auto& device : kind->enumerate()) out.push_back(std::move(device));
+  return out;
+}
+
+}  // namespace kinemark::pipeline

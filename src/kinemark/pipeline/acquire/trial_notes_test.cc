@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/acquire/trial_notes.h"
+
+#include <gmock/gmock.h>
+
+namespace kinemark::pipeline {
+namespace {
+
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+data::Counts layout() {
+  return data::Counts::zeros({"hand", "wrist"}, {"A", "B"}, {.rate_hz = 100.0}, false);
+}
+
+Recorded good() {
+  Recorded out{.progress = {.frames = 100, .received = 100, .acknowledged = 100}};
+  out.lit.assign(4, {.frames = 100, .sd = {2.0, 2.5, 3.0, 2.5}, .still = true});
+  return out;
+}
+
+TEST(TrialNotes, OfAGoodTrialSayNothingElse) {
+  EXPECT_THAT(
+      describe_trial(good(), layout()),
+      ElementsAre("all 100 frames came and are kept",
+                  "LEDs that stood still have an SD of 2.50 counts, 2.00 to 3.00 (4 of 4 LEDs at their "
+                  "cameras)"));
+  EXPECT_TRUE(missing_gate(good().progress).passed);
+}
+
+TEST(TrialNotes, TellWhoLostWhat) {
+  auto trial = good();
+  trial.progress.dropped_by_device = 30;
+  auto said = describe_trial(trial, layout());
+  EXPECT_THAT(said, Contains(HasSubstr("the device lost 30 of 100 frames")));
+  EXPECT_THAT(said, Each(Not(HasSubstr("dropped here"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("came and are kept"))));
+  trial.progress = {.frames = 100, .dropped_here = 5, .reopened = 1};
+  said = describe_trial(trial, layout());
+  EXPECT_THAT(said, Contains(HasSubstr("5 of 100 frames came and were dropped here")));
+  EXPECT_THAT(said, Contains(HasSubstr("was away and came back 1 time;")));
+  EXPECT_THAT(said, Each(Not(HasSubstr("the device lost"))));
+  EXPECT_FALSE(missing_gate(trial.progress).passed);
+  EXPECT_EQ(missing_gate(trial.progress).value, 5.0);
+}
+
+TEST(TrialNotes, NameTheLedThatSaturatesACamera) {
+  auto trial = good();
+  trial.lit[3].saturated = 7;
+  const auto said = describe_trial(trial, layout());
+  EXPECT_THAT(said, Contains(HasSubstr("LED 'wrist' saturates camera B in 7 of 100 frames")));
+  EXPECT_THAT(said, Each(Not(HasSubstr("'hand'"))));
+}
+
+TEST(TrialNotes, AskForAStillLedWhereAllMoved) {
+  auto trial = good();
+  for (auto& levels : trial.lit) levels.still = false;
+  const auto said = describe_trial(trial, layout());
+  EXPECT_THAT(said, Contains("every LED moved: hold one still for a second to see its noise"));
+  EXPECT_THAT(said, Each(Not(HasSubstr("stood still"))));
+}
+
+TEST(TrialNotes, SayHowFastTheClockIs) {
+  auto trial = good();
+  trial.clock = {.rate_hz = 138.0414, .sd_hz = 1e-5, .ppm_fast = 300.04, .sd_ppm = 0.07, .span_s = 60.0};
+  EXPECT_THAT(describe_trial(trial, layout()), Contains(HasSubstr("its clock is 300.04 +- 0.07 ppm fast")));
+  trial.clock->ppm_fast = -12.0;
+  EXPECT_THAT(describe_trial(trial, layout()), Contains(HasSubstr("12.00 +- 0.07 ppm slow")));
+}
+
+TEST(TrialNotes, OfNothingSaySo) { EXPECT_THAT(describe_trial({}, layout()), ElementsAre("no frame came")); }
+
+}  // namespace
+}  // namespace kinemark::pipeline

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+// What counts look like while they come: levels, noise, saturation, of each LED at each camera.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "kinemark/data/counts.h"
+#include "kinemark/stream/device.h"
+
+namespace kinemark::stream {
+
+/// Counts of one LED at one camera over a trial. NaN where too few frames came.
+struct CountLevels {
+  std::int64_t frames = 0;                          ///< that came, without those that were lost
+  std::int64_t saturated = 0;                       ///< of them, with a channel at the highest code
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();   ///< counts
+  Eigen::Vector4d sd = Eigen::Vector4d::Zero();     ///< of all frames: noise and movement
+  Eigen::Vector4d noise = Eigen::Vector4d::Zero();  ///< SD by differences of frames that follow each other
+  bool still = false;  ///< no channel moves more than its noise does: sd at most 1.5 noise + 0.3 counts
+};
+
+/// Running figures of counts; constant memory, O(L C) a frame.
+class CountCheck {
+ public:
+  /// @param like  shapes; its frames are not looked at
+  explicit CountCheck(const data::Counts& like);
+  /// Frames of the shape that it was made for, in their order.
+  void add(const Block& block);
+  /// L x C, LED by LED.
+  [[nodiscard]] std::vector<CountLevels> lit() const;
+  /// C, of the dark slot; empty without one.
+  [[nodiscard]] std::vector<CountLevels> dark() const;
+
+ private:
+  struct Running {
+    std::int64_t frames = 0, saturated = 0, differences = 0, last_frame = -2;
+    Eigen::Vector4d mean = Eigen::Vector4d::Zero(), squares = Eigen::Vector4d::Zero(),
+                    difference_squares = Eigen::Vector4d::Zero(), last = Eigen::Vector4d::Zero();
+    void add(std::int64_t frame, const std::int16_t* counts);
+    [[nodiscard]] CountLevels levels() const;
+  };
+  std::vector<Running> lit_, dark_;
+};
+
+}  // namespace kinemark::stream
