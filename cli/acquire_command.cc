@@ -13,10 +13,12 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/screens/screens.h"
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/number.h"
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/desk/acquire_desk.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
@@ -126,8 +128,27 @@ int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome)
   return outcome.exit_status();
 }
 
+/// The menus: a person chooses what the options say otherwise.
+int acquire_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
+  pipeline::AcquireDesk desk({.folder = ".", .seed = common.seed});
+  pipeline::Wanted wanted;
+  wanted.source = arguments.job.source;
+  wanted.subject = arguments.job.subject;
+  if (!arguments.leds.empty()) wanted.leds = arguments.leds;
+  if (!arguments.job.trial.empty()) wanted.trial = arguments.job.trial;
+  if (arguments.job.rate_hz > 0.0) wanted.rate_hz = format_number(arguments.job.rate_hz);
+  if (arguments.job.duration_s > 0.0) wanted.duration_s = format_number(arguments.job.duration_s);
+  end_gently();
+  const auto kept = screens::acquire_by_hand(desk, wanted, [] { return signal_that_came() != 0; });
+  for (const auto& file : kept) say(common, "written: " + file);
+  return signal_that_came() != 0 ? 128 + signal_that_came() : 0;
+}
+
 int acquire(const CommonOptions& common, AcquireArguments& arguments) {
   if (arguments.list) return list_devices(common);
+  const bool at_terminal = isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
+  if (arguments.job.output.empty() && !common.json && (arguments.job.source.empty() || at_terminal))
+    return acquire_by_hand(common, arguments);
   if (auto s = complete(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   settle(common, "frames", job);

@@ -37,7 +37,7 @@ TEST(Menu, FromTheSourceToAKeptTrial) {
   EXPECT_THAT(shown(menu), HasSubstr("rig 1986: up to 8 LEDs, 2 cameras, 12 bits"));
   press(menu, Key::Kind::enter);
   EXPECT_EQ(menu.state().step, DeskStep::live);
-  EXPECT_THAT(desk.asked.leds, ElementsAre("LED 1", "LED 2", "LED 3"));
+  EXPECT_THAT(desk.asked.leds, ElementsAre("1", "2", "3"));
   EXPECT_THAT(desk.asked.cameras, ElementsAre("A", "B"));
   type(menu, U"r");
   EXPECT_EQ(menu.state().step, DeskStep::recording);
@@ -209,7 +209,7 @@ TEST(Menu, FitsIntoTheSmallestScreenAndUsesALargeOne) {
   Menu menu(desk, rig_at("8"));
   press(menu, Key::Kind::enter);
   const Canvas small = menu.draw(24, 80), large = menu.draw(60, 200);
-  EXPECT_THAT(small.to_text(), HasSubstr("LED 8"));
+  EXPECT_THAT(small.to_text(), HasSubstr("  8       100%"));
   EXPECT_EQ(small.at(2, 1).glyph, U'┌');
   EXPECT_THAT(large.to_text(), HasSubstr("r record"));
   EXPECT_EQ(large.at(2, 1).glyph, U'┌');

@@ -32,12 +32,22 @@ TEST(ShowMenus, ShowsAScreenForEachKeyUntilThePersonLeaves) {
   FakeDesk desk;
   FakeTerminal terminal;
   terminal.keys = {{Key::Kind::enter}, {Key::Kind::enter}, Key::of(U'r'), {}, Key::of(U's'), Key::of(U'k')};
-  const auto kept = show_menus(desk, {}, terminal);
+  const auto kept = show_menus(desk, {}, terminal, [] { return false; });
   EXPECT_THAT(kept, testing::ElementsAre("raw/01.mcap"));
   EXPECT_EQ(terminal.shown.size(), 7U);
   EXPECT_THAT(terminal.shown[0], testing::HasSubstr("Source"));
   EXPECT_THAT(terminal.shown[3], testing::HasSubstr("RECORDING 01"));
   EXPECT_EQ(desk.calls.back(), "close");
+}
+
+TEST(ShowMenus, AskedToEndTheyKeepWhatIsRecorded) {
+  FakeDesk desk;
+  FakeTerminal terminal;
+  terminal.keys = {{Key::Kind::enter}, {Key::Kind::enter}, Key::of(U'r')};
+  int looks = 0;
+  const auto kept = show_menus(desk, {}, terminal, [&] { return ++looks > 3; });
+  EXPECT_THAT(kept, testing::ElementsAre("raw/01.mcap"));
+  EXPECT_EQ(terminal.shown.size(), 4U);
 }
 
 }  // namespace

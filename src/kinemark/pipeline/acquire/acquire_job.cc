@@ -78,24 +78,6 @@ std::int64_t frames_of(const AcquireJob& job, double rate_hz) {
   return std::max<std::int64_t>(1, std::llround(std::min(job.duration_s * rate_hz, kMostFrames)));
 }
 
-std::vector<io::RecordingMetadata> about(const AcquireJob& job, const stream::GrantedPlan& plan,
-                                         const stream::DeviceCapabilities& device) {
-  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  std::map<std::string, std::string> values{{"source", job.source},
-                                            {"device", device.name},
-                                            {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now)},
-                                            {"rate_hz", format_number(plan.plan.rate_hz)},
-                                            {"program", std::string("kinemark ") + kVersion},
-                                            {"command", job.command_line}};
-  if (!job.subject.empty()) values["subject"] = job.subject;
-  if (!job.trial.empty()) values["trial"] = job.trial;
-  for (std::size_t l = 0; l < plan.plan.intensity.size(); ++l)
-    values["intensity " + plan.plan.leds[l]] = format_number(plan.plan.intensity[l]);
-  std::vector<io::RecordingMetadata> out{{"acquisition", std::move(values)}};
-  if (!plan.facts.empty()) out.push_back({"device", plan.facts});
-  return out;
-}
-
 bool asked_to_stop(const AcquireJob& job) { return job.stop && job.stop(); }
 
 /// false: it was stopped meanwhile.
@@ -140,6 +122,25 @@ Status check_numbers(const AcquireJob& job) {
 
 }  // namespace
 
+std::vector<io::RecordingMetadata> acquisition_metadata(const AcquireJob& job,
+                                                        const stream::GrantedPlan& plan,
+                                                        const stream::DeviceCapabilities& device) {
+  const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  std::map<std::string, std::string> values{{"source", job.source},
+                                            {"device", device.name},
+                                            {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now)},
+                                            {"rate_hz", format_number(plan.plan.rate_hz)},
+                                            {"program", std::string("kinemark ") + kVersion},
+                                            {"command", job.command_line}};
+  if (!job.subject.empty()) values["subject"] = job.subject;
+  if (!job.trial.empty()) values["trial"] = job.trial;
+  for (std::size_t l = 0; l < plan.plan.intensity.size(); ++l)
+    values["intensity " + plan.plan.leds[l]] = format_number(plan.plan.intensity[l]);
+  std::vector<io::RecordingMetadata> out{{"acquisition", std::move(values)}};
+  if (!plan.facts.empty()) out.push_back({"device", plan.facts});
+  return out;
+}
+
 Result<TrialBegin> parse_begin(std::string_view text) {
   using Kind = TrialBegin::Kind;
   if (text == "key") return TrialBegin{.kind = Kind::key};
@@ -183,7 +184,7 @@ Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bo
   auto recorder = Recorder::start(**device, *granted,
                                   {.file = job.output,
                                    .recording = {.force = job.force, .sync = job.sync},
-                                   .metadata = about(job, *granted, capabilities),
+                                   .metadata = acquisition_metadata(job, *granted, capabilities),
                                    .frames = frames_of(job, granted->plan.rate_hz),
                                    .begin = *begin});
   if (!recorder) return std::unexpected(recorder.error());
@@ -194,7 +195,7 @@ Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bo
   AcquireOutcome out;
   out.recorded = (*recorder)->finish();
   out.plan = std::move(*granted);
-  out.notes = describe_trial(out.recorded, out.plan.layout);
+  for (auto& note : describe_trial(out.recorded, out.plan.layout)) out.notes.push_back(std::move(note.text));
   out.gates = {missing_gate(out.recorded.progress)};
   out.written = {job.output};
   return out;

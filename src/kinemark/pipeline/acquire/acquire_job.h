@@ -48,12 +48,16 @@ struct AcquireJob : JobSettings {
   std::function<void(const RecorderProgress&)> each_second;  ///< may be empty
 };
 
+/// What is written before the first frame: source, device, start, rate, subject, trial, intensities.
+[[nodiscard]] std::vector<io::RecordingMetadata> acquisition_metadata(
+    const AcquireJob& job, const stream::GrantedPlan& plan, const stream::DeviceCapabilities& device);
+
 /// A trial that is kept. A failure of disk or device after its first frame is in recorded.error: the file is
 /// there. Gate: frames_missing.
 struct AcquireOutcome : JobOutcome {
   stream::GrantedPlan plan;
   Recorded recorded;
-  std::vector<std::string> notes;  ///< describe_trial()
+  std::vector<std::string> notes;  ///< texts of describe_trial()
 };
 
 /// Open the device, wait for what begins the trial, record it, check it. Code::device where the device cannot

@@ -11,10 +11,16 @@
 
 namespace kinemark::pipeline {
 
+/// One thing to know of a trial.
+struct TrialNote {
+  std::string text;  ///< a sentence; where something is wrong, with what to do
+  bool good = true;  ///< nothing is wrong with it
+};
+
 /// What there is to know of a trial before the next one, one sentence each: noise of LEDs that stood still,
 /// what is missing and who lost it, saturation, the device's clock.
 /// @param layout  names, as recorded
-[[nodiscard]] std::vector<std::string> describe_trial(const Recorded& recorded, const data::Counts& layout);
+[[nodiscard]] std::vector<TrialNote> describe_trial(const Recorded& recorded, const data::Counts& layout);
 
 /// "frames_missing": no frame was lost.
 [[nodiscard]] data::Gate missing_gate(const RecorderProgress& progress);

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace kinemark::pipeline {
 namespace {
 
@@ -23,9 +25,31 @@ Recorded good() {
   return out;
 }
 
+std::vector<std::string> said_of(const Recorded& recorded, const data::Counts& counts) {
+  std::vector<std::string> texts;
+  for (const auto& note : describe_trial(recorded, counts)) texts.push_back(note.text);
+  return texts;
+}
+
+TEST(TrialNotes, AreGoodWhereNothingIsWrong) {
+  const auto all_good = [](const Recorded& recorded) {
+    return std::ranges::all_of(describe_trial(recorded, layout()), &TrialNote::good);
+  };
+  EXPECT_TRUE(all_good(good()));
+  for (const int which : {0, 1, 2, 3}) {
+    auto trial = good();
+    if (which == 0) trial.progress.dropped_by_device = 1;
+    if (which == 1) trial.progress.dropped_here = 1;
+    if (which == 2) trial.progress.reopened = 1;
+    if (which == 3) trial.lit[0].saturated = 1;
+    EXPECT_FALSE(all_good(trial)) << which;
+  }
+  EXPECT_FALSE(all_good({}));
+}
+
 TEST(TrialNotes, OfAGoodTrialSayNothingElse) {
   EXPECT_THAT(
-      describe_trial(good(), layout()),
+      said_of(good(), layout()),
       ElementsAre("all 100 frames came and are kept",
                   "LEDs that stood still have an SD of 2.50 counts, 2.00 to 3.00 (4 of 4 LEDs at their "
                   "cameras)"));
@@ -35,12 +59,12 @@ TEST(TrialNotes, OfAGoodTrialSayNothingElse) {
 TEST(TrialNotes, TellWhoLostWhat) {
   auto trial = good();
   trial.progress.dropped_by_device = 30;
-  auto said = describe_trial(trial, layout());
+  auto said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("the device lost 30 of 100 frames")));
   EXPECT_THAT(said, Each(Not(HasSubstr("dropped here"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("came and are kept"))));
   trial.progress = {.frames = 100, .dropped_here = 5, .reopened = 1};
-  said = describe_trial(trial, layout());
+  said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("5 of 100 frames came and were dropped here")));
   EXPECT_THAT(said, Contains(HasSubstr("was away and came back 1 time;")));
   EXPECT_THAT(said, Each(Not(HasSubstr("the device lost"))));
@@ -51,7 +75,7 @@ TEST(TrialNotes, TellWhoLostWhat) {
 TEST(TrialNotes, NameTheLedThatSaturatesACamera) {
   auto trial = good();
   trial.lit[3].saturated = 7;
-  const auto said = describe_trial(trial, layout());
+  const auto said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("LED 'wrist' saturates camera B in 7 of 100 frames")));
   EXPECT_THAT(said, Each(Not(HasSubstr("'hand'"))));
 }
@@ -59,7 +83,7 @@ TEST(TrialNotes, NameTheLedThatSaturatesACamera) {
 TEST(TrialNotes, AskForAStillLedWhereAllMoved) {
   auto trial = good();
   for (auto& levels : trial.lit) levels.still = false;
-  const auto said = describe_trial(trial, layout());
+  const auto said = said_of(trial, layout());
   EXPECT_THAT(said, Contains("every LED moved: hold one still for a second to see its noise"));
   EXPECT_THAT(said, Each(Not(HasSubstr("stood still"))));
 }
@@ -67,12 +91,12 @@ TEST(TrialNotes, AskForAStillLedWhereAllMoved) {
 TEST(TrialNotes, SayHowFastTheClockIs) {
   auto trial = good();
   trial.clock = {.rate_hz = 138.0414, .sd_hz = 1e-5, .ppm_fast = 300.04, .sd_ppm = 0.07, .span_s = 60.0};
-  EXPECT_THAT(describe_trial(trial, layout()), Contains(HasSubstr("its clock is 300.04 +- 0.07 ppm fast")));
+  EXPECT_THAT(said_of(trial, layout()), Contains(HasSubstr("its clock is 300.04 +- 0.07 ppm fast")));
   trial.clock->ppm_fast = -12.0;
-  EXPECT_THAT(describe_trial(trial, layout()), Contains(HasSubstr("12.00 +- 0.07 ppm slow")));
+  EXPECT_THAT(said_of(trial, layout()), Contains(HasSubstr("12.00 +- 0.07 ppm slow")));
 }
 
-TEST(TrialNotes, OfNothingSaySo) { EXPECT_THAT(describe_trial({}, layout()), ElementsAre("no frame came")); }
+TEST(TrialNotes, OfNothingSaySo) { EXPECT_THAT(said_of({}, layout()), ElementsAre("no frame came")); }
 
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
 
@@ -133,8 +134,11 @@ Status AcquireDesk::check_room(const TrialName& name) const {
 }
 
 std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) const {
-  return describe_source({.source = uri_, .subject = name.subject, .trial = name.trial}, granted_,
-                         device_->capabilities());
+  AcquireJob job;
+  job.source = uri_;
+  job.subject = name.subject;
+  job.trial = name.trial;
+  return acquisition_metadata(job, granted_, device_->capabilities());
 }
 
 Status AcquireDesk::record(const TrialName& name) {

@@ -37,15 +37,14 @@ std::string next_trial(const std::string& name) {
   return name.substr(0, name.size() - digits) + fmt::format("{:0{}}", std::stol(number) + 1, digits);
 }
 
-Result<std::vector<std::string>> parse_leds(const std::string& text) {
-  std::vector<std::string> names;
+Result<std::vector<std::string>> parse_leds(const std::string& text, const std::vector<std::string>& own) {
   const auto count = parse_number(text);
   if (count) {
     if (*count < 1 || *count > kMostLedsTyped || *count != std::floor(*count))
       return fail(Code::usage, fmt::format("LEDs: '{}' is no count from 1 to {}", text, kMostLedsTyped));
-    for (int i = 1; i <= static_cast<int>(*count); ++i) names.push_back(fmt::format("LED {}", i));
-    return names;
+    return stream::own_names(own, static_cast<int>(*count), false);
   }
+  std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     names.push_back(trimmed(text.substr(begin, end - begin)));
@@ -61,7 +60,7 @@ Result<std::vector<std::string>> parse_leds(const std::string& text) {
 }
 
 Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device) {
-  auto leds = parse_leds(wanted.leds);
+  auto leds = parse_leds(wanted.leds, device.leds);
   if (!leds) return std::unexpected(leds.error());
   const auto rate = parse_positive(wanted.rate_hz, "Rate");
   if (!rate) return std::unexpected(rate.error());
@@ -73,7 +72,7 @@ Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& dev
   plan.scan.leds = std::move(*leds);
   plan.scan.rate_hz = *rate;
   plan.scan.timing = device.fastest;
-  for (int c = 0; c < device.cameras; ++c) plan.scan.cameras.emplace_back(1, static_cast<char>('A' + c));
+  plan.scan.cameras = stream::own_names(device.camera_names, device.cameras, true);
   return plan;
 }
 

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/desk/acquire_desk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <thread>
+
+#include "kinemark/io/recording/counts_recording.h"
+#include "kinemark/pipeline/desk/plan_text.h"
+#include "support/scratch.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using testing::HasSubstr;
+
+// A desk whose rig runs: 3 LEDs as fast as they are asked for.
+struct Rig {
+  testing_support::ScratchFolder folder;
+  AcquireDesk desk{{.folder = folder / "trials"}};
+  stream::DeviceCapabilities device = *desk.open("sim:rig?leds=3&speed=20");
+  stream::GrantedPlan granted = *desk.run(plan_of({}, device)->scan);
+
+  // Until it has seen that many frames, or a minute.
+  LiveView after(std::int64_t frames) {
+    for (int i = 0; i < 6000; ++i) {
+      LiveView view = desk.live();
+      if (view.frames >= frames) return view;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return {};
+  }
+};
+
+TEST(AcquireDesk, ListsTheSimulatedRig) {
+  AcquireDesk desk({});
+  const auto sources = desk.sources();
+  EXPECT_TRUE(std::ranges::any_of(sources, [](const auto& s) { return s.uri.starts_with("sim:rig"); }));
+}
+
+TEST(AcquireDesk, ShowsWhatTheRigSeesWhileNothingIsRecorded) {
+  Rig rig;
+  const LiveView view = rig.after(100);
+  ASSERT_EQ(view.seen.size(), 6U);
+  EXPECT_GT(view.seen[0].light_counts, 0.0);
+  EXPECT_LT(view.seen[0].noise_counts, 5.0);
+  EXPECT_FALSE(view.spots[0].empty());
+  EXPECT_EQ(view.acknowledged, 0);
+  EXPECT_FALSE(std::filesystem::exists(rig.folder / "trials"));
+}
+
+TEST(AcquireDesk, ATrialOfAGivenLengthIsKeptWithItsName) {
+  Rig rig;
+  ASSERT_TRUE(rig.desk.record({"S1", "reach_01", 1.0}));
+  LiveView view;
+  for (int i = 0; i < 6000 && !view.ended; ++i) {
+    view = rig.desk.live();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(view.ended);
+  const auto check = rig.desk.stop();
+  ASSERT_TRUE(check);
+  EXPECT_THAT((*check)[0].text, HasSubstr("came and are kept"));
+  const auto file = rig.desk.keep();
+  ASSERT_TRUE(file);
+  const auto recorded = io::read_counts(*file);
+  ASSERT_TRUE(recorded) << recorded.error().message;
+  EXPECT_EQ(recorded->end, io::RecordingEnd::closed);
+  EXPECT_EQ(recorded->counts.frames(), std::llround(rig.granted.plan.rate_hz));
+  EXPECT_EQ(recorded->metadata.at(0).values.at("subject"), "S1");
+  EXPECT_GT(rig.after(1).frames, 0);  // the live view goes on
+}
+
+TEST(AcquireDesk, ATrialThatIsDiscardedIsGone) {
+  Rig rig;
+  ASSERT_TRUE(rig.desk.record({"", "01", 0.0}));
+  (void)rig.after(10);
+  ASSERT_TRUE(rig.desk.stop());
+  EXPECT_TRUE(std::filesystem::exists(rig.folder / "trials/01.mcap"));
+  EXPECT_TRUE(rig.desk.discard());
+  EXPECT_FALSE(std::filesystem::exists(rig.folder / "trials/01.mcap"));
+}
+
+TEST(AcquireDesk, AFileThatIsThereIsNeverReplaced) {
+  Rig rig;
+  std::filesystem::create_directories(rig.folder / "trials");
+  std::ofstream(rig.folder / "trials/01.mcap") << "mine";
+  const auto begun = rig.desk.record({"", "01", 0.0});
+  ASSERT_FALSE(begun);
+  EXPECT_THAT(begun.error().message, HasSubstr("01.mcap"));
+  std::string text;
+  std::ifstream(rig.folder / "trials/01.mcap") >> text;
+  EXPECT_EQ(text, "mine");
+  EXPECT_GT(rig.after(1).frames, 0);
+}
+
+TEST(AcquireDesk, NamesThatAreNoFilesAreRefused) {
+  Rig rig;
+  EXPECT_FALSE(rig.desk.record({"", "../01", 0.0}));
+  EXPECT_FALSE(std::filesystem::exists(rig.folder / "01.mcap"));
+}
+
+TEST(AcquireDesk, IntensityChangesTheLight) {
+  Rig rig;
+  const double before = rig.after(100).seen[0].light_counts;
+  ASSERT_TRUE(rig.desk.set_intensity(0, 0.5));
+  EXPECT_NEAR(rig.after(100).seen[0].light_counts / before, 0.5, 0.1);
+}
+
+TEST(AcquireDesk, RefusesARateThatTheLedsLeaveNoRoomFor) {
+  Rig rig;
+  auto plan = rig.granted.plan;
+  plan.rate_hz = 100000.0;
+  const auto granted = rig.desk.run(plan);
+  ASSERT_FALSE(granted);
+  EXPECT_THAT(granted.error().message, HasSubstr("highest"));
+}
+
+TEST(AcquireDesk, ClosingKeepsTheTrial) {
+  Rig rig;
+  ASSERT_TRUE(rig.desk.record({"", "01", 0.0}));
+  (void)rig.after(10);
+  rig.desk.close();
+  const auto recorded = io::read_counts(rig.folder / "trials/01.mcap");
+  ASSERT_TRUE(recorded);
+  EXPECT_EQ(recorded->end, io::RecordingEnd::closed);
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
