@@ -149,7 +149,7 @@ Status AcquireDesk::record(const TrialName& name) {
   if (name.trial.find('/') != std::string::npos)
     return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
   if (const auto room = check_room(name); !room) return room;
-  trial_ = files_.folder / (name.trial + ".mcap");
+  trial_ = (files_.folder / (name.trial + ".mcap")).lexically_normal();
   RecorderOptions options;
   options.file = trial_;
   options.recording = files_.recording;
