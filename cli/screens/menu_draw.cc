@@ -84,8 +84,8 @@ std::string Menu::keys() const {
     case DeskStep::plan:
       return "↑↓ choose   Enter start   Esc another source";
     case DeskStep::live:
-      return state().device.sets_intensity ? "r record   ↑↓ LED   +- its light   s set-up   q quit"
-                                           : "r record   ↑↓ LED   s set-up   q quit";
+      return std::string("r record   ↑↓ LED") + (state().device.sets_intensity ? "   +- its light" : "") +
+             (state().live.guide.empty() ? "" : "   a align anew") + "   s set-up   q quit";
     case DeskStep::recording:
       return "s stop";
     case DeskStep::check:

@@ -76,7 +76,7 @@ def session(columns, rows):
                 (("-l", SOURCE), SOURCE),
                 (("Enter",), "Enter start"),
                 (("Down", "9", "9", "9"), "999_"),
-                (("Enter",), "999 were asked for"),
+                (("Enter",), "frames per second at most"),
                 (("BSpace", "BSpace", "BSpace", "Enter"), "r record"),
             )
             refused = "" if missing else screen.text()
@@ -88,7 +88,7 @@ def session(columns, rows):
         files = sorted(p.name for p in folder.glob("*.mcap"))
         size = f"{columns} x {rows}"
         row(not missing and files == ["01.mcap"], f"menus at {size}: a refused rate, a kept and a discarded trial", "all steps; 01.mcap", f"{missing or 'all steps'}; {', '.join(files)}")
-        row(refused != "" and "999 were asked for" not in refused, f"menus at {size}: the refusal is gone once the rate is mended", "gone", "there" if "999 were asked for" in refused else "gone")
+        row(refused != "" and "frames per second at most" not in refused, f"menus at {size}: the refusal is gone once the rate is mended", "gone", "there" if "frames per second at most" in refused else "gone")
         if files == ["01.mcap"]:
             status = run("info", folder / "01.mcap").returncode
             row(status == 0, f"menus at {size}: the trial is a whole recording", "exit status 0", str(status))
