@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <set>
 
+#include "kinemark/stream/internal/device_file.h"
 #include "kinemark/stream/serial/serial_device.h"
-#include "kinemark/stream/serial/serial_port.h"
 
 namespace kinemark::stream {
 namespace {

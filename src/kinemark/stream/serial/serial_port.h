@@ -40,9 +40,4 @@ class SerialPort {
   std::string path_;
 };
 
-/// Why a line cannot be opened, from errno.
-[[nodiscard]] std::string cannot_open(const std::string& path, int error);
-/// The program that has a file open, "kinemark (process 4711)"; "another program" when it cannot be seen.
-[[nodiscard]] std::string who_has(const std::string& path);
-
 }  // namespace kinemark::stream

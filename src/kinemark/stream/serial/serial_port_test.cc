@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stream/serial/serial_port.h"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 
@@ -37,12 +35,6 @@ TEST(SerialPort, SaysWhatIsNoLine) {
   EXPECT_THAT(refusal((scratch / "none").string()), HasSubstr("no such device; is it plugged in?"));
   std::ofstream(scratch / "file") << "x";
   EXPECT_THAT(refusal((scratch / "file").string()), HasSubstr("is no serial line"));
-}
-
-TEST(SerialPort, NamesTheGroupThatMayOpenIt) {
-  EXPECT_THAT(cannot_open("/dev/null", EACCES), HasSubstr("of the group root: sudo usermod -aG root $USER"));
-  EXPECT_THAT(cannot_open("/dev/null", EIO), HasSubstr("cannot be opened: "));
-  EXPECT_THAT(cannot_open("/dev/null", ENXIO), HasSubstr("is it plugged in?"));
 }
 
 TEST(SerialPort, CarriesBytesBothWaysAsTheyAre) {
