@@ -28,6 +28,7 @@
 #include <cstdlib>
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ namespace fs = std::filesystem;
 constexpr double kClockHz = 16e6;
 constexpr std::uint32_t kSupplyMv = 5000;
 constexpr avr_cycle_count_t kLookEvery = 1600;  // 0.1 ms
+constexpr std::size_t kBridgeBytes = 4096;      // that a USB bridge keeps while nobody asks for them
 // Pins of LED 1 to 8: port and bit.
 constexpr std::array<std::pair<char, int>, 8> kLedPins{
     {{'D', 2}, {'D', 3}, {'D', 4}, {'D', 5}, {'D', 7}, {'B', 0}, {'B', 1}, {'B', 2}}};
@@ -78,6 +80,8 @@ class Line {
     fs::remove(link_);
   }
   void put(std::uint8_t byte) {
+    if (room_ == 0) return;
+    if (room_ != kAll) --room_;
     const double dice = spoils_ ? random_.uniform() : 0.5;
     if (dice < 0.003) return;
     waiting_.push_back(byte);
@@ -85,6 +89,9 @@ class Line {
     if (dice > 0.997 && waiting_.size() > 1) std::swap(waiting_.back(), waiting_[waiting_.size() - 2]);
   }
   /// Bring bytes to the host; time waits while it takes none, unless it is real.
+  /// Of the bytes to come only so many reach the host, until all() is called.
+  void only(std::size_t room) { room_ = room; }
+  void all() { room_ = kAll; }
   void flush() {
     std::size_t at = 0;
     while (at < waiting_.size() && master_ >= 0) {
@@ -116,6 +123,8 @@ class Line {
   fs::path link_;
   bool real_time_, spoils_;
   kinemark::Random random_;
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  std::size_t room_ = kAll;
   int master_ = -1;
   std::vector<std::uint8_t> waiting_;
 };
@@ -294,6 +303,13 @@ bool obey(const std::string& order, Emulator& emulator, Line& line) {
     line.plug();
   } else if (order == "trigger") {
     emulator.trigger(true);
+  } else if (order.starts_with("ahead ")) {
+    line.only(kBridgeBytes);
+    for (const double end = emulator.seconds() + std::stod(order.substr(6)); emulator.seconds() < end;) {
+      emulator.run_for(kLookEvery);
+      line.flush();
+    }
+    line.all();
   }
   fmt::print("ok\n");
   std::fflush(stdout);

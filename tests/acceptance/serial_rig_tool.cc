@@ -59,7 +59,7 @@ void append(const Block& block, data::Counts& counts, std::vector<std::int64_t>&
   for (std::int64_t i = 0; i < block.frames; ++i) numbers.push_back(block.first_frame + i);
 }
 
-void record(char** words, int count) {
+void record(char** words) {
   const auto leds = std::stoi(words[4]);
   const std::int64_t wanted = std::stoll(words[5]);
   auto device = or_give_up(open_serial(words[2]));
@@ -68,7 +68,6 @@ void record(char** words, int count) {
   const auto granted = or_give_up(device->configure(asked));
   or_give_up(device->start());
   fmt::print(stderr, "started\n");
-  double stall_s = count > 10 ? std::stod(words[10]) : 0.0;
   data::Counts counts = granted.layout;
   std::vector<std::int64_t> numbers;
   std::vector<std::pair<std::int64_t, std::int64_t>> gaps;
@@ -93,8 +92,6 @@ void record(char** words, int count) {
     if (block.gap) gaps.emplace_back(next, block.first_frame - next);
     overflow |= block.overflow;
     append(block, counts, numbers);
-    if (stall_s > 0.0)
-      std::this_thread::sleep_for(std::chrono::duration<double>(std::exchange(stall_s, 0.0)));
   }
   or_give_up(device->stop());
   counts.time.frames = static_cast<std::int64_t>(numbers.size());
@@ -143,7 +140,7 @@ void open_and_close(const char* path, int times) {
 
 int main(int count, char** words) {
   const std::string verb = count > 2 ? words[1] : "";
-  if (verb == "record" && count >= 10) record(words, count);
+  if (verb == "record" && count == 10) record(words);
   if (verb == "refuse" && count == 5) {
     auto device = or_give_up(open_serial(words[2]));
     (void)or_give_up(device->configure(plan(std::stoi(words[3]), std::stod(words[4]), false, 1.0)));
