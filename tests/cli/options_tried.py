@@ -89,7 +89,7 @@ TRIED = {
     "simulate rig": (RIG, {"--out": "other", "--pose": 3, "--turned": 20, "--leds": 2, "--glint": None, "--markers": "absent.trc",
                            "--marker": "RKNE", "--z-up": None, "--keep-place": None, "--rate": 50, "--highest-rate": None, "--duration": 0.1,
                            "--intensity": 0.5, "--occlude": "all:A:1-3", "--dark-slot": None, "--no-noise": None, "--detector": "pin-cushion",
-                           "--imperfection": 3, "--misalignment": 3, "--crosstalk": 0.1, "--ripple": 0.1, "--grid": None, "--tree-poses": None,
+                           "--imperfection": 3, "--misalignment": 3, "--crosstalk": 0.1, "--ripple": 0.1, "--bits": 10, "--conversion": 64, "--grid": None, "--tree-poses": None,
                            "--scan": None}),
     "acquire": (["sim:rig?fast", "--output", "o.mcap", "--frames", 60],
                 {"--output": "other.mcap", "--leds": 3, "--rate": 50, "--intensity": 0.5, "--duration": 0.1, "--frames": 30, "--trigger": "digital",
