@@ -106,6 +106,7 @@ class Acquire(CommandTest):
             ((FAST, "-o", "t.csv"), ".mcap"),
             ((FAST,), "--output"),
             (("-o", "t.mcap"), "--list"),
+            ((FAST, "-o", "t.mcap", "--rig", "rig.toml"), "--rig is for the menus"),
             (("usb:1", "-o", "t.mcap"), "address of no device"),
             (("sim:rig?leds=12", "-o", "t.mcap"), "from 1 to 8"),
         ):
@@ -115,6 +116,20 @@ class Acquire(CommandTest):
                 self.assertIn(said, ran.err)
                 self.assertEqual(list(self.folder.iterdir()), [])
         self.assertEqual(self.acquire(FAST, "-o", "absent/t.mcap", "--frames", 5).status, 4)
+
+    def test_without_a_recording_to_write_it_asks_in_lines(self):
+        lines = ["o", "sim:rig?leds=3", "", "", "0.2", "S1", "reach", "k", "q"]
+        ran = subprocess.run([PROGRAM, "acquire"], cwd=self.folder, input="\n".join(lines) + "\n", capture_output=True, text=True, timeout=SECONDS, check=False)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("is the address of no device", ran.stdout)
+        self.assertIn("3 LEDs, 2 cameras", ran.stdout)
+        self.assertIn("Kept: reach.mcap", ran.stdout)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["reach.mcap"])
+        ran = subprocess.run([PROGRAM, "acquire"], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=SECONDS, check=False)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("sim:rig", ran.stdout)
+        ran = self.acquire("--rig", "absent.toml")
+        self.assertEqual(ran.status, 4, ran.err)
 
     def test_it_begins_with_enter(self):
         words = [PROGRAM, "acquire", FAST, "-o", "trial.mcap", "--frames", "50", "--trigger", "key"]

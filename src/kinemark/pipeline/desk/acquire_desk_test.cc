@@ -10,12 +10,14 @@
 
 #include "kinemark/io/recording/counts_recording.h"
 #include "kinemark/pipeline/desk/plan_text.h"
+#include "kinemark/stages/simulation/rig_physics.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // A desk whose rig runs: 3 LEDs as fast as they are asked for.
 struct Rig {
@@ -117,6 +119,35 @@ TEST(AcquireDesk, RefusesARateThatTheLedsLeaveNoRoomFor) {
   const auto granted = rig.desk.run(plan);
   ASSERT_FALSE(granted);
   EXPECT_THAT(granted.error().message, HasSubstr("highest"));
+}
+
+TEST(AcquireDesk, SaysThatTheDeviceIsAwayWhileItIs) {
+  AcquireDesk desk({});
+  const auto device = desk.open("sim:rig?leds=1&speed=20&unplug_at=2&unplug_for=1000");
+  ASSERT_TRUE(desk.run(plan_of({.leds = "1"}, *device)->scan));
+  EXPECT_THAT(desk.live().trouble,
+              Not(HasSubstr("the device does not answer; look at its plug. What came is kept")));
+  std::string trouble;
+  for (int i = 0; i < 6000 && trouble.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    trouble = desk.live().trouble;
+  }
+  EXPECT_THAT(trouble, HasSubstr("the device does not answer; look at its plug. What came is kept"));
+}
+
+TEST(AcquireDesk, GuidesTheAlignmentWhereTheRigIsKnown) {
+  simulation::RigDrawOptions drawn;
+  AcquireDesk desk({.wanted_rig = simulation::draw_rig(drawn)->nominal});
+  const auto device = desk.open("sim:rig?scene=tree&speed=20");
+  ASSERT_TRUE(desk.run(plan_of({}, *device)->scan));
+  std::string guide;
+  for (int i = 0; i < 6000 && !guide.contains("1 of 4"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    guide = desk.live().guide;
+  }
+  EXPECT_THAT(guide, HasSubstr("1 of 4"));  // the tree of this scene stays where it is
+  ASSERT_TRUE(desk.run(plan_of({.leds = "2"}, *device)->scan));
+  EXPECT_THAT(desk.live().guide, HasSubstr("3 LEDs; there are 2"));
 }
 
 TEST(AcquireDesk, ClosingKeepsTheTrial) {

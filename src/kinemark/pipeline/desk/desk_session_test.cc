@@ -12,6 +12,7 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::Not;
 
 // A session whose device runs.
@@ -72,6 +73,18 @@ TEST(DeskSession, IntensityStaysWithinItsRangeAndItsLeds) {
   session.set_intensity(3, 0.5);
   session.set_intensity(-1, 0.5);
   EXPECT_THAT(session.state().granted.plan.intensity, ElementsAre(1.0, 1.0, 1.0));
+}
+
+TEST(DeskSession, SaysThatLightCannotBeSetWhereItCannot) {
+  FakeDesk desk;
+  DeskSession session = running(desk);
+  session.set_intensity(0, 0.5);
+  EXPECT_THAT(session.state().message, Not(HasSubstr("The light of this device's LEDs cannot be set")));
+  desk.device.sets_intensity = false;
+  DeskSession other = running(desk);
+  other.set_intensity(0, 0.5);
+  EXPECT_THAT(other.state().message, HasSubstr("The light of this device's LEDs cannot be set"));
+  EXPECT_EQ(other.state().granted.plan.intensity[0], 1.0);
 }
 
 TEST(DeskSession, ATrialsNameCountsOnOnceItIsKept) {

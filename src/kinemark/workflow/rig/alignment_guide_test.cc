@@ -48,7 +48,8 @@ TEST(AlignmentGuide, AsksForPosesAndThenSaysTheNextAdjustment) {
   auto guide = AlignmentGuide::create(shown(rig, 0, 1), rig.nominal, sides());
   ASSERT_TRUE(guide) << guide.error().message;
   for (int pose = 0; pose < 3; ++pose) {
-    EXPECT_THAT(guide->sentence(), HasSubstr("hold the tree still"));
+    EXPECT_THAT(guide->sentence(),
+                HasSubstr("hold the tree still for a second, in one place after the other: "));
     push(*guide, shown(rig, pose, 100));
     EXPECT_EQ(guide->poses(), pose + 1);
   }
@@ -56,7 +57,8 @@ TEST(AlignmentGuide, AsksForPosesAndThenSaysTheNextAdjustment) {
   ASSERT_TRUE(guide->alignment()) << guide->sentence();
   EXPECT_THAT(guide->sentence(), HasSubstr(guide->alignment()->next));
   EXPECT_THAT(guide->sentence(), HasSubstr("from 4 poses"));
-  EXPECT_THAT(guide->sentence(), Not(HasSubstr("hold the tree still")));
+  EXPECT_THAT(guide->sentence(),
+              Not(HasSubstr("hold the tree still for a second, in one place after the other: ")));
 }
 
 TEST(AlignmentGuide, FindsTheRollThatACameraHas) {
