@@ -27,6 +27,7 @@ constexpr std::array kValues = {
     Values{"rate cutoff half-gain resample", "HZ"},
     Values{"duration start end max-gap longest-gap", "S"},
     Values{"step", "MS"},
+    Values{"conversion", "US"},
     Values{"noise level-bound max-rms max-offset max-gap-sd place-prior joint-prior stagger skin loss-scale",
            "MM"},
     Values{"sides", "M"},
@@ -38,7 +39,7 @@ constexpr std::array kValues = {
     Values{"size-prior", "PERCENT"},
     Values{"crosstalk dim dropout-random dropout-sight missing soft-tissue-common min-likelihood", "SHARE"},
     Values{"imperfection misalignment soft-tissue ripple", "FACTOR"},
-    Values{"threads seed jobs frames max-frames frames-per-pose leds order person pose port upsample "
+    Values{"threads seed jobs frames max-frames frames-per-pose leds bits order person pose port upsample "
            "warp-degree",
            "N"},
     Values{"seeds", "N-N"},

@@ -99,9 +99,8 @@ void add_rig_options(CLI::App& rig, RigArguments& arguments) {
       ->capture_default_str();
   rig.add_option("--ripple", job.rig.ripple, "Fine unevenness of the sheet, half-sides")
       ->capture_default_str();
-  rig.add_option("--bits", job.rig.bits, "Of the converter, 8 to 14")->capture_default_str();
-  rig.add_option("--conversion", arguments.conversion_us, "Time of one conversion, us")
-      ->capture_default_str();
+  rig.add_option("--bits", job.rig.bits, "Bits of the converter, 8 to 14")->capture_default_str();
+  rig.add_option("--conversion", arguments.conversion_us, "Time of one conversion")->capture_default_str();
   rig.add_flag("--grid", job.grid, "Also record the calibration grid");
   rig.add_flag("--tree-poses", job.tree_poses, "Also record 300 poses of the orientation tree");
   rig.add_flag("--scan", job.scan, "Also record an LED on a motor stage");
