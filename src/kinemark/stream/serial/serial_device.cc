@@ -57,6 +57,17 @@ class Conversation {
                             port_.path()));
   }
 
+  /// ask(), up to three times: the line may damage what is sent and what is answered. @param undo  said in
+  /// between, so that what was done unheard is not done twice; empty: nothing
+  Result<RigAnswer> insist(const std::string& line, std::string_view kind, std::string_view undo = {}) {
+    auto answer = ask(line, kind, kAnswer);
+    for (int again = 0; again < 2 && !answer; ++again) {
+      if (!undo.empty() && !ask(std::string(undo), undo, kAnswer)) break;
+      answer = ask(line, kind, kAnswer);
+    }
+    return answer;
+  }
+
   /// Bytes behind the last answer.
   [[nodiscard]] std::string rest() { return std::exchange(heard_, {}); }
 
@@ -159,7 +170,7 @@ Result<GrantedPlan> SerialDevice::configure(const ScanPlan& plan) {
   if (!talk_) return gone();
   const auto command = plan_command(plan, facts_);
   if (!command) return std::unexpected(command.error());
-  const auto answer = talk_->ask(*command, "plan", kAnswer);
+  const auto answer = talk_->insist(*command, "plan");
   if (!answer) return std::unexpected(answer.error());
   auto granted = granted_plan(plan, *answer, facts_);
   if (!granted) return granted;
@@ -169,7 +180,7 @@ Result<GrantedPlan> SerialDevice::configure(const ScanPlan& plan) {
 }
 
 Status SerialDevice::begin() {
-  const auto answer = talk_->ask("start", "start", kAnswer);
+  const auto answer = talk_->insist("start", "start", "stop");
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind != "start")
     return fail(Code::device, fmt::format("{}: does not start: {}", path_, answer->text("why")));
@@ -256,7 +267,7 @@ Status SerialDevice::stop() {
   if (!runs_) return {};
   runs_ = false;
   if (!talk_) return gone();
-  const auto answer = talk_->ask("stop", "stop", kAnswer);
+  const auto answer = talk_->insist("stop", "stop");
   return answer ? Status() : std::unexpected(answer.error());
 }
 

@@ -57,6 +57,19 @@ TEST_F(SerialDeviceTest, SaysWhatItIsAndGrantsAPlan) {
   EXPECT_THAT(refused.error().message, HasSubstr("do not fit: the highest rate is 484.4 Hz"));
 }
 
+TEST_F(SerialDeviceTest, AsksAgainWhereTheLineDamagesAnAnswer) {
+  auto device = open_serial(rig_.path()).value();
+  rig_.damage(1);
+  ASSERT_TRUE(device->configure(two_leds()));
+  rig_.damage(1);
+  ASSERT_TRUE(device->start());
+  rig_.wait_for("stop");  // what was begun unheard is ended first
+  rig_.wait_for("start", 2);
+  rig_.send_frames(0, 3);
+  ASSERT_EQ(device->read(block_, kLong).value(), ReadResult::block);
+  EXPECT_EQ(block_.first_frame, 0);
+}
+
 TEST_F(SerialDeviceTest, GivesFramesInBlocksWithTheTimesOfTheHost) {
   auto device = running();
   rig_.send_frames(0, 5);

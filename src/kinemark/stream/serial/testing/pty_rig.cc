@@ -66,6 +66,11 @@ void PtyRig::wait_for(const std::string& command, int times) {
   });
 }
 
+void PtyRig::damage(int answers) {
+  const std::scoped_lock lock(mutex_);
+  damaged_ = answers;
+}
+
 std::string PtyRig::obey(const std::string& line) {
   std::istringstream words(line);
   std::string verb;
@@ -108,7 +113,8 @@ void PtyRig::listen() {
       const std::scoped_lock lock(mutex_);
       const std::string said = obey(line);
       if (!said.empty()) {
-        const std::string answer = checked_line(said);
+        std::string answer = checked_line(said);
+        if (damaged_ > 0 && line != "?") answer[--damaged_ == 0 ? 2 : 1] ^= 1;
         send(Bytes(answer.begin(), answer.end()));
       }
       commands_.push_back(line);

@@ -31,6 +31,8 @@ class PtyRig {
   void send_frames(std::uint32_t first, std::uint32_t count, std::uint32_t dropped = 0);
   /// Wait until a command that begins so was obeyed `times` times.
   void wait_for(const std::string& command, int times = 1);
+  /// The line flips a bit of so many answers that follow, but for those to "?".
+  void damage(int answers);
   /// The plug is pulled; plug_in() makes a new line under the same link.
   void unplug();
   void plug_in();
@@ -44,7 +46,7 @@ class PtyRig {
   std::string obey(const std::string& line);
   std::filesystem::path link_;
   int master_ = -1, wake_[2] = {-1, -1};
-  int slots_ = 1;
+  int slots_ = 1, damaged_ = 0;
   std::mutex mutex_;
   std::condition_variable obeyed_;
   std::vector<std::string> commands_;
