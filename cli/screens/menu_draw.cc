@@ -147,10 +147,11 @@ void Menu::draw_plan(Canvas& canvas) const {
   const auto leds = pipeline::parse_leds(plan_.value(0));
   if (!leds) return;
   const int count = static_cast<int>(leds->size());
+  const data::SlotTiming timing = stream::usual_timing(state().device);
   canvas.text(row + 1, 4,
               fmt::format("{} LEDs: {:.1f} Hz at most, a slot of {:.0f} us for each", count,
-                          state().device.fastest.highest_rate_hz(count, state().device.cameras),
-                          1e6 * state().device.fastest.slot_s(state().device.cameras)),
+                          timing.highest_rate_hz(count, state().device.cameras),
+                          1e6 * timing.slot_s(state().device.cameras)),
               Ink::dim);
 }
 

@@ -63,6 +63,14 @@ struct ScanPlan {
   Trigger trigger = Trigger::at_once;
 };
 
+/// The plan with names of its own where it has none: all LEDs (one, of a device that lights none) and all
+/// cameras of the device.
+[[nodiscard]] ScanPlan with_names(ScanPlan plan, const DeviceCapabilities& device);
+
+/// Slots as on the rig of 1986 (data::SlotTiming), which its amplifiers need to settle, and no shorter than
+/// the device's shortest; with a dark slot where that has one.
+[[nodiscard]] data::SlotTiming usual_timing(const DeviceCapabilities& device);
+
 /// A plan as the device will run it.
 struct GrantedPlan {
   ScanPlan plan;        ///< with the rate, timing and intensities that it really has

@@ -19,5 +19,28 @@ TEST(OwnNames, AreThoseOfTheDeviceThenNumbersAndLetters) {
   EXPECT_EQ(own_names({}, 27, true).back(), "27");
 }
 
+TEST(WithNames, GivesThoseThatAreMissing) {
+  DeviceCapabilities device;
+  device.most_leds = 2;
+  device.cameras = 2;
+  ScanPlan plan = with_names({}, device);
+  EXPECT_THAT(plan.leds, ElementsAre("1", "2"));
+  EXPECT_THAT(plan.cameras, ElementsAre("A", "B"));
+  plan.leds = {"hand"};
+  EXPECT_THAT(with_names(plan, device).leds, ElementsAre("hand"));
+  device.most_leds = 0;  // LEDs run by themselves
+  EXPECT_THAT(with_names({}, device).leds, ElementsAre("1"));
+}
+
+TEST(UsualTiming, IsThatOf1986UnlessTheDeviceIsSlower) {
+  DeviceCapabilities device;
+  device.fastest = {.settle_s = 20e-6, .conversion_s = 64e-6, .off_s = 30e-6};
+  const data::SlotTiming timing = usual_timing(device);
+  EXPECT_EQ(timing.settle_s, 320e-6);
+  EXPECT_EQ(timing.conversion_s, 64e-6);
+  EXPECT_EQ(timing.off_s, 200e-6);
+  EXPECT_FALSE(timing.dark_slot);
+}
+
 }  // namespace
 }  // namespace kinemark::stream

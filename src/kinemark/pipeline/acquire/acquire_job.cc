@@ -42,7 +42,7 @@ Result<std::vector<double>> intensities(const AcquireJob& job, const std::vector
 }
 
 Result<stream::ScanPlan> wanted(const AcquireJob& job, const stream::DeviceCapabilities& device) {
-  stream::ScanPlan out{.leds = job.leds, .rate_hz = job.rate_hz};
+  stream::ScanPlan out{.leds = job.leds, .rate_hz = job.rate_hz, .timing = stream::usual_timing(device)};
   if (job.led_count > device.most_leds && device.most_leds > 0)
     return fail(Code::usage, fmt::format("{}: {} LEDs were asked for; it has {}", job.source, job.led_count,
                                          device.most_leds));

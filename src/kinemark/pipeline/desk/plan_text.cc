@@ -71,7 +71,7 @@ Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& dev
   plan.duration_s = *duration;
   plan.scan.leds = std::move(*leds);
   plan.scan.rate_hz = *rate;
-  plan.scan.timing = device.fastest;
+  plan.scan.timing = stream::usual_timing(device);
   plan.scan.cameras = stream::own_names(device.camera_names, device.cameras, true);
   return plan;
 }

@@ -23,7 +23,7 @@ struct Wanted {
 
 /// A set-up in numbers.
 struct Plan {
-  stream::ScanPlan scan;    ///< cameras of the device, its shortest slots
+  stream::ScanPlan scan;    ///< cameras of the device, slots by usual_timing()
   double duration_s = 0.0;  ///< 0: until it is stopped
 };
 

@@ -18,13 +18,13 @@ TEST(ParseLeds, TakesACountOrNames) {
 TEST(PlanOf, TakesSlotsAndCamerasOfTheDevice) {
   stream::DeviceCapabilities device;
   device.cameras = 3;
-  device.fastest.settle_s = 1e-4;
+  device.fastest.settle_s = 1e-3;
   Wanted wanted;
   wanted.duration_s = "2.5";
   const auto plan = plan_of(wanted, device);
   ASSERT_TRUE(plan);
   EXPECT_THAT(plan->scan.cameras, testing::ElementsAre("A", "B", "C"));
-  EXPECT_EQ(plan->scan.timing.settle_s, 1e-4);
+  EXPECT_EQ(plan->scan.timing.settle_s, 1e-3);
   EXPECT_EQ(plan->scan.rate_hz, 0.0);
   EXPECT_EQ(plan->duration_s, 2.5);
 }

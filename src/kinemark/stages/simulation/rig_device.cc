@@ -61,6 +61,7 @@ RigDevice::RigDevice(PhysicalRig rig, RigScene scene, const RigDeviceOptions& op
   capabilities_.lowest_rate_hz = 0.01;
   capabilities_.sets_intensity = true;
   capabilities_.has_dark_slot = rig_.rig.timing.dark_slot;
+  capabilities_.fastest = rig_.rig.timing;
   capabilities_.triggers = {stream::Trigger::at_once};
   capabilities_.speed = options_.speed;
 }

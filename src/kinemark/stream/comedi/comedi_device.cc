@@ -177,7 +177,8 @@ class ComediDevice final : public Device {
   steady_clock::time_point started_;
 };
 
-Result<GrantedPlan> ComediDevice::configure(const ScanPlan& plan) {
+Result<GrantedPlan> ComediDevice::configure(const ScanPlan& wanted) {
+  const ScanPlan plan = with_names(wanted, capabilities());
   check(!runs_, "a plan is set while the board stands still");
   if (!open_.board) return gone();
   const auto clock = scan_clock(plan, open_.facts);

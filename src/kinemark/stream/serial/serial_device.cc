@@ -165,7 +165,8 @@ class SerialDevice final : public Device {
   steady_clock::time_point started_;
 };
 
-Result<GrantedPlan> SerialDevice::configure(const ScanPlan& plan) {
+Result<GrantedPlan> SerialDevice::configure(const ScanPlan& wanted) {
+  const ScanPlan plan = with_names(wanted, capabilities());
   check(!runs_, "a plan is set while the rig stands still");
   if (!talk_) return gone();
   const auto command = plan_command(plan, facts_);
