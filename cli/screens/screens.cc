@@ -15,8 +15,8 @@
 namespace kinemark::screens {
 namespace {
 
-constexpr int kTick_ms = 100;           // between two looks at the device
-constexpr std::size_t kLongest = 4096;  // bytes of a line: a longer one is none that a person typed
+constexpr int kLook_ms = 100;               // between two looks at the device
+constexpr std::size_t kLongestLine = 4096;  // bytes of a line: a longer one is none that a person typed
 
 // Lines of standard input, without waiting longer than asked.
 class StandardInput {
@@ -31,12 +31,12 @@ class StandardInput {
       }
       if (stopped_()) return {TypedLine::Kind::closed, {}};
       pollfd input{STDIN_FILENO, POLLIN, 0};
-      const int ready = ::poll(&input, 1, milliseconds < 0 ? kTick_ms : milliseconds);
+      const int ready = ::poll(&input, 1, milliseconds < 0 ? kLook_ms : milliseconds);
       if (ready <= 0 && milliseconds < 0) continue;
       if (ready <= 0) return {};
       std::array<char, 512> bytes;
       const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-      if (count <= 0 || waiting_.size() > kLongest) return {TypedLine::Kind::closed, {}};
+      if (count <= 0 || waiting_.size() > kLongestLine) return {TypedLine::Kind::closed, {}};
       waiting_.append(bytes.data(), static_cast<std::size_t>(count));
     }
   }
@@ -53,7 +53,7 @@ std::vector<std::string> show_menus(pipeline::Desk& desk, const pipeline::Wanted
   Menu menu(desk, wanted);
   while (menu.state().step != pipeline::DeskStep::ended) {
     terminal.show(menu.draw(terminal.rows(), terminal.columns()));
-    menu.press(stopped() ? Key{Key::Kind::interrupt, 0} : terminal.wait(kTick_ms));
+    menu.press(stopped() ? Key{Key::Kind::interrupt, 0} : terminal.wait(kLook_ms));
     menu.tick();
   }
   return menu.state().kept;

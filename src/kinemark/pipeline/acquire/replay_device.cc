@@ -56,7 +56,7 @@ Result<std::unique_ptr<stream::Device>> ReplayDevice::open(DeviceSettings settin
                         .leds = layout.leds,
                         .camera_names = layout.cameras,
                         .cameras = static_cast<int>(layout.camera_count()),
-                        .bits = std::bit_width(static_cast<unsigned>(layout.highest_code)),
+                        .bits = static_cast<int>(std::bit_width(static_cast<unsigned>(layout.highest_code))),
                         .ranges = {},
                         .fastest = {.dark_slot = layout.has_dark_slot()},
                         .lowest_rate_hz = layout.time.rate_hz,
