@@ -16,6 +16,7 @@
 #include "cli/screens/screens.h"
 #include "kinemark/core/enum_names.h"
 #include "kinemark/core/number.h"
+#include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/desk/acquire_desk.h"
@@ -30,6 +31,7 @@ struct AcquireArguments {
   pipeline::AcquireJob job;
   std::string leds, begin, sync = "background";
   std::vector<std::string> intensity;
+  std::filesystem::path rig;  ///< that the cameras are aligned with, in the menus
   bool list = false;
 };
 
@@ -130,7 +132,13 @@ int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome)
 
 /// The menus: a person chooses what the options say otherwise.
 int acquire_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
-  pipeline::AcquireDesk desk({.folder = ".", .seed = common.seed});
+  pipeline::TrialFiles files{.folder = ".", .seed = common.seed};
+  if (!arguments.rig.empty()) {
+    auto rig = io::read_rig(arguments.rig);
+    if (!rig) return report_error(rig.error());
+    files.wanted_rig = std::move(*rig);
+  }
+  pipeline::AcquireDesk desk(std::move(files));
   pipeline::Wanted wanted;
   wanted.source = arguments.job.source;
   wanted.subject = arguments.job.subject;
@@ -149,6 +157,10 @@ int acquire(const CommonOptions& common, AcquireArguments& arguments) {
   const bool at_terminal = isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
   if (arguments.job.output.empty() && !common.json && (arguments.job.source.empty() || at_terminal))
     return acquire_by_hand(common, arguments);
+  if (!arguments.rig.empty())
+    return report_error({Code::usage,
+                         "--rig is for the menus, which come without --output; 'kinemark calibrate --align' "
+                         "does the same from a recording"});
   if (auto s = complete(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   settle(common, "frames", job);
@@ -206,6 +218,10 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--subject", job.subject, "Who was recorded; kept with the recording")
       ->type_name("NAME");
   command->add_option("--trial", job.trial, "What was recorded; kept with the recording")->type_name("NAME");
+  command->add_option(
+      "--rig", arguments->rig,
+      "Rig as it is to stand, rig.toml: the menus say how to turn the cameras, by the tree of "
+      "three LEDs held still in four places or more");
   command->add_flag("--list", arguments->list, "Show the devices that are there, and record nothing");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return acquire(common, *arguments); }; });

@@ -14,6 +14,7 @@ struct RigArguments {
   pipeline::SimulateRigJob job;
   std::string scene = "sign", detector = "tetra-lateral";
   std::vector<std::string> intensity;
+  double conversion_us = 48.0;
   bool glint = false, z_is_up = false, keep_position = false, no_noise = false;
 };
 
@@ -38,6 +39,7 @@ Status complete(RigArguments& arguments) {
   const auto detector = data::parse_detector_kind(arguments.detector);
   if (!detector) return fail(Code::usage, detector.error().message);
   job.rig.detector = *detector;
+  job.rig.conversion_s = arguments.conversion_us / 1e6;
   job.recording.noise = !arguments.no_noise;
   job.wheel.glint_share = arguments.glint ? 0.04 : 0.0;
   job.marker_options.z_is_up = arguments.z_is_up;
@@ -96,6 +98,9 @@ void add_rig_options(CLI::App& rig, RigArguments& arguments) {
   rig.add_option("--crosstalk", job.rig.crosstalk, "Share of the currents that strays to other electrodes")
       ->capture_default_str();
   rig.add_option("--ripple", job.rig.ripple, "Fine unevenness of the sheet, half-sides")
+      ->capture_default_str();
+  rig.add_option("--bits", job.rig.bits, "Of the converter, 8 to 14")->capture_default_str();
+  rig.add_option("--conversion", arguments.conversion_us, "Time of one conversion, us")
       ->capture_default_str();
   rig.add_flag("--grid", job.grid, "Also record the calibration grid");
   rig.add_flag("--tree-poses", job.tree_poses, "Also record 300 poses of the orientation tree");

@@ -93,6 +93,7 @@ void Menu::press_live(const Key& key) {
   if (key.kind == Kind::down && chosen_led_ + 1 < state().granted.plan.leds.size()) ++chosen_led_;
   if (key.is(U'+') || key.kind == Kind::right) change_intensity(kIntensityStep);
   if (key.is(U'-') || key.kind == Kind::left) change_intensity(-kIntensityStep);
+  if (key.is(U'a')) session_.restart_guide();
   if (key.is(U'r')) session_.record();
   if (key.is(U's') || key.kind == Kind::escape) session_.set_up();
   if (key.is(U'q')) session_.leave();

@@ -19,6 +19,21 @@ constexpr int kFrame = 6;    // rows of heading, guide, message and keys
 
 std::string percent(double share) { return std::isnan(share) ? "-" : fmt::format("{:.0f}%", 100.0 * share); }
 
+// A sentence in lines of at most that many bytes, broken at blanks.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = text.size();
+    if (end - begin > width) {
+      end = text.rfind(' ', begin + width);
+      if (end == std::string::npos || end <= begin) end = begin + width;
+    }
+    lines.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(' ', end);
+  }
+  return lines;
+}
+
 // Level, noise and what is wrong, of one LED in one camera.
 void draw_led(Canvas& canvas, int row, int column, const workflow::LedInCamera& led) {
   canvas.bar(row, column, kBar, led.highest_share);
@@ -69,8 +84,8 @@ std::string Menu::keys() const {
     case DeskStep::plan:
       return "↑↓ choose   Enter start   Esc another source";
     case DeskStep::live:
-      return state().device.sets_intensity ? "r record   ↑↓ LED   +- its light   s set-up   q quit"
-                                           : "r record   ↑↓ LED   s set-up   q quit";
+      return std::string("r record   ↑↓ LED") + (state().device.sets_intensity ? "   +- its light" : "") +
+             (state().live.guide.empty() ? "" : "   a align anew") + "   s set-up   q quit";
     case DeskStep::recording:
       return "s stop";
     case DeskStep::check:
@@ -94,12 +109,11 @@ Canvas Menu::draw(int rows, int columns) const {
   if (state().step == DeskStep::plan) draw_plan(canvas);
   if (state().step == DeskStep::live || state().step == DeskStep::recording) draw_live(canvas);
   if (state().step == DeskStep::check) draw_check(canvas);
-  // A message of more than a line goes on in the one above the keys.
-  const auto width = static_cast<std::size_t>(columns - 2);
-  std::size_t cut = state().message.size();
-  if (cut > width) cut = std::min(state().message.rfind(' ', width), width);
-  canvas.text(rows - 3, 1, state().message.substr(0, cut), Ink::bold);
-  if (cut < state().message.size()) canvas.text(rows - 2, 1, state().message.substr(cut + 1), Ink::bold);
+  const std::string message =
+      sure_to_discard_ ? "Discard " + state().wanted.trial + "? Its frames are gone then." : state().message;
+  int row = rows - 3;
+  for (const std::string& part : wrapped(message, static_cast<std::size_t>(columns - 2)))
+    if (row < rows - 1) canvas.text(row++, 1, part, Ink::bold);
   canvas.text(rows - 1, 1, keys(), Ink::chosen);
   return canvas;
 }
@@ -188,13 +202,16 @@ void Menu::draw_leds(Canvas& canvas, int row, int column) const {
 }
 
 void Menu::draw_check(Canvas& canvas) const {
-  const int most = canvas.rows() - 7;
-  for (std::size_t i = 0; i < state().check.size() && static_cast<int>(i) < most; ++i)
-    canvas.text(2 + static_cast<int>(i), 2, (state().check[i].good ? "  " : "! ") + state().check[i].text,
-                state().check[i].good ? Ink::plain : Ink::bold);
-  if (sure_to_discard_)
-    canvas.text(canvas.rows() - 5, 2, "Discard " + state().wanted.trial + "? Its frames are gone then.",
-                Ink::bold);
+  int row = 2;
+  for (const auto& line : state().check) {
+    bool first = true;
+    for (const std::string& part : wrapped(line.text, static_cast<std::size_t>(canvas.columns() - 6))) {
+      if (row >= canvas.rows() - 5) return;
+      if (first && !line.good) canvas.text(row, 2, "!", Ink::bold);
+      canvas.text(row++, first ? 4 : 6, part, line.good ? Ink::plain : Ink::bold);
+      first = false;
+    }
+  }
 }
 
 }  // namespace kinemark::screens

@@ -175,6 +175,9 @@ TEST(Menu, TheLiveViewShowsSpotsLevelsAndWhatIsWrong) {
   EXPECT_THAT(text, HasSubstr("0.7"));
   EXPECT_THAT(text, HasSubstr("elbow"));
   EXPECT_THAT(text, HasSubstr("Alignment: roll camera A clockwise by 0.62 deg"));
+  EXPECT_THAT(text, HasSubstr("a align anew"));
+  type(menu, U"a");
+  EXPECT_EQ(desk.calls.back(), "restart_guide");
   desk.now.seen.assign(6, good);
   menu.tick();
   EXPECT_THAT(shown(menu), Not(testing::AnyOf(HasSubstr("dark"), HasSubstr("clips"))));

@@ -244,6 +244,7 @@ class Bench:
             "report of an AMC": ["report", "in/amc/01_02.amc", "-o", "out/x.html", "--rate", 120, "--skeleton", "in/amc/s.asf"],
             "report of a motion": ["report", "in/q.mot", "-o", "out/x.html"],
             "serve": ["serve", "replay:in/body/markers.c3d", "--model", "in/body/model.osim", "--record", "out/x.mcap", "--no-open"],
+            "acquire": ["acquire", "replay:in/lab/recording.mcap?fast", "-o", "out/x.mcap"],
             "calibrate": ["calibrate", "in/lab/grid_A.mcap", "in/lab/grid_B.mcap", "--nominal", "in/lab/rig_nominal.toml", "--method", "grid-lut",
                           "-o", "out/x.toml", "--report", "out/x.html"],
             "reconstruct": ["reconstruct", "in/lab/recording.mcap", "--rig", "in/lab/rig_true.toml", "--method", "frames", "-o", "out/x.csv",

@@ -171,7 +171,7 @@ class EveryCommandTest(CommandTest):
         self.try_all("groups spm", "groups band", "groups norm", "groups retest")
 
     def test_rigs(self):
-        self.try_all("calibrate", "reconstruct")
+        self.try_all("acquire", "calibrate", "reconstruct")
 
     def test_simulations(self):
         self.try_all("simulate subject", "simulate arm", "simulate macaque", "simulate rig")

@@ -73,9 +73,12 @@ Result<std::optional<BrightnessTrigger>> brightness(const AcquireJob& job,
   return out;
 }
 
+/// Of both lengths the shorter one; 0: neither was given.
 std::int64_t frames_of(const AcquireJob& job, double rate_hz) {
-  if (job.frames > 0 || job.duration_s == 0.0) return job.frames;
-  return std::max<std::int64_t>(1, std::llround(std::min(job.duration_s * rate_hz, kMostFrames)));
+  if (job.duration_s == 0.0) return job.frames;
+  const auto frames =
+      std::max<std::int64_t>(1, std::llround(std::min(job.duration_s * rate_hz, kMostFrames)));
+  return job.frames > 0 ? std::min(frames, job.frames) : frames;
 }
 
 bool asked_to_stop(const AcquireJob& job) { return job.stop && job.stop(); }

@@ -38,7 +38,7 @@ struct AcquireJob : JobSettings {
   int led_count = 0;              ///< where no names are given; 0: all that the device has
   double rate_hz = 0.0;           ///< 0: the highest
   double duration_s = 0.0;        ///< 0: until stopped, or the device ends
-  std::int64_t frames = 0;        ///< likewise; lost ones count
+  std::int64_t frames = 0;        ///< likewise; lost ones count, the shorter length holds
   TrialBegin begin;               ///< what it begins with
   std::vector<std::pair<std::string, double>> intensity;  ///< by name; an empty name means all
   io::SyncPolicy sync = io::SyncPolicy::background;

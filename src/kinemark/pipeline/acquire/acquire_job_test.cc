@@ -66,6 +66,11 @@ TEST_F(Acquire, DurationIsInSecondsOfTheDevice) {
   asked.duration_s = 2.0;
   asked.rate_hz = 150.0;
   EXPECT_EQ(run_acquire(asked)->recorded.progress.frames, 300);
+  asked.force = true;
+  asked.frames = 200;
+  EXPECT_EQ(run_acquire(asked)->recorded.progress.frames, 200);
+  asked.frames = 400;
+  EXPECT_EQ(run_acquire(asked)->recorded.progress.frames, 300);
 }
 
 TEST_F(Acquire, JsonHasFiguresAndNullWhereNoneIsKnown) {

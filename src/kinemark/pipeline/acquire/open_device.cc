@@ -12,6 +12,8 @@
 #include "kinemark/pipeline/acquire/device_settings.h"
 #include "kinemark/pipeline/acquire/replay_device.h"
 #include "kinemark/pipeline/acquire/sim_rig.h"
+#include "kinemark/stream/comedi/comedi_device.h"
+#include "kinemark/stream/serial/serial_device.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -42,8 +44,21 @@ Opened open_replay(DeviceSettings settings, std::uint64_t /*seed*/, Clock clock)
 
 std::vector<stream::DeviceInfo> find_none() { return {}; }
 
-constexpr std::array<Kind, 2> kKinds{
-    {{"sim", "sim:rig", open_sim, find_sim}, {"replay", "replay:FILE.mcap", open_replay, find_none}}};
+/// The device behind a path, "/dev/ttyACM0", which takes no settings.
+template <Opened (*open)(const std::string&)>
+Opened open_path(DeviceSettings settings, std::uint64_t /*seed*/, Clock /*clock*/) {
+  if (auto s = settings.check(); !s) return std::unexpected(s.error());
+  return open(settings.what());
+}
+
+std::vector<stream::DeviceInfo> find_serial() { return stream::list_serial(); }
+std::vector<stream::DeviceInfo> find_comedi() { return stream::list_comedi(); }
+
+constexpr std::array<Kind, 4> kKinds{
+    {{"sim", "sim:rig", open_sim, find_sim},
+     {"replay", "replay:FILE.mcap", open_replay, find_none},
+     {"comedi", "comedi:/dev/comedi0", open_path<stream::open_comedi>, find_comedi},
+     {"serial", "serial:/dev/ttyACM0", open_path<stream::open_serial>, find_serial}}};
 
 }  // namespace
 

@@ -4,7 +4,13 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "kinemark/io/recording/counts_recording.h"
+#include "support/scratch.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -26,12 +32,33 @@ TEST(OpenDevice, TheSeedOfTheAddressCountsMost) {
   EXPECT_EQ(open_device("sim:rig?seed=7", 5).value()->configure({}).value().facts.at("seed"), "7");
 }
 
+std::ptrdiff_t open_handles() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
+
+TEST(OpenDevice, AThousandTimesLeavesNoHandle) {
+  const testing_support::ScratchFolder scratch;
+  const auto file = scratch / "trial.mcap";
+  ASSERT_TRUE(io::write_counts(
+      file, data::Counts::zeros({"hand"}, {"A"}, {.rate_hz = 100.0, .frames = 3}, false), {}, false));
+  const auto before = open_handles();
+  for (int i = 0; i < 1000; ++i)
+    for (const std::string& uri : {std::string("sim:rig?leds=1&fast"), "replay:" + file.string() + "?fast"}) {
+      const auto device = open_device(uri).value();
+      ASSERT_TRUE(device->configure({}) && device->start());
+      stream::Block block;
+      ASSERT_TRUE(device->read(block, std::chrono::milliseconds(1)));
+      ASSERT_TRUE(device->stop());
+    }
+  EXPECT_EQ(open_handles(), before);
+}
+
 TEST(EnumerateDevices, GivesAddressesThatCanBeOpened) {
   const auto devices = enumerate_devices();
   ASSERT_FALSE(devices.empty());
   EXPECT_EQ(devices.back().uri, "sim:rig");
   for (const auto& device : devices)
-    if (device.state.empty()) EXPECT_TRUE(open_device(device.uri)) << device.uri;
+    EXPECT_TRUE(!device.state.empty() || open_device(device.uri)) << device.uri;
 }
 
 }  // namespace

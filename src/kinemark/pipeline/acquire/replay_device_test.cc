@@ -42,7 +42,7 @@ class Replay : public testing::Test {
     auto writer = io::CountsWriter::create(file_, layout_).value();
     for (const std::int64_t f : {0, 1, 2, 5, 6, 7, 8}) {
       const std::vector<std::int16_t> counts(8, static_cast<std::int16_t>(100 * f)), dark(8, 16);
-      const std::vector<std::uint8_t> flags{0, f == 6 ? data::kCountSaturated : std::uint8_t{0}};
+      const std::vector<std::uint8_t> flags{0, static_cast<std::uint8_t>(f == 6 ? 1 : 0)};
       ASSERT_TRUE(writer.push({.frame = f,
                                .time_s = 0.01 * static_cast<double>(f),
                                .counts = counts,

@@ -53,6 +53,13 @@ TEST(TrialNotes, OfAGoodTrialSayNothingElse) {
       ElementsAre("all 100 frames came and are kept",
                   "LEDs that stood still have an SD of 2.50 counts, 2.00 to 3.00 (4 of 4 LEDs at their "
                   "cameras)"));
+  const auto said = describe_trial(good(), layout());
+  EXPECT_THAT(said, Each(Not(HasSubstr("every LED moved: hold one still"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("the device lost {} of 100 frames: nobody read it in time"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("frames came and were dropped here"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("the device was away and came back"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("frames: give it less light with --intensity"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("by this machine's clock the device gives"))));
   EXPECT_TRUE(missing_gate(good().progress).passed);
 }
 
@@ -60,9 +67,9 @@ TEST(TrialNotes, TellWhoLostWhat) {
   auto trial = good();
   trial.progress.dropped_by_device = 30;
   auto said = said_of(trial, layout());
-  EXPECT_THAT(said, Contains(HasSubstr("the device lost 30 of 100 frames")));
+  EXPECT_THAT(said, Contains(HasSubstr("the device lost 30 of 100 frames: nobody read it in time")));
   EXPECT_THAT(said, Each(Not(HasSubstr("dropped here"))));
-  EXPECT_THAT(said, Each(Not(HasSubstr("came and are kept"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("frames came and are kept"))));
   trial.progress = {.frames = 100, .dropped_here = 5, .reopened = 1};
   said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("5 of 100 frames came and were dropped here")));
@@ -70,13 +77,16 @@ TEST(TrialNotes, TellWhoLostWhat) {
   EXPECT_THAT(said, Each(Not(HasSubstr("the device lost"))));
   EXPECT_FALSE(missing_gate(trial.progress).passed);
   EXPECT_EQ(missing_gate(trial.progress).value, 5.0);
+  EXPECT_THAT(missing_gate(trial.progress).sentence, HasSubstr("5 of 100 frames are missing; need 0"));
 }
 
 TEST(TrialNotes, NameTheLedThatSaturatesACamera) {
   auto trial = good();
   trial.lit[3].saturated = 7;
   const auto said = said_of(trial, layout());
-  EXPECT_THAT(said, Contains(HasSubstr("LED 'wrist' saturates camera B in 7 of 100 frames")));
+  EXPECT_THAT(said,
+              Contains(HasSubstr(
+                  "LED 'wrist' saturates camera B in 7 of 100 frames: give it less light with --intensity")));
   EXPECT_THAT(said, Each(Not(HasSubstr("'hand'"))));
 }
 
@@ -85,13 +95,15 @@ TEST(TrialNotes, AskForAStillLedWhereAllMoved) {
   for (auto& levels : trial.lit) levels.still = false;
   const auto said = said_of(trial, layout());
   EXPECT_THAT(said, Contains("every LED moved: hold one still for a second to see its noise"));
-  EXPECT_THAT(said, Each(Not(HasSubstr("stood still"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("LEDs that stood still have an SD"))));
 }
 
 TEST(TrialNotes, SayHowFastTheClockIs) {
   auto trial = good();
   trial.clock = {.rate_hz = 138.0414, .sd_hz = 1e-5, .ppm_fast = 300.04, .sd_ppm = 0.07, .span_s = 60.0};
-  EXPECT_THAT(said_of(trial, layout()), Contains(HasSubstr("its clock is 300.04 +- 0.07 ppm fast")));
+  EXPECT_THAT(said_of(trial, layout()),
+              Contains(HasSubstr("by this machine's clock the device gives 138.041400 +- 0.000010 frames per "
+                                 "second: its clock is 300.04 +- 0.07 ppm fast")));
   trial.clock->ppm_fast = -12.0;
   EXPECT_THAT(said_of(trial, layout()), Contains(HasSubstr("12.00 +- 0.07 ppm slow")));
 }

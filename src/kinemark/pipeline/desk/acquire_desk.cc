@@ -10,6 +10,7 @@
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
+#include "kinemark/workflow/rig/alignment_guide.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -27,12 +28,20 @@ std::size_t size_of(std::int64_t n) { return static_cast<std::size_t>(n); }
 // Looks at frames on the recorder's thread for followers; the screens ask for what it saw.
 class AcquireDesk::Watcher final : public BlockFollower {
  public:
-  explicit Watcher(const stream::GrantedPlan& plan)
+  Watcher(const stream::GrantedPlan& plan, const TrialFiles& files)
       : observations_(size_of(plan.layout.led_count() * plan.layout.camera_count())),
         cameras_(size_of(plan.layout.camera_count())),
-        monitor_(plan.layout, std::max(4, static_cast<int>(kSeconds * plan.plan.rate_hz))) {}
+        monitor_(plan.layout, std::max(4, static_cast<int>(kSeconds * plan.plan.rate_hz))) {
+    if (!files.wanted_rig) return;
+    auto guide = workflow::AlignmentGuide::create(plan.layout, *files.wanted_rig, files.tree_sides_m);
+    if (guide)
+      guide_ = std::move(*guide);
+    else
+      no_guide_ = guide.error().message;
+  }
 
   void take(const stream::Block& block) override {
+    guide(block);
     const std::scoped_lock lock(mutex_);
     const std::size_t dark = block.dark.empty() ? 0 : 4 * cameras_;
     for (std::size_t f = 0; f < size_of(block.frames); ++f)
@@ -42,7 +51,13 @@ class AcquireDesk::Watcher final : public BlockFollower {
                     std::span(block.dark).subspan(dark * f, dark));
   }
 
+  void restart_guide() {
+    const std::scoped_lock lock(guide_mutex_);
+    if (guide_) guide_->restart();
+  }
+
   void tell(LiveView& view) const {
+    view.guide = guide_sentence();
     const std::scoped_lock lock(mutex_);
     view.frames = monitor_.frames();
     for (std::size_t o = 0; o < observations_; ++o) {
@@ -53,8 +68,25 @@ class AcquireDesk::Watcher final : public BlockFollower {
   }
 
  private:
+  // Under a lock of its own: a new pose takes a while, and the live numbers do not wait for it.
+  void guide(const stream::Block& block) {
+    const std::scoped_lock lock(guide_mutex_);
+    if (!guide_) return;
+    for (std::size_t f = 0; f < size_of(block.frames); ++f)
+      guide_->push(std::span(block.counts).subspan(4 * observations_ * f, 4 * observations_),
+                   std::span(block.flags).subspan(observations_ * f, observations_));
+    const std::scoped_lock said(mutex_);
+    sentence_ = guide_->sentence();
+  }
+  [[nodiscard]] std::string guide_sentence() const {
+    const std::scoped_lock lock(mutex_);
+    return guide_ ? sentence_ : no_guide_;
+  }
+
   std::size_t observations_, cameras_;
-  mutable std::mutex mutex_;
+  mutable std::mutex guide_mutex_, mutex_;  // the second is of monitor and sentence
+  std::optional<workflow::AlignmentGuide> guide_;
+  std::string sentence_, no_guide_;
   workflow::CountsMonitor monitor_;
 };
 
@@ -85,7 +117,7 @@ Result<stream::GrantedPlan> AcquireDesk::run(const stream::ScanPlan& plan) {
 Status AcquireDesk::start(RecorderOptions options) {
   recorder_.reset();
   trouble_.clear();
-  watcher_ = std::make_shared<Watcher>(granted_);
+  watcher_ = std::make_shared<Watcher>(granted_, files_);
   options.followers.push_back(watcher_);
   auto recorder = Recorder::start(*device_, granted_, std::move(options));
   if (!recorder) return std::unexpected(recorder.error());
@@ -116,6 +148,10 @@ Status AcquireDesk::set_intensity(int led, double intensity) {
   plan.intensity[static_cast<std::size_t>(led)] = intensity;
   const auto granted = run(plan);
   return granted ? Status{} : std::unexpected(granted.error());
+}
+
+void AcquireDesk::restart_guide() {
+  if (watcher_) watcher_->restart_guide();
 }
 
 Status AcquireDesk::check_room(const TrialName& name) const {
@@ -149,7 +185,7 @@ Status AcquireDesk::record(const TrialName& name) {
   if (name.trial.find('/') != std::string::npos)
     return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
   if (const auto room = check_room(name); !room) return room;
-  trial_ = files_.folder / (name.trial + ".mcap");
+  trial_ = (files_.folder / (name.trial + ".mcap")).lexically_normal();
   RecorderOptions options;
   options.file = trial_;
   options.recording = files_.recording;

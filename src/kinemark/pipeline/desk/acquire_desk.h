@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemark/data/rig.h"
 #include "kinemark/io/recording/writer.h"
 #include "kinemark/pipeline/acquire/recorder.h"
 #include "kinemark/pipeline/desk/desk.h"
@@ -19,7 +20,10 @@ namespace kinemark::pipeline {
 struct TrialFiles {
   std::filesystem::path folder = ".";  ///< of the trials, named TRIAL.mcap; made when it is absent
   std::uint64_t seed = 1;              ///< of simulated sources
-  io::RecordingOptions recording;      ///< forcing to the disk; a file that is there is never replaced
+  /// That the cameras are to be aligned with, by the tree; nothing: there is no guide.
+  std::optional<data::Rig> wanted_rig;
+  std::vector<double> tree_sides_m = {0.533, 0.310, 0.310};  ///< LEDs 1-2, 1-3, 2-3
+  io::RecordingOptions recording;  ///< forcing to the disk; a file that is there is never replaced
 };
 
 /// See Desk. A device runs all the time: into a file while a trial is recorded, for the live view otherwise.
@@ -32,6 +36,7 @@ class AcquireDesk final : public Desk {
   [[nodiscard]] Result<stream::GrantedPlan> run(const stream::ScanPlan& plan) override;
   [[nodiscard]] LiveView live() override;
   [[nodiscard]] Status set_intensity(int led, double intensity) override;
+  void restart_guide() override;
   /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
   /// Recorder::start().
   [[nodiscard]] Status record(const TrialName& name) override;

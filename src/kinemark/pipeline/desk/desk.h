@@ -54,6 +54,8 @@ class Desk {
   [[nodiscard]] virtual LiveView live() = 0;
   /// Light of an LED, of its full light.
   [[nodiscard]] virtual Status set_intensity(int led, double intensity) = 0;
+  /// Forget what the alignment guide has seen: a camera was turned.
+  virtual void restart_guide() = 0;
   /// Begin a trial.
   [[nodiscard]] virtual Status record(const TrialName& name) = 0;
   /// End the trial; what to know of it before it is kept.

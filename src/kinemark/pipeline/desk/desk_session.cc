@@ -84,6 +84,10 @@ void DeskSession::set_intensity(int led, double intensity) {
   now[static_cast<std::size_t>(led)] = next;
 }
 
+void DeskSession::restart_guide() {
+  if (state_.step == DeskStep::live) desk_.restart_guide();
+}
+
 void DeskSession::record() {
   if (state_.step != DeskStep::live) return;
   const TrialName name{std::string(trim(state_.wanted.subject)), std::string(trim(state_.wanted.trial)),

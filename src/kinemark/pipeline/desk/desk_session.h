@@ -44,6 +44,7 @@ class DeskSession {
   void start(Wanted lines);                       ///< from `plan`; the source of the lines is not looked at
   void set_up();                                  ///< from `live` back
   void set_intensity(int led, double intensity);  ///< in `live`; brought into its range, 0.1 to 1
+  void restart_guide();                           ///< in `live`
   void record();                                  ///< from `live`
   void stop();                                    ///< from `recording`
   void keep();                                    ///< from `check`

@@ -32,6 +32,7 @@ TEST(DeskSession, WhatDoesNotBelongToTheStepDoesNothing) {
   session.set_up();
   session.leave_source();
   session.set_intensity(0, 0.5);
+  session.restart_guide();
   EXPECT_EQ(session.state().step, DeskStep::source);
   EXPECT_TRUE(desk.calls.empty());
 }

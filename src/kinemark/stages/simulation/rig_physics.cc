@@ -135,6 +135,10 @@ Status RigDrawOptions::check() const {
   if (!(convergence_deg >= 10.0 && convergence_deg <= 150.0))
     return fail(Code::usage,
                 fmt::format("cameras whose axes are {} deg apart; need 10 to 150 deg", convergence_deg));
+  if (bits < 8 || bits > 14)
+    return fail(Code::usage, fmt::format("a converter of {} bits; need 8 to 14", bits));
+  if (!(conversion_s >= 1e-6 && conversion_s <= 1e-3))
+    return fail(Code::usage, fmt::format("conversions of {:.6g} us; need 1 to 1000 us", conversion_s * 1e6));
   if (detector == data::DetectorKind::generic)
     return fail(Code::usage,
                 "a generic detector has no physics to simulate; choose tetra-lateral, duo-lateral or "
@@ -168,6 +172,8 @@ Result<PhysicalRig> draw_rig(const RigDrawOptions& options) {
   out.seed = options.seed;
   out.rig.id = fmt::format("simulated-{}-{}", to_string(options.detector), options.seed);
   out.rig.timing.dark_slot = options.dark_slot;
+  out.rig.timing.conversion_s = options.conversion_s;
+  out.rig.electronics.bits = options.bits;
   for (int c = 0; c < 2; ++c) out.rig.cameras.push_back(nominal_camera(options, out.light, c));
   out.nominal = out.rig;
   out.nominal.method = "nominal";
@@ -177,6 +183,9 @@ Result<PhysicalRig> draw_rig(const RigDrawOptions& options) {
     draw_camera(options, c, camera, out.room.emplace_back());
     if (options.crosstalk > 0.0 || options.ripple > 0.0) spoil_detector(options, c, camera);
     if (options.dark_slot) camera.detector.offset_counts.array() += kPedestal_counts;
+    const double codes = std::ldexp(1.0, options.bits - 12);
+    camera.detector.offset_counts *= codes;
+    out.room.back().flicker_counts *= codes;
   }
   return out;
 }

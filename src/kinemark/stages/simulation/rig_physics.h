@@ -58,7 +58,9 @@ struct RigDrawOptions {
   double crosstalk = 0.0;  ///< 0 to 0.5: share of every current that strays to electrodes at random
   double ripple = 0.0;     ///< >= 0, sd of further warp terms of degree 6 to 10, half-sides
   bool dark_slot =
-      false;  ///< also raises all channels by 16 counts, so that darkness is within the converter
+      false;      ///< also raises all channels by 16 counts, so that darkness is within the converter
+  int bits = 12;  ///< of the converter, 8 to 14. What is given in counts is in those of 12 bits
+  double conversion_s = 48e-6;  ///< of one channel, 1e-6 to 1e-3
   /// Ranges hold and no number is NaN.
   [[nodiscard]] Status check() const;
 };

@@ -101,10 +101,28 @@ TEST(DrawRig, DarkSlotsRaiseTheChannels) {
   EXPECT_TRUE(dark.rig.timing.dark_slot && dark.nominal.timing.dark_slot);
 }
 
+TEST(DrawRig, OfAnotherConverterIsTheSameRig) {
+  const auto fine = draw_rig({.seed = 3}).value(),
+             coarse = draw_rig({.seed = 3, .bits = 10, .conversion_s = 64e-6}).value();
+  EXPECT_EQ(coarse.rig.electronics.highest_code(), 1023);
+  EXPECT_EQ(coarse.rig.timing.conversion_s, 64e-6);
+  EXPECT_EQ(coarse.nominal.electronics.bits, 10);
+  EXPECT_EQ(coarse.rig.cameras[0].focal, fine.rig.cameras[0].focal);
+  const LedState led;
+  for (int camera : {0, 1})
+    EXPECT_LT((4.0 * expected_counts(coarse, camera, led).counts - expected_counts(fine, camera, led).counts)
+                  .norm(),
+              1e-9);
+  EXPECT_EQ(coarse.room[0].flicker_counts * 4.0, fine.room[0].flicker_counts);
+}
+
 TEST(DrawRig, RefusesOptionsOutOfRange) {
   EXPECT_THAT(draw_rig({.imperfection = -1.0}).error().message, HasSubstr("one is -1"));
   EXPECT_THAT(draw_rig({.crosstalk = 0.6}).error().message, HasSubstr("it is 0.6"));
   EXPECT_THAT(draw_rig({.ripple = NAN}).error().message, HasSubstr("nan"));
+  EXPECT_THAT(draw_rig({.bits = 7}).error().message, HasSubstr("8 to 14"));
+  EXPECT_THAT(draw_rig({.bits = 15}).error().message, HasSubstr("15 bits"));
+  EXPECT_THAT(draw_rig({.conversion_s = 2e-3}).error().message, HasSubstr("2000 us; need 1 to 1000"));
   EXPECT_THAT(draw_rig({.detector = data::DetectorKind::generic}).error().message, HasSubstr("no physics"));
 }
 

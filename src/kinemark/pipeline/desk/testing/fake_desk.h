@@ -52,6 +52,7 @@ struct FakeDesk final : Desk {
     light = intensity;
     return {};
   }
+  void restart_guide() override { calls.push_back("restart_guide"); }
   Status record(const TrialName& name) override {
     if (!disk) return disk;
     named = name;

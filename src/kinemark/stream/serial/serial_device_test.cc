@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/stream/serial/serial_device.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "kinemark/stream/serial/testing/pty_rig.h"
+#include "support/scratch.h"
+
+namespace kinemark::stream {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+using testing::PtyRig;
+using testing::telling_counts;
+
+constexpr milliseconds kLong(10'000);
+
+ScanPlan two_leds(bool dark = false) {
+  return {.leds = {"hand", "wrist"},
+          .cameras = {"A", "B"},
+          .rate_hz = 100.0,
+          .timing = {.conversion_s = 64e-6, .dark_slot = dark},
+          .intensity = {}};
+}
+
+class SerialDeviceTest : public ::testing::Test {
+ protected:
+  /// Open, with a plan granted and started.
+  std::unique_ptr<Device> running(bool dark = false) {
+    auto device = open_serial(rig_.path()).value();
+    EXPECT_TRUE(device->configure(two_leds(dark)));
+    EXPECT_TRUE(device->start());
+    return device;
+  }
+
+  testing_support::ScratchFolder scratch_;
+  PtyRig rig_{scratch_ / "line"};
+  Block block_;
+};
+
+TEST_F(SerialDeviceTest, SaysWhatItIsAndGrantsAPlan) {
+  auto device = open_serial(rig_.path()).value();
+  EXPECT_EQ(device->capabilities().name, "pty 0.1");
+  const auto granted = device->configure(two_leds());
+  ASSERT_TRUE(granted) << granted.error().message;
+  EXPECT_DOUBLE_EQ(granted->plan.rate_hz, 100.0);
+  EXPECT_EQ(granted->layout.leds.size(), 2U);
+  auto fast = two_leds();
+  fast.rate_hz = 1000.0;
+  const auto refused = device->configure(fast);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::usage);
+  EXPECT_THAT(refused.error().message, HasSubstr("do not fit: the highest rate is 484.4 Hz"));
+}
+
+TEST_F(SerialDeviceTest, GivesFramesInBlocksWithTheTimesOfTheHost) {
+  auto device = running();
+  rig_.send_frames(0, 5);
+  std::int64_t frames = 0;
+  while (frames < 5) {
+    ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+    EXPECT_EQ(block_.first_frame, frames);
+    EXPECT_FALSE(block_.gap || block_.overflow || block_.saturated);
+    EXPECT_LE(block_.host_before_ns, block_.host_after_ns);
+    const auto expected = telling_counts(2, 2, static_cast<std::uint32_t>(frames));
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), block_.counts.begin()));
+    EXPECT_EQ(block_.counts.size(), static_cast<std::size_t>(block_.frames) * 16);
+    EXPECT_EQ(block_.flags.size(), static_cast<std::size_t>(block_.frames) * 4);
+    frames += block_.frames;
+  }
+  EXPECT_EQ(device->read(block_, milliseconds(0)), ReadResult::timeout);
+  EXPECT_EQ(block_.frames, 0);
+}
+
+TEST_F(SerialDeviceTest, EndsABlockWhereFramesAreMissingAndSaysWhoLostThem) {
+  auto device = running();
+  testing::Bytes sent = testing::telling_frame(2, 2, 0);
+  for (const auto& [number, dropped] : {std::pair{1U, 0U}, {4U, 2U}, {6U, 2U}})
+    for (const auto byte : testing::telling_frame(2, 2, number, dropped)) sent.push_back(byte);
+  rig_.send(sent);
+  std::vector<std::int64_t> first;
+  std::vector<bool> gap, overflow;
+  for (std::int64_t next = 0; next < 7; next = block_.first_frame + block_.frames) {
+    ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+    first.push_back(block_.first_frame);
+    gap.push_back(block_.gap);
+    overflow.push_back(block_.overflow);
+  }
+  while (first.size() > 3) {  // 0 and 1 may have come apart
+    first.erase(first.begin() + 1);
+    gap.erase(gap.begin() + 1);
+    overflow.erase(overflow.begin() + 1);
+  }
+  EXPECT_THAT(first, ::testing::ElementsAre(0, 4, 6));
+  EXPECT_THAT(gap, ::testing::ElementsAre(false, true, true));
+  EXPECT_THAT(overflow, ::testing::ElementsAre(false, true, false));
+}
+
+TEST_F(SerialDeviceTest, PutsTheDarkSlotApartAndFlagsTheHighestCode) {
+  auto device = running(true);
+  auto counts = telling_counts(3, 2, 0);
+  counts[5] = 1023;
+  counts[17] = 900;
+  rig_.send(testing::frame_bytes(3, 2, 0, 0, counts));
+  ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+  EXPECT_EQ(block_.dark.size(), 8U);
+  EXPECT_EQ(block_.dark[1], 900);
+  EXPECT_THAT(block_.flags, ::testing::ElementsAre(0, data::kCountSaturated, 0, 0));
+  EXPECT_TRUE(block_.saturated);
+}
+
+TEST_F(SerialDeviceTest, StopsAndStartsAgainWithFrameZero) {
+  auto device = running();
+  for (int again = 0; again < 3; ++again) {
+    if (again > 0) {
+      ASSERT_TRUE(device->start());
+    }
+    rig_.send_frames(0, 1);
+    ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+    EXPECT_EQ(block_.first_frame, 0);
+    EXPECT_FALSE(block_.gap);
+    ASSERT_TRUE(device->stop());
+  }
+  EXPECT_TRUE(device->stop());
+}
+
+TEST_F(SerialDeviceTest, GoesOnWithAGapWhenTheRigIsBack) {
+  auto device = running();
+  rig_.send_frames(0, 3);
+  std::int64_t last = -1;
+  while (last < 2) {
+    ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+    last = block_.first_frame + block_.frames - 1;
+  }
+  rig_.unplug();
+  EXPECT_EQ(device->read(block_, kLong).error().code, Code::device);
+  EXPECT_THAT(device->reopen().error().message, HasSubstr("no such device"));
+  EXPECT_THAT(device->read(block_, kLong).error().message, HasSubstr("the rig is gone"));
+  EXPECT_THAT(device->write_digital(0, true).error().message, HasSubstr("the rig is gone"));
+  rig_.plug_in();
+  const auto back = device->reopen();
+  ASSERT_TRUE(back) << back.error().message;
+  rig_.send_frames(0, 1);
+  ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+  EXPECT_TRUE(block_.gap || block_.first_frame == last + 1);
+  EXPECT_GT(block_.first_frame, last);
+}
+
+TEST_F(SerialDeviceTest, IsNotTakenForTheSameWhenAnotherComesBack) {
+  auto device = running();
+  rig_.unplug();
+  rig_.facts.replace(rig_.facts.find("name=pty"), 8, "name=odd");
+  rig_.plug_in();
+  EXPECT_THAT(device->reopen().error().message, HasSubstr("is odd now, and was pty"));
+}
+
+TEST_F(SerialDeviceTest, SetsOutputsAndRefusesOthers) {
+  auto device = running();
+  ASSERT_TRUE(device->write_digital(1, true));
+  rig_.wait_for("out 1 1");
+  EXPECT_EQ(device->write_digital(2, true).error().code, Code::usage);
+  EXPECT_THAT(device->write_analog(0, 1.0).error().message, HasSubstr("no analog output 0"));
+}
+
+TEST_F(SerialDeviceTest, TellsALineWithoutARigFromOne) {
+  rig_.facts = "";
+  const auto silent = open_serial(rig_.path());
+  ASSERT_FALSE(silent);
+  EXPECT_THAT(silent.error().message, HasSubstr("no rig answers"));
+  rig_.facts = "rig name=new version=9 protocol=7";
+  EXPECT_THAT(open_serial(rig_.path()).error().message, HasSubstr("protocol '7'"));
+}
+
+TEST_F(SerialDeviceTest, StopsTheRigWhenItIsClosed) {
+  running().reset();
+  rig_.wait_for("stop", 2);
+}
+
+}  // namespace
+}  // namespace kinemark::stream

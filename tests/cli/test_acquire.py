@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: 2026 The kinemark authors
+# SPDX-License-Identifier: Apache-2.0
+"""`kinemark acquire`: trials from a simulated and a replayed device, and how it ends."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import unittest
+
+from support import PROGRAM, SECONDS, CommandTest, run
+
+FAST = "sim:rig?leds=4&fast"
+PROGRESS = ["frames", "acknowledged", "dropped_by_device", "dropped_here"]
+
+
+class Acquire(CommandTest):
+    def acquire(self, *words, **options):
+        return run("acquire", *words, cwd=self.folder, **options)
+
+    def trial(self, source=FAST, *words, name="trial.mcap"):
+        """What a good trial prints as JSON at its end."""
+        ran = self.acquire(source, "-o", name, "--json", *words)
+        self.assertEqual(ran.status, 0, ran.err)
+        return json.loads(ran.out.splitlines()[-1])
+
+    def frames(self, name="trial.mcap"):
+        return json.loads(self.good("info", name, "--json").out)
+
+    def test_a_trial_is_recorded_and_checked(self):
+        said = self.trial(FAST, "--frames", 700, "--subject", "S1", "--trial", "reach")
+        self.assertEqual([said[key] for key in PROGRESS], [700, 700, 0, 0])
+        self.assertEqual(said["written"], ["trial.mcap"])
+        self.assertEqual(said["ended"], "complete")
+        self.assertIn("all 700 frames came and are kept", said["notes"])
+        self.assertEqual(len(said["leds"]), 8)
+        self.assertIn("700", json.dumps(self.frames()))
+        ran = self.acquire(FAST, "-o", "trial.mcap", "--frames", 10)
+        self.assertEqual(ran.status, 4, ran.err)
+        self.assertIn("--force", ran.err)
+        self.assertEqual(self.acquire(FAST, "-o", "trial.mcap", "--frames", 10, "--force", "--quiet").err, "")
+
+    def test_what_was_acquired_is_reconstructed(self):
+        self.good("simulate", "rig", "sign", "-o", "lab", "--seed", 3, "--rate", 200, "--duration", 1)
+        self.trial("sim:rig?scene=sign&seed=3&seconds=1&fast", "--rate", 200)
+        for recording, output in (("trial.mcap", "a.csv"), ("lab/recording.mcap", "b.csv")):
+            self.good("reconstruct", recording, "--rig", "lab/rig_true.toml", "-o", output)
+        self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "b.csv").read_bytes())
+
+    def test_a_recording_is_replayed(self):
+        first = self.trial(FAST, "--frames", 300)
+        again = self.trial("replay:trial.mcap?fast", name="again.mcap")
+        self.assertEqual(again["leds"], first["leds"])
+        self.assertEqual(again["frames"], 300)
+        ran = self.acquire("replay:trial.mcap", "-o", "trial.mcap", "--force")
+        self.assertEqual(ran.status, 2)
+
+    def test_ctrl_c_keeps_the_trial(self):
+        for number, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            words = [PROGRAM, "acquire", "sim:rig?leds=2", "-o", f"{status}.mcap", "--json", "--quiet"]
+            with subprocess.Popen(words, cwd=self.folder, stdout=subprocess.PIPE, text=True) as ran:
+                line = json.loads(ran.stdout.readline())
+                self.assertEqual(list(line), PROGRESS)
+                os.kill(ran.pid, number)
+                said = json.loads(ran.stdout.read().splitlines()[-1])
+                self.assertEqual(ran.wait(SECONDS), status)
+            self.assertEqual(said["ended"], "stopped")
+            self.assertEqual(said["frames"], said["acknowledged"])
+            self.assertGreaterEqual(said["acknowledged"], line["acknowledged"])
+            self.assertNotIn("not closed", self.good("info", f"{status}.mcap").err)
+
+    def test_a_full_disk_ends_it_and_keeps_what_was_acknowledged(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))  # noqa: E731
+        ran = self.acquire(FAST, "-o", "trial.mcap", "--json", preexec_fn=limit)
+        self.assertEqual(ran.status, 4, ran.err)
+        said = json.loads(ran.out.splitlines()[-1])
+        self.assertIn("cannot be written", said["error"])
+        self.assertGreater(said["acknowledged"], 500)
+        self.assertIn(str(said["acknowledged"]), json.dumps(self.frames()))
+
+    def test_a_plug_that_was_pulled_is_counted(self):
+        ran = self.acquire(FAST + "&unplug_at=1&unplug_for=1", "-o", "trial.mcap", "--json", "--rate", 100, "--frames", 500)
+        self.assertEqual(ran.status, 1, ran.err)
+        said = json.loads(ran.out.splitlines()[-1])
+        self.assertEqual(said["reopened"], 1)
+        self.assertEqual(said["acknowledged"] + said["dropped_by_device"], 500)
+        self.assertIn("the device lost", ran.err)
+
+    def test_devices_are_listed(self):
+        self.assertIn("sim:rig", self.good("acquire", "--list").out)
+        self.assertEqual(json.loads(self.good("acquire", "--list", "--json").out)[-1]["uri"], "sim:rig")
+
+    def test_what_cannot_be_is_refused_with_what_can(self):
+        for words, said in (
+            ((FAST, "-o", "t.mcap", "--rate", 300), "276.5 frames per second at most"),
+            ((FAST, "-o", "t.mcap", "--leds", 5), "it has 4"),
+            ((FAST, "-o", "t.mcap", "--leds", "a,,b"), "empty name"),
+            ((FAST, "-o", "t.mcap", "--leds", "0"), "need 1 or more"),
+            ((FAST, "-o", "t.mcap", "--trigger", "digital"), "no digital line"),
+            ((FAST, "-o", "t.mcap", "--trigger", "now"), "none of key"),
+            ((FAST, "-o", "t.mcap", "--intensity", "hand"), "neither a number"),
+            ((FAST, "-o", "t.mcap", "--intensity", "nose=1"), "no LED 'nose'"),
+            ((FAST, "-o", "t.mcap", "--intensity", "2"), "intensity 2"),
+            ((FAST, "-o", "t.mcap", "--sync", "often"), "never, background"),
+            ((FAST, "-o", "t.csv"), ".mcap"),
+            ((FAST,), "--output"),
+            (("-o", "t.mcap"), "--list"),
+            (("usb:1", "-o", "t.mcap"), "address of no device"),
+            (("sim:rig?leds=12", "-o", "t.mcap"), "from 1 to 8"),
+        ):
+            with self.subTest(words=words):
+                ran = self.acquire(*words)
+                self.assertEqual(ran.status, 2, ran.err)
+                self.assertIn(said, ran.err)
+                self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertEqual(self.acquire(FAST, "-o", "absent/t.mcap", "--frames", 5).status, 4)
+
+    def test_it_begins_with_enter(self):
+        words = [PROGRAM, "acquire", FAST, "-o", "trial.mcap", "--frames", "50", "--trigger", "key"]
+        ran = subprocess.run(words, cwd=self.folder, input="\n", capture_output=True, text=True, timeout=SECONDS, check=False)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("press Enter to begin", ran.stderr)
+        ran = self.acquire(FAST, "-o", "none.mcap", "--trigger", "key")
+        self.assertEqual(ran.status, 130)
+        self.assertFalse((self.folder / "none.mcap").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
