@@ -41,6 +41,7 @@ struct ServeArguments {
   pipeline::IkJob asked;                   ///< of all solutions: tasks, folders of meshes
   std::vector<std::string> weights;        ///< of markers, NAME=W
   std::filesystem::path record;            ///< of a live source; of a device the folder of its trials
+  std::filesystem::path rig;               ///< that the cameras of a device are aligned with
   std::vector<std::string> levels;         ///< of a live source, MARKER,MARKER,...
   motion::TrackOptions track;              ///< how the model follows a live source
   std::filesystem::path certificate, key;  ///< of TLS; empty: none
@@ -80,6 +81,8 @@ Status check_desk(const ServeArguments& arguments) {
 /// A live source is served alone, and only it, or a device, is recorded.
 Status check_together(const ServeArguments& arguments) {
   if (arguments.is_desk()) return check_desk(arguments);
+  if (!arguments.rig.empty())
+    return fail(Code::usage, "--rig is for a device (sim:rig, serial:... or comedi:...)");
   if (arguments.is_live() && arguments.given.size() > 1)
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
   if (!arguments.is_live() && !arguments.record.empty())
@@ -188,7 +191,7 @@ int serve(const CommonOptions& common, ServeArguments& arguments) {
   if (const auto s = check_together(arguments); !s) return report_error(s.error());
   const bool live = arguments.is_live(), desk = arguments.is_desk();
   if (const auto s = live || desk ? Status() : check_files(arguments); !s) return report_error(s.error());
-  auto device = desk ? open_desk(common, arguments.given.front().string(), arguments.record)
+  auto device = desk ? open_desk(common, arguments.given.front().string(), arguments.record, arguments.rig)
                      : Result<std::unique_ptr<DeskParts>>(nullptr);
   if (!device) return report_error(device.error());
   auto source = live ? open_source(common, arguments) : Result<std::unique_ptr<LiveParts>>(nullptr);
@@ -272,6 +275,10 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       "--record", arguments->record,
       "Recording to write, .mcap: every frame of a live source; of a device the folder of its "
       "trials, the current one when absent");
+  command->add_option(
+      "--rig", arguments->rig,
+      "Rig as it is to stand, rig.toml: the page of a device says how to turn the cameras, by "
+      "the tree of three LEDs held still in four places or more");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/console.h"
+#include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/desk/acquire_desk.h"
 #include "kinemark/pipeline/desk/desk_page.h"
 
@@ -21,7 +22,8 @@ bool names_desk(std::string_view argument) {
 }
 
 Result<std::unique_ptr<DeskParts>> open_desk(const CommonOptions& common, const std::string& uri,
-                                             const std::filesystem::path& folder) {
+                                             const std::filesystem::path& folder,
+                                             const std::filesystem::path& rig) {
   std::error_code none;
   const std::filesystem::path trials = folder.empty() ? "." : folder;
   if (std::filesystem::exists(trials, none) && !std::filesystem::is_directory(trials, none))
@@ -34,8 +36,13 @@ Result<std::unique_ptr<DeskParts>> open_desk(const CommonOptions& common, const 
   parts->page = pipeline::desk_page(uri, none ? trials : shown);
   parts->nonce = std::move(*nonce);
   auto& [desk, session, stop, ended] = parts->served;
-  desk = std::make_unique<pipeline::AcquireDesk>(
-      pipeline::TrialFiles{.folder = trials, .seed = common.seed, .recording = {}});
+  pipeline::TrialFiles files{.folder = trials, .seed = common.seed};
+  if (!rig.empty()) {
+    auto wanted_rig = io::read_rig(rig);
+    if (!wanted_rig) return std::unexpected(wanted_rig.error());
+    files.wanted_rig = std::move(*wanted_rig);
+  }
+  desk = std::make_unique<pipeline::AcquireDesk>(std::move(files));
   pipeline::Wanted wanted;
   wanted.source = uri;
   session = std::make_unique<pipeline::DeskSession>(*desk, wanted);

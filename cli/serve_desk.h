@@ -25,10 +25,12 @@ struct DeskParts {
 };
 
 /// A desk with that device open. @param folder  of the trials; empty: the current one
-/// Code::usage where the folder is a file; else as pipeline::open_device().
+/// @param rig  that the cameras are aligned with; empty: there is no guide
+/// Code::usage where the folder is a file; else as io::read_rig() and pipeline::open_device().
 [[nodiscard]] Result<std::unique_ptr<DeskParts>> open_desk(const CommonOptions& common,
                                                            const std::string& uri,
-                                                           const std::filesystem::path& folder);
+                                                           const std::filesystem::path& folder,
+                                                           const std::filesystem::path& rig);
 
 /// Until a signal comes: a trial that is recorded then is ended and kept. The exit status.
 int serve_desk(const CommonOptions& common, server::HttpServer& http, server::Keys keys, DeskParts& parts);

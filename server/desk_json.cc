@@ -18,8 +18,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using pipeline::DeskStep;
 
-constexpr EnumNames<DeskAction::discard> kActions{"look",      "open",   "leave_source", "start", "set_up",
-                                                  "intensity", "record", "stop",         "keep",  "discard"};
+constexpr EnumNames<DeskAction::discard> kActions{"look",   "open",          "leave_source", "start",
+                                                  "set_up", "restart_guide", "intensity",    "record",
+                                                  "stop",   "keep",          "discard"};
 constexpr std::size_t kMostSpots = 30;   // of an LED in a camera
 constexpr std::size_t kMostRates = 64;   // LEDs whose highest rate is told
 constexpr std::size_t kMostText = 1000;  // bytes of a text
@@ -211,6 +212,8 @@ void ask_desk(const DeskRequest& request, pipeline::DeskSession& session) {
       return session.start(request.lines);
     case DeskAction::set_up:
       return session.set_up();
+    case DeskAction::restart_guide:
+      return session.restart_guide();
     case DeskAction::intensity:
       return session.set_intensity(request.led, request.intensity);
     case DeskAction::record:

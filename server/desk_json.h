@@ -24,6 +24,7 @@ enum class DeskAction : std::uint8_t {
   leave_source,
   start,
   set_up,
+  restart_guide,
   intensity,
   record,
   stop,

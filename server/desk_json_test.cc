@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kinemark/core/missing.h"
 #include "kinemark/pipeline/desk/testing/fake_desk.h"
 
 namespace kinemark::server {
@@ -146,6 +147,7 @@ TEST(DeskRequest, EachActionIsTheCallOfItsName) {
   EXPECT_EQ(desk.asked.rate_hz, 100.0);
   ask(R"({"do": "set_up"})");
   ask(R"({"do": "start"})");
+  ask(R"({"do": "restart_guide"})");
   ask(R"({"do": "intensity", "led": 1, "value": 0.5})");
   EXPECT_EQ(desk.light, 0.5);
   ask(R"({"do": "record"})");
@@ -154,8 +156,8 @@ TEST(DeskRequest, EachActionIsTheCallOfItsName) {
   ask(R"({"do": "record"})");
   ask(R"({"do": "stop"})");
   ask(R"({"do": "keep"})");
-  EXPECT_THAT(desk.calls, ::testing::ElementsAre("open sim:rig", "close", "open sim:rig", "record", "stop",
-                                                 "discard", "record", "stop", "keep"));
+  EXPECT_THAT(desk.calls, ::testing::ElementsAre("open sim:rig", "close", "open sim:rig", "restart_guide",
+                                                 "record", "stop", "discard", "record", "stop", "keep"));
 }
 
 }  // namespace

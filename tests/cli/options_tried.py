@@ -189,6 +189,7 @@ REFUSED = [
     *(("serve sim:walk --no-open", option, "is for files; sim:walk is a live source") for option in ("--geometry=.", "--tasks=a.xml", "--weight=A=2")),
     ("serve sim:rig --no-open", "--model=arm.osim", "sim:rig is a device that gives counts"),
     *(("serve sim:rig --no-open", option, "for markers and body models") for option in ("--geometry=.", "--tasks=a.xml", "--weight=A=2", "--level=A", "--strict", "--omega=50")),
+    ("serve legs.trc --no-open", "--rig=rig.toml", "--rig is for a device"), ("serve sim:walk --no-open", "--rig=rig.toml", "--rig is for a device"),
     ("serve legs.trc --no-open", "--record=a.mcap", "is for a live source"), ("serve legs.trc --no-open", "--json", "its result is no JSON"),
     *(("serve legs.trc --no-open", option, "are for a live source") for option in ("--level=A", "--strict", "--omega=50")),
     *(("serve replay:legs.trc --no-open", option, "need the body model that follows the source") for option in ("--level=A", "--omega=50")),

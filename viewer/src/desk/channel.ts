@@ -4,7 +4,7 @@ import type { DeskState, Refusal } from "../page_types.ts";
 
 /** What shall be done, as `/api/desk` takes it. */
 export type DeskRequest =
-  | { do: "look" | "leave_source" | "set_up" | "record" | "stop" | "keep" | "discard" }
+  | { do: "look" | "leave_source" | "set_up" | "restart_guide" | "record" | "stop" | "keep" | "discard" }
   | { do: "open"; uri: string }
   | { do: "start"; leds: string; rate_hz: string; duration_s: string; subject: string; trial: string }
   | { do: "intensity"; led: number; value: number };

@@ -12,7 +12,8 @@ import { button, heading, panel, tell, type Panel } from "./panel.ts";
 export function livePanel(act: Act, state: DeskState): Panel {
   const { granted, wanted } = state;
   const parts = [detectors(state), ledTable(act, state, true)];
-  const guide = el("p", { class: "desk-guide", id: "desk-guide", role: "status", hidden: true });
+  const said = el("span", { id: "desk-guide", role: "status" });
+  const guide = el("p", { class: "desk-guide", hidden: true }, said, " ", button("Align anew", () => void act({ do: "restart_guide" })));
   const frames = el("p", { class: "facts", id: "desk-frames" });
   const words = granted === null ? "Live" : `Live: ${plural(granted.leds.length, "LED")}, ${plural(granted.cameras.length, "camera")}, ${number(granted.rate_hz, Number.isInteger(granted.rate_hz) ? 0 : 1)} Hz`;
   const node = panel(
@@ -29,7 +30,7 @@ export function livePanel(act: Act, state: DeskState): Panel {
       tell(frames, plural(now.live?.frames ?? 0, "frame"));
       const aligned = now.live?.guide ?? "";
       guide.hidden = aligned === "";
-      tell(guide, aligned === "" ? "" : `Alignment: ${aligned}`);
+      tell(said, aligned === "" ? "" : `Alignment: ${aligned}`);
       for (const part of parts) part.update(now);
     },
   };

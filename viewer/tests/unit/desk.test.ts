@@ -96,9 +96,14 @@ describe("a step", () => {
     expect(page.classed("trail").map((t) => t.getAttribute("d"))).toEqual(["M0.5 -0.25h0M0.4 -0.25h0", ""]);
     expect(page.tagged("td").map((td) => td.textContent)).toEqual(["100 %", "1.3", "80 %", "–dark"]);
     expect(page.tagged("meter")[0]!.getAttribute("value")).toBe("0.5");
+    await click("Align anew");
     await click("Record 01");
     await click("Set-up");
-    expect(asked.slice(1)).toEqual([{ do: "record" }, { do: "set_up" }]);
+    expect(asked.slice(1)).toEqual([{ do: "restart_guide" }, { do: "record" }, { do: "set_up" }]);
+  });
+  it("live: where there is no guide there is nothing to align anew", async () => {
+    const { page } = await shown({ ...live, live: { ...live.live!, guide: "" } });
+    expect(page.classed("desk-guide")[0]!.hidden).toBe(true);
   });
   it("live: the light of an LED is set by who moves its slider, and stays under his hand", async () => {
     const { page, asked, next } = await shown(live);
