@@ -13,6 +13,7 @@
 #include "cli/console.h"
 #include "cli/level_arguments.h"
 #include "cli/motion_arguments.h"
+#include "cli/serve_desk.h"
 #include "kinemark/io/osim/ik_setup.h"
 #include "kinemark/pipeline/files/edit_job.h"
 #include "kinemark/pipeline/files/model_input.h"
@@ -39,15 +40,20 @@ struct ServeArguments {
   std::filesystem::path model;             ///< of a live source, or of all recordings
   pipeline::IkJob asked;                   ///< of all solutions: tasks, folders of meshes
   std::vector<std::string> weights;        ///< of markers, NAME=W
-  std::filesystem::path record;            ///< of a live source
+  std::filesystem::path record;            ///< of a live source; of a device the folder of its trials
+  std::filesystem::path rig;               ///< that the cameras of a device are aligned with
   std::vector<std::string> levels;         ///< of a live source, MARKER,MARKER,...
   motion::TrackOptions track;              ///< how the model follows a live source
   std::filesystem::path certificate, key;  ///< of TLS; empty: none
 
-  /// The live source that was given, if one was.
+  /// A device was given.
+  [[nodiscard]] bool is_desk() const {
+    return std::ranges::any_of(given, [](const auto& one) { return names_desk(one.string()); });
+  }
+  /// A live source was given that is no device.
   [[nodiscard]] bool is_live() const {
-    return std::ranges::any_of(given,
-                               [](const auto& one) { return pipeline::names_live_input(one.string()); });
+    return !is_desk() && std::ranges::any_of(
+                             given, [](const auto& one) { return pipeline::names_live_input(one.string()); });
   }
 };
 
@@ -57,12 +63,30 @@ bool says_how_to_follow(const ServeArguments& arguments) {
          arguments.track.omega_rad_s != motion::TrackOptions().omega_rad_s;
 }
 
-/// A live source is served alone, and only it is recorded.
+/// A device is served alone, and knows of no model.
+Status check_desk(const ServeArguments& arguments) {
+  if (arguments.given.size() > 1)
+    return fail(Code::usage, "a device is served alone; give it without other files and sources");
+  const char* of_models = !arguments.model.empty()            ? "--model is"
+                          : !arguments.asked.geometry.empty() ? "--geometry is"
+                          : !arguments.asked.tasks.empty()    ? "--tasks is"
+                          : !arguments.weights.empty()        ? "--weight is"
+                          : says_how_to_follow(arguments)     ? "--level, --strict and --omega are"
+                                                              : "";
+  if (*of_models == '\0') return {};
+  return fail(Code::usage, fmt::format("{} for markers and body models; {} is a device that gives counts",
+                                       of_models, arguments.given.front().string()));
+}
+
+/// A live source is served alone, and only it, or a device, is recorded.
 Status check_together(const ServeArguments& arguments) {
+  if (arguments.is_desk()) return check_desk(arguments);
+  if (!arguments.rig.empty())
+    return fail(Code::usage, "--rig is for a device (sim:rig, serial:... or comedi:...)");
   if (arguments.is_live() && arguments.given.size() > 1)
     return fail(Code::usage, "a live source is served alone; give it without other files and sources");
   if (!arguments.is_live() && !arguments.record.empty())
-    return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE)");
+    return fail(Code::usage, "--record is for a live source (sim:... or replay:FILE) or a device");
   if (!arguments.is_live() && says_how_to_follow(arguments))
     return fail(Code::usage, "--level, --strict and --omega are for a live source (sim:... or replay:FILE)");
   const char* of_files = !arguments.asked.geometry.empty() ? "geometry"
@@ -165,8 +189,11 @@ int serve(const CommonOptions& common, ServeArguments& arguments) {
   if (const auto s = server::check_bind_address(arguments.bind, *tls != nullptr); !s)
     return report_error(s.error());
   if (const auto s = check_together(arguments); !s) return report_error(s.error());
-  const bool live = arguments.is_live();
-  if (const auto s = live ? Status() : check_files(arguments); !s) return report_error(s.error());
+  const bool live = arguments.is_live(), desk = arguments.is_desk();
+  if (const auto s = live || desk ? Status() : check_files(arguments); !s) return report_error(s.error());
+  auto device = desk ? open_desk(common, arguments.given.front().string(), arguments.record, arguments.rig)
+                     : Result<std::unique_ptr<DeskParts>>(nullptr);
+  if (!device) return report_error(device.error());
   auto source = live ? open_source(common, arguments) : Result<std::unique_ptr<LiveParts>>(nullptr);
   if (!source) return report_error(source.error());
   const auto http = server::HttpServer::listen(arguments.bind, arguments.port, {}, *tls);
@@ -187,6 +214,7 @@ int serve(const CommonOptions& common, ServeArguments& arguments) {
   if (output_failed()) return 0;  // which main() reports
   if (opens && !server::open_browser(address(keys->opening)))
     say(common, "note: no browser could be opened; open the address by hand");
+  if (desk) return serve_desk(common, **http, std::move(*keys), **device);
   if (live) return serve_live(**http, std::move(*keys), **source, std::move(*feed));
   const auto root = keys->root();
   server::TrialService service(
@@ -219,7 +247,8 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option(
           "FILE", arguments->given,
           ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
-          "at again when the page is reloaded; or a live source: sim:walk, replay:FILE")
+          "at again when the page is reloaded; or a live source: sim:walk, replay:FILE; or a device: "
+          "sim:rig, serial:/dev/ttyACM0, comedi:/dev/comedi0")
       ->required();
   command->add_option(
       "-m,--model", arguments->model,
@@ -242,8 +271,14 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option("--omega", arguments->track.omega_rad_s,
                    "Stiffness by which the model follows a live source, rad/s: how far a push moves it")
       ->capture_default_str();
-  command->add_option("--record", arguments->record,
-                      "Recording to write, .mcap: every frame of a live source");
+  command->add_option(
+      "--record", arguments->record,
+      "Recording to write, .mcap: every frame of a live source; of a device the folder of its "
+      "trials, the current one when absent");
+  command->add_option(
+      "--rig", arguments->rig,
+      "Rig as it is to stand, rig.toml: the page of a device says how to turn the cameras, by "
+      "the tree of three LEDs held still in four places or more");
   command->add_option("--port", arguments->port, "Port to listen on; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

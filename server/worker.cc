@@ -6,7 +6,8 @@
 
 namespace kinemark::server {
 
-Worker::Worker(std::size_t most) : most_(most), thread_([this] { run(); }) {}
+Worker::Worker(std::size_t most, Repeated again)
+    : most_(most), again_(std::move(again)), thread_([this] { run(); }) {}
 
 Worker::~Worker() {
   {
@@ -28,16 +29,28 @@ bool Worker::post(std::function<void()> work) {
   return true;
 }
 
+void Worker::wait(std::unique_lock<std::mutex>& lock, Clock::time_point due) {
+  const auto ready = [this] { return ends_ || !waiting_.empty(); };
+  if (again_.work)
+    changed_.wait_until(lock, due, ready);
+  else
+    changed_.wait(lock, ready);
+}
+
 void Worker::run() {
+  auto due = Clock::now() + again_.every;
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
+    wait(lock, due);
     if (ends_) return;
-    auto work = std::move(waiting_.front());
-    waiting_.pop_front();
+    // What comes again is not kept from its turn by many who ask.
+    const bool again = again_.work && (waiting_.empty() || Clock::now() >= due);
+    auto work = again ? again_.work : std::move(waiting_.front());
+    if (!again) waiting_.pop_front();
     lock.unlock();
     work();
     work = nullptr;
+    if (again) due = Clock::now() + again_.every;
     lock.lock();
   }
 }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <future>
 #include <vector>
 
@@ -63,6 +64,27 @@ TEST(WorkerThread, LetsGoOfWorkWhenItIsDone) {
   ASSERT_TRUE(worker.post([&done] { done.set_value(); }));
   done.get_future().wait();
   EXPECT_EQ(held.use_count(), 1);
+}
+
+TEST(WorkerThread, DoesWhatComesAgainBesideWhatIsAsked) {
+  std::promise<void> asked, third;
+  int times = 0;
+  Worker worker(10, {.every = std::chrono::milliseconds(1), .work = [&] {
+                       if (++times == 3) third.set_value();
+                     }});
+  third.get_future().wait();
+  ASSERT_TRUE(worker.post([&] { asked.set_value(); }));
+  asked.get_future().wait();
+}
+
+TEST(WorkerThread, WhatComesAgainHasItsTurnWhereOthersAlwaysWait) {
+  std::promise<void> turn;
+  std::atomic<bool> had = false;
+  Worker worker(2, {.every = std::chrono::milliseconds(1), .work = [&] {
+                      if (!had.exchange(true)) turn.set_value();
+                    }});
+  while (!had) (void)worker.post([] {});
+  turn.get_future().wait();
 }
 
 }  // namespace

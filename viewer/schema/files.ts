@@ -29,7 +29,7 @@ export interface SchemaFile extends Part {
 }
 
 /** In the order of the documentation: what pages are made of comes last. */
-export const names = ["page", "ik", "clean", "markers", "live", "served", "results", "joints", "scale", "rig", "measures", "gait", "serve", "scene", "shared", "curves"] as const;
+export const names = ["page", "ik", "clean", "markers", "live", "desk", "served", "results", "joints", "scale", "rig", "measures", "gait", "serve", "scene", "shared", "curves"] as const;
 
 export const files: readonly SchemaFile[] = names.map((name) => JSON.parse(readFileSync(new URL(`${name}.json`, import.meta.url), "utf8")) as SchemaFile);
 

@@ -13,6 +13,7 @@ const pages: Record<string, string> = {
   "kinemark.clean_report": "CleanPage",
   "kinemark.markers_report": "MarkersPage",
   "kinemark.live": "LivePage",
+  "kinemark.desk": "DeskPage",
   "kinemark.trials": "TrialsPage",
   "kinemark.facts": "FactsPage",
   "kinemark.notice": "NoticePage",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CleanPage, IkPage, LivePage, MarkersPage, ResultPage } from "./page_types.ts";
+import type { CleanPage, DeskPage, IkPage, LivePage, MarkersPage, ResultPage } from "./page_types.ts";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { inflateAll } from "./curves.ts";
@@ -8,17 +8,19 @@ import { el } from "./dom.ts";
 import { baseOf, Channel } from "./editing/channel.ts";
 import { cleanPage } from "./pages/clean.ts";
 import type { Content } from "./pages/content.ts";
+import { deskPage } from "./pages/desk.ts";
 import { EditedPage } from "./pages/edited.ts";
 import { ikPage } from "./pages/ik.ts";
 import { livePage } from "./pages/live.ts";
 import { markersPage } from "./pages/markers.ts";
 import { resultPage } from "./pages/result.ts";
 
-type AnyPage = IkPage | CleanPage | MarkersPage | ResultPage | LivePage;
+type AnyPage = IkPage | CleanPage | MarkersPage | ResultPage | LivePage | DeskPage;
 
 const isClean = (data: AnyPage): data is CleanPage => data.summary.schema === "kinemark.clean_report";
 const isResult = (data: AnyPage): data is ResultPage => data.summary.schema === "kinemark.result_report";
 const isLive = (data: AnyPage): data is LivePage => data.summary.schema === "kinemark.live";
+const isDesk = (data: AnyPage): data is DeskPage => data.summary.schema === "kinemark.desk";
 const isMarkers = (data: AnyPage): data is MarkersPage => data.summary.schema === "kinemark.markers_report";
 
 async function show(page: HTMLElement, data: AnyPage): Promise<void> {
@@ -33,8 +35,8 @@ async function show(page: HTMLElement, data: AnyPage): Promise<void> {
     }).draw(data);
     return;
   }
-  const foot = isLive(data) ? `kinemark ${data.summary.version}. This page talks with its own server alone.` : `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`;
-  const content = isLive(data) ? livePage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? await cleanPage(data) : await ikPage(data);
+  const foot = isLive(data) || isDesk(data) ? `kinemark ${data.summary.version}. This page talks with its own server alone.` : `Written by kinemark ${data.summary.version}. This page needs no network and sends nothing.`;
+  const content = isLive(data) ? livePage(data) : isDesk(data) ? deskPage(data) : isResult(data) ? await resultPage(data) : isMarkers(data) ? await markersPage(data) : isClean(data) ? await cleanPage(data) : await ikPage(data);
   lay(page, content, foot);
   for (const run of content.later ?? []) {
     await painted();

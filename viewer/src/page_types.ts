@@ -3,7 +3,7 @@
 // Made by `npm run schema` from viewer/schema; change that.
 
 /** One of these, by `summary.schema` and `summary.kind`. */
-export type Page = IkPage | CleanPage | MarkersPage | LivePage | TrialsPage | FactsPage | NoticePage | ResultPage;
+export type Page = IkPage | CleanPage | MarkersPage | LivePage | DeskPage | TrialsPage | FactsPage | NoticePage | ResultPage;
 
 /** The page: summary, curves, cycles, space. */
 export interface IkPage {
@@ -537,6 +537,98 @@ export interface LiveTarget {
 export interface LiveCoordinate {
   /** Its name. */ name: string;
   /** Unit in the messages. */ unit: "deg" | "mm";
+}
+
+/** The page. */
+export interface DeskPage {
+  /** What is known before anything is asked. */ summary: DeskSummary;
+}
+
+/** A device, and where its trials go. */
+export interface DeskSummary {
+  /** Which page this is. */ schema: "kinemark.desk";
+  /** Its version. */ schema_version: 1;
+  /** Name for people. */ trial: string;
+  /** Address of the device as given. */ source: string;
+  /** Version of the program. */ version: string;
+  /** Folder of the trials. */ folder: string;
+}
+
+/** How an acquisition stands, `/api/desk`. */
+export interface DeskState {
+  /** What is shown: the sources, the set-up of one, what it sees, a trial as it is recorded, its check. */ step: "source" | "plan" | "live" | "recording" | "check" | "ended";
+  /** What went wrong or was done last, a sentence; may be empty. */ message: string;
+  /** Sources that were found. */ sources: DeskSource[];
+  /** The one that is open; null: none. */ device: DeskDevice | null;
+  /** The set-up as typed. */ wanted: DeskWanted;
+  /** The set-up as the device runs; null: it does not. */ granted: DeskGranted | null;
+  /** Length of a trial, s; 0: until it is stopped. */ duration_s: number;
+  /** What it sees; null: it does not run. */ live: DeskLive | null;
+  /** What to know of the last trial. */ check: DeskCheckLine[];
+  /** Files of the trials that were kept. */ kept: string[];
+}
+
+/** A source. */
+export interface DeskSource {
+  /** Its address. */ uri: string;
+  /** Name for people. */ name: string;
+  /** Why it cannot be opened; empty: it can. */ state: string;
+}
+
+/** What a device can do. */
+export interface DeskDevice {
+  /** What it calls itself. */ name: string;
+  /** LEDs that it can light in turn; 0: none, they run by themselves. */ most_leds: number;
+  /** Cameras, with four electrodes each. */ cameras: number;
+  /** Bits of its converter. */ bits: number;
+  /** It can set the light of each LED. */ sets_intensity: boolean;
+  /** Shortest time of an LED, us. */ slot_us: number;
+  /** Frames in a second at most, of 1, 2, ... 64 LEDs. */ highest_rates_hz: number[];
+}
+
+/** A set-up as typed. */
+export interface DeskWanted {
+  /** Address; empty: none. */ source: string;
+  /** How many LEDs, or their names with commas. */ leds: string;
+  /** Frames in a second; empty: as many as the LEDs leave room for. */ rate_hz: string;
+  /** Length of a trial, s; empty: until it is stopped. */ duration_s: string;
+  /** Who is measured; may be empty. */ subject: string;
+  /** Name of the next trial. */ trial: string;
+}
+
+/** A set-up as it runs. */
+export interface DeskGranted {
+  /** Names, in the order in which they are lit. */ leds: string[];
+  /** Names. */ cameras: string[];
+  /** Frames in a second. */ rate_hz: number;
+  /** Light of each LED, of its full light, above 0 and at most 1. */ intensity: number[];
+}
+
+/** What a device sees. */
+export interface DeskLive {
+  /** Frames that came since it was started. */ frames: number;
+  /** Frames of the trial that are kept. */ acknowledged: number;
+  /** Frames of the trial that the device lost. */ dropped_by_device: number;
+  /** Frames of the trial that the program lost. */ dropped_here: number;
+  /** Length of the trial so far, s. */ recorded_s: number;
+  /** How to align the cameras; empty: nothing is known. */ guide: string;
+  /** Of each LED, of each camera; of none before the first frames. */ seen: DeskSeen[][];
+}
+
+/** An LED as a camera saw it in the last second; null: it did not. */
+export interface DeskSeen {
+  /** Mean sum of the four channels above the dark slot, counts. */ light_counts: number | null;
+  /** Brightest channel, of the highest code; near 1 it will clip. */ highest_share: number | null;
+  /** Standard deviation of a channel from frame to frame without movement, counts. */ noise_counts: number | null;
+  /** Share of the frames in which it was hidden. */ occluded_share: number;
+  /** Share of the frames in which a channel clipped. */ saturated_share: number;
+  /** Where it was on the detector, x right and y down in [-1, 1], the newest first. */ spots: ([number, number])[];
+}
+
+/** A line of the check of a trial. */
+export interface DeskCheckLine {
+  /** Nothing is to be done. */ good: boolean;
+  /** A sentence; else with what to do. */ text: string;
 }
 
 /** The list of trials. */

@@ -25,6 +25,7 @@ interface FakeEvent {
   offsetY?: number;
   stopped?: boolean;
   stopPropagation: () => void;
+  preventDefault: () => void;
 }
 
 export class FakeElement extends FakeNode {
@@ -87,6 +88,14 @@ export class FakeElement extends FakeNode {
       this.setAttribute("class", [...names].join(" "));
     },
   };
+  get firstChild(): FakeNode | null {
+    return this.children[0] ?? null;
+  }
+  /** The element that was gone to last. */
+  static focused: FakeElement | null = null;
+  focus(): void {
+    FakeElement.focused = this;
+  }
   getContext(): Pen {
     return (this.#pen ??= new Pen());
   }
@@ -104,7 +113,7 @@ export class FakeElement extends FakeNode {
   }
   /** What an event does here and further up. */
   fire(type: string, at: { offsetX?: number; offsetY?: number; shiftKey?: boolean } = {}): void {
-    const event: FakeEvent = { type, ...at, stopPropagation: () => (event.stopped = true) };
+    const event: FakeEvent = { type, ...at, stopPropagation: () => (event.stopped = true), preventDefault: () => undefined };
     for (let e: FakeElement | null = this; e !== null && !event.stopped; e = e.parent) {
       for (const [listened, listener] of e.listeners) if (listened === type) listener(event);
     }

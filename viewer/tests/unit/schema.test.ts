@@ -39,6 +39,7 @@ const pages: Record<string, unknown> = {
   "MarkersPage with edits": { ...simulatedMarkers(), editing },
   "MarkersPage without edits": { ...simulatedMarkers(), editing: { refused: "The journal is damaged." } },
   LivePage: live,
+  DeskPage: { summary: { schema: "kinemark.desk", schema_version: 1, trial: "Acquisition", source: "sim:rig", version: "0.1.0", folder: "day" } },
   TrialsPage: simulatedTrials(),
   FactsPage: simulatedFacts(),
   NoticePage: simulatedNotice(),
@@ -74,7 +75,7 @@ describe("the schema", () => {
   });
   it("has no type that nothing refers to, but answers of the server, and no member that is required and not described", () => {
     const referred = new Set(JSON.stringify(files).match(/\$defs\/\w+/g)!.map((ref) => ref.slice(6)));
-    expect(parts.map(([name]) => name).filter((name) => !referred.has(name))).toEqual(["Refusal", "AnglesState"]);
+    expect(parts.map(([name]) => name).filter((name) => !referred.has(name))).toEqual(["DeskState", "Refusal", "AnglesState"]);
     const lacking = (part: Part): string[] => (part.required ?? []).filter((name) => part.properties?.[name] === undefined);
     expect(parts.flatMap(([, part]) => lacking(part))).toEqual([]);
   });
