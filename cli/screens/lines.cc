@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -57,6 +58,7 @@ class Dialogue {
       const auto device = desk_.open(uri);
       if (device) {
         device_ = *device;
+        if (wanted_.leds.empty()) wanted_.leds = std::to_string(std::max(device_.most_leds, 1));
         return true;
       }
       say(device.error().message);

@@ -30,7 +30,7 @@ Form plan_form(const Wanted& wanted) {
 Menu::Menu(pipeline::Desk& desk, Wanted wanted)
     : session_(desk, wanted),
       address_({{"Source", "", "sim:rig, replay:FILE, serial:/dev/ttyACM0, comedi:/dev/comedi0"}}),
-      plan_(plan_form(wanted)) {}
+      plan_(plan_form(session_.state().wanted)) {}
 
 void Menu::press(const Key& key) {
   if (key.kind == Key::Kind::interrupt) return session_.leave();
@@ -51,10 +51,15 @@ void Menu::press(const Key& key) {
   }
 }
 
+void Menu::open(const std::string& uri) {
+  session_.open(uri);
+  plan_.set(kLeds, state().wanted.leds);
+}
+
 void Menu::press_source(const Key& key) {
   using Kind = Key::Kind;
   if (typing_address_) {
-    if (key.kind == Kind::enter) session_.open(std::string(trim(address_.value(0))));
+    if (key.kind == Kind::enter) open(std::string(trim(address_.value(0))));
     if (key.kind == Kind::enter || key.kind == Kind::escape)
       typing_address_ = false;
     else if (key.kind != Kind::up && key.kind != Kind::down)
@@ -64,7 +69,7 @@ void Menu::press_source(const Key& key) {
   const auto& sources = state().sources;
   if (key.kind == Kind::up && chosen_source_ > 0) --chosen_source_;
   if (key.kind == Kind::down && chosen_source_ + 1 < sources.size()) ++chosen_source_;
-  if (key.kind == Kind::enter && chosen_source_ < sources.size()) session_.open(sources[chosen_source_].uri);
+  if (key.kind == Kind::enter && chosen_source_ < sources.size()) open(sources[chosen_source_].uri);
   if (key.is(U'o')) typing_address_ = true;
   if (key.is(U'q')) session_.leave();
   if (!key.is(U'l')) return;

@@ -28,6 +28,7 @@ class Menu {
   [[nodiscard]] Canvas draw(int rows, int columns) const;
 
  private:
+  void open(const std::string& uri);
   void press_source(const Key& key);
   void press_plan(const Key& key);
   void press_live(const Key& key);

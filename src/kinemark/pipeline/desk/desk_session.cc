@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "kinemark/core/number.h"
@@ -38,6 +39,7 @@ void DeskSession::open(const std::string& uri) {
   if (!device) return fail_with(device.error());
   state_.wanted.source = uri;
   state_.device = *device;
+  if (state_.wanted.leds.empty()) state_.wanted.leds = std::to_string(std::max(device->most_leds, 1));
   state_.message.clear();
   state_.step = DeskStep::plan;
 }

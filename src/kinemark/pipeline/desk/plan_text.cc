@@ -60,7 +60,9 @@ Result<std::vector<std::string>> parse_leds(const std::string& text, const std::
 }
 
 Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device) {
-  auto leds = parse_leds(wanted.leds, device.leds);
+  auto leds = trimmed(wanted.leds).empty()
+                  ? stream::own_names(device.leds, std::max(device.most_leds, 1), false)
+                  : parse_leds(wanted.leds, device.leds);
   if (!leds) return std::unexpected(leds.error());
   const auto rate = parse_positive(wanted.rate_hz, "Rate");
   if (!rate) return std::unexpected(rate.error());

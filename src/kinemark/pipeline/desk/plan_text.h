@@ -14,7 +14,7 @@ namespace kinemark::pipeline {
 /// What is known before the first screen, and what was typed since.
 struct Wanted {
   std::string source;        ///< to open at once; empty: ask
-  std::string leds = "3";    ///< a count, or names with commas
+  std::string leds;          ///< a count, or names with commas; empty: all that the device has
   std::string rate_hz;       ///< empty: the highest
   std::string duration_s;    ///< of a trial; empty: until it is stopped
   std::string subject;       ///< may be empty
