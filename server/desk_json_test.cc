@@ -93,7 +93,7 @@ TEST(DeskJson, TheCheckAndWhatIsKept) {
   EXPECT_EQ(desk_json(session.state())["kept"].dump(), R"(["raw/01.mcap"])");
 }
 
-TEST(DeskRequest, ASetUpTakesTextsAndNumbersAndKeepsWhatIsNotTold) {
+TEST(DeskRequest, ASetUpTakesTextsAndNumbersAndKeepsWhatIsNotGiven) {
   pipeline::Wanted now;
   now.subject = "S1";
   const auto request =

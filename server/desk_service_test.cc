@@ -101,7 +101,7 @@ TEST_F(DeskServiceThread, WhatIsNoRequestIsRefusedInASentence) {
   EXPECT_EQ(json::parse(*get("/api/desk").body)["step"], "plan") << "nothing was done";
 }
 
-TEST_F(DeskServiceThread, StrangersAreToldNothingAndDoNothing) {
+TEST_F(DeskServiceThread, StrangersGetNothingAndDoNothing) {
   serve();
   auto request = posting(R"({"do": "start"})");
   request.origin = "http://evil.example";
@@ -112,14 +112,14 @@ TEST_F(DeskServiceThread, StrangersAreToldNothingAndDoNothing) {
   EXPECT_EQ(json::parse(*get("/api/desk").body)["step"], "plan");
 }
 
-TEST_F(DeskServiceThread, ATrialWhoseTimeIsUpEndsWhereNobodyLooks) {
+TEST_F(DeskServiceThread, ATrialWhoseTimeIsUpEndsWithoutAPage) {
   std::promise<void> over;
-  bool told = false;
+  bool answered = false;
   // Asked after each look at the trial, on the thread that has the session.
-  serve(pipeline::for_seconds("5"), [this, &over, &told] {
+  serve(pipeline::for_seconds("5"), [this, &over, &answered] {
     const bool ended = !desk_->calls.empty() && desk_->calls.back() == "stop";
     if (!desk_->calls.empty() && desk_->calls.back() == "record") desk_->now.recorded_s = 5.0;
-    if (ended && !std::exchange(told, true)) over.set_value();
+    if (ended && !std::exchange(answered, true)) over.set_value();
     return false;
   });
   (void)done("start");

@@ -116,7 +116,7 @@ class Dialogue {
     const auto check = desk_.stop();
     if (!check) say(check.error().message);
     if (check)
-      for (const pipeline::CheckLine& told : *check) say((told.good ? "  " : "! ") + told.text);
+      for (const pipeline::CheckLine& line : *check) say((line.good ? "  " : "! ") + line.text);
     if (line.kind == TypedLine::Kind::closed) return keep(), false;
     const auto answer = ask("k keep, d discard", "k");
     if (answer && *answer == "d")

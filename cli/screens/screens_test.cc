@@ -44,8 +44,8 @@ TEST(ShowMenus, AskedToEndTheyKeepWhatIsRecorded) {
   FakeDesk desk;
   FakeTerminal terminal;
   terminal.keys = {{Key::Kind::enter}, {Key::Kind::enter}, Key::of(U'r')};
-  int looks = 0;
-  const auto kept = show_menus(desk, {}, terminal, [&] { return ++looks > 3; });
+  int asked = 0;
+  const auto kept = show_menus(desk, {}, terminal, [&] { return ++asked > 3; });
   EXPECT_THAT(kept, testing::ElementsAre("raw/01.mcap"));
   EXPECT_EQ(terminal.shown.size(), 4U);
 }

@@ -214,9 +214,9 @@ def check_holders(folder, times):
         row("highest rate is 121.1 Hz" in refused, "8 LEDs at 200 Hz: refused with the highest", "121.1 Hz", refused)
         with subprocess.Popen([BIN / "serial_rig_tool", "hold", one.line], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as first:
             first.stdout.readline()
-            told = tool("refuse", one.line, 1, 100, good=(5,))
+            said = tool("refuse", one.line, 1, 100, good=(5,))
             first.stdin.close()
-        row(f"serial_rig_tool (process {first.pid}) has it" in told, "two programs on one device: the second is told who has it", "name and process", told)
+        row(f"serial_rig_tool (process {first.pid}) has it" in said, "two programs on one device: the second hears who has it", "name and process", said)
 
 
 def check_trigger(folder):

@@ -71,7 +71,7 @@ class Recorded(DeskTest):
         self.assertEqual([path.name for path in (self.folder / "day one").iterdir()], ["reach_01.mcap"])
         self.assertTrue(self.is_closed(self.folder / "day one/reach_01.mcap"))
 
-    def test_a_trial_whose_time_is_up_ends_where_nobody_looks(self):
+    def test_a_trial_whose_time_is_up_ends_without_a_page(self):
         server = self.serve("sim:rig?speed=10")
         self.ask(server, do="start", leds=2, duration_s=1, trial="alone")
         self.ask(server, do="record")

@@ -186,7 +186,7 @@ TEST_F(Recording, AnyOtherFailureEndsItAtOnce) {
   EXPECT_EQ(done.progress.frames, 0);
 }
 
-TEST_F(Recording, StopsWhenItIsToldToByAnotherThread) {
+TEST_F(Recording, StopsWhenAnotherThreadAsksForIt) {
   const auto device = open_device("sim:rig?leds=1&fast").value();
   const auto granted = device->configure({}).value();
   const auto recorder = Recorder::start(*device, granted, {.file = file_}).value();

@@ -79,7 +79,7 @@ TEST_F(Replay, GivesTheFramesOfTheFileWithTheirGaps) {
   }
 }
 
-TEST_F(Replay, FramesComeAtTheRateOfTheFileOrAtTheOneTold) {
+TEST_F(Replay, FramesComeAtTheRateOfTheFileOrAtTheOneAskedFor) {
   for (const auto& [settings, rate_hz] : {std::pair{"", 100.0}, std::pair{"?rate=50", 50.0}}) {
     const auto device = open(settings);
     EXPECT_EQ(device->configure({}).value().plan.rate_hz, rate_hz);

@@ -41,7 +41,7 @@ TEST(SimRig, GivesWhatSimulateRigRecords) {
   EXPECT_TRUE(std::ranges::equal(counts, recorded.counts));
 }
 
-TEST(SimRig, HasEightLedsAndTwoCamerasUnlessTold) {
+TEST(SimRig, HasEightLedsAndTwoCamerasUnlessAskedForOthers) {
   const auto all = open_device("sim:rig").value();
   EXPECT_EQ(all->capabilities().most_leds, 8);
   EXPECT_EQ(all->capabilities().cameras, 2);

@@ -144,7 +144,7 @@ TEST(RigDevice, GoesOnWithItsNumbersOnceItsPlugIsBack) {
   EXPECT_TRUE(block.gap);
 }
 
-TEST(RigDevice, PullsItsPlugOnceWhenItIsAsFastAsItIsRead) {
+TEST(RigDevice, IsUnpluggedOnceWhenItIsAsFastAsItIsRead) {
   auto d = desk({.duration_s = 10.0, .speed = 0.0, .unplug_at_s = 2.0, .unplug_for_s = 3.0});
   ASSERT_TRUE(d.device->configure({.rate_hz = 100.0}));
   ASSERT_TRUE(d.device->start());

@@ -109,7 +109,7 @@ TEST(FrameDecoder, TakesNoFrameOfAnotherShape) {
   EXPECT_THAT(numbers(decoder), ::testing::ElementsAre(0));
 }
 
-TEST(FrameDecoder, FindsFramesBehindAnythingThatLooksLikeOne) {
+TEST(FrameDecoder, FindsFramesBehindAnythingThatIsLikeOne) {
   FrameDecoder decoder(kShape);
   decoder.push(Bytes{0xA5, 0xA5, 0x5A, 3, 2, 0xA5, 0x5A, 3, 2});
   decoder.push(frames(0, 3));
