@@ -110,13 +110,14 @@ class Dialogue {
                           : "Recording; Enter stops");
     TypedLine line;
     while (line.kind == TypedLine::Kind::nothing) {
-      if (duration_s_ > 0.0 && desk_.live().recorded_s >= duration_s_) break;
+      const pipeline::LiveView live = desk_.live();
+      if (live.ended || (duration_s_ > 0.0 && live.recorded_s >= duration_s_)) break;
       line = terminal_.read(kTick_ms);
     }
     const auto check = desk_.stop();
     if (!check) say(check.error().message);
     if (check)
-      for (const pipeline::CheckLine& line : *check) say((line.good ? "  " : "! ") + line.text);
+      for (const pipeline::CheckLine& found : *check) say((found.good ? "  " : "! ") + found.text);
     if (line.kind == TypedLine::Kind::closed) return keep(), false;
     const auto answer = ask("k keep, d discard", "k");
     if (answer && *answer == "d")

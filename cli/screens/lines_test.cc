@@ -61,6 +61,13 @@ TEST(Lines, EmptyLinesTakeWhatStandsInBrackets) {
   EXPECT_EQ(desk.asked.leds.size(), 8U);                  // all that the device has
 }
 
+TEST(Lines, ATrialOfADeviceThatGivesNoMoreIsOver) {
+  FakeDesk desk;
+  desk.now.ended = true;
+  const Session session(desk, rig_at(), {"", "", "", "", "", "k", "q"});
+  EXPECT_THAT(session.kept, ElementsAre("raw/01.mcap"));
+}
+
 TEST(Lines, ARefusedRateIsAskedAgain) {
   FakeDesk desk;
   const Session session(desk, rig_at("8", "200"), {"", "", "", "", "", "138", "", "", "q"});
