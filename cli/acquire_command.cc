@@ -68,7 +68,8 @@ Status complete(AcquireArguments& arguments) {
   auto& job = arguments.job;
   if (job.source.empty())
     return fail(Code::usage, "no device is given; 'kinemark acquire --list' shows those that are there");
-  if (job.output.empty()) return fail(Code::usage, "no recording is given; need --output FILE.mcap");
+  if (job.output.empty() && !job.check_up)
+    return fail(Code::usage, "no recording is given; need --output FILE.mcap, or --check");
   const auto sync = kSync.parse(arguments.sync, "--sync");
   if (!sync) return std::unexpected(sync.error());
   job.sync = *sync;
@@ -122,7 +123,7 @@ void print_progress(const CommonOptions& common, const pipeline::RecorderProgres
 }
 
 int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome) {
-  for (const auto& note : outcome.notes) say(common, note);
+  for (const auto& note : outcome.notes) say(common, (note.good ? "" : "! ") + note.text);
   say_written(common, outcome);
   if (common.json) print_result(pipeline::acquire_json(outcome).dump() + "\n");
   if (outcome.recorded.error) return report_error(*outcome.recorded.error);
@@ -155,7 +156,8 @@ int acquire_by_hand(const CommonOptions& common, const AcquireArguments& argumen
 int acquire(const CommonOptions& common, AcquireArguments& arguments) {
   if (arguments.list) return list_devices(common);
   const bool at_terminal = isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
-  if (arguments.job.output.empty() && !common.json && (arguments.job.source.empty() || at_terminal))
+  if (arguments.job.output.empty() && !arguments.job.check_up && !common.json &&
+      (arguments.job.source.empty() || at_terminal))
     return acquire_by_hand(common, arguments);
   if (!arguments.rig.empty())
     return report_error({Code::usage,
@@ -222,6 +224,10 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
       "--rig", arguments->rig,
       "Rig as it is to stand, rig.toml: the menus say how to turn the cameras, by the tree of "
       "three LEDs held still in four places or more");
+  command->add_flag(
+      "--check", job.check_up,
+      "Look at the device for 10 s, or --duration, and keep nothing: rate, losses, dark level, noise and "
+      "each LED, a line each with what to do; exit status 1 where something is wrong");
   command->add_flag("--list", arguments->list, "Show the devices that are there, and record nothing");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return acquire(common, *arguments); }; });

@@ -14,6 +14,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/version.h"
+#include "kinemark/pipeline/acquire/check_up.h"
 #include "kinemark/pipeline/acquire/device_settings.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
@@ -27,6 +28,7 @@ using Steady = std::chrono::steady_clock;
 
 constexpr milliseconds kPoll{100};
 constexpr double kMostFrames = 4294967295.0;
+constexpr double kCheckUp_s = 10.0;
 
 Result<std::vector<double>> intensities(const AcquireJob& job, const std::vector<std::string>& leds) {
   std::vector<double> out;
@@ -75,9 +77,10 @@ Result<std::optional<BrightnessTrigger>> brightness(const AcquireJob& job,
 
 /// Of both lengths the shorter one; 0: neither was given.
 std::int64_t frames_of(const AcquireJob& job, double rate_hz) {
-  if (job.duration_s == 0.0) return job.frames;
-  const auto frames =
-      std::max<std::int64_t>(1, std::llround(std::min(job.duration_s * rate_hz, kMostFrames)));
+  const double duration_s =
+      job.check_up && job.duration_s == 0.0 && job.frames == 0 ? kCheckUp_s : job.duration_s;
+  if (duration_s == 0.0) return job.frames;
+  const auto frames = std::max<std::int64_t>(1, std::llround(std::min(duration_s * rate_hz, kMostFrames)));
   return job.frames > 0 ? std::min(frames, job.frames) : frames;
 }
 
@@ -121,6 +124,26 @@ Status check_numbers(const AcquireJob& job) {
       !std::isfinite(job.duration_s) || job.frames < 0)
     return fail(Code::usage, "rate, duration and frames cannot be negative");
   return {};
+}
+
+/// A recording to write, or none for a check-up.
+Status check_output(const AcquireJob& job) {
+  if (!job.check_up) return check_ending(job.output, {".mcap"}, "a recording");
+  if (!job.output.empty())
+    return fail(Code::usage, "a check-up keeps nothing; leave --output away, or --check");
+  return {};
+}
+
+/// What there is to know once the recorder has ended.
+void conclude(const AcquireJob& job, AcquireOutcome& out) {
+  if (job.check_up) {
+    out.notes = check_up(out.recorded, out.plan);
+    out.gates = {check_up_gate(out.notes)};
+    return;
+  }
+  out.notes = describe_trial(out.recorded, out.plan.layout);
+  out.gates = {missing_gate(out.recorded.progress)};
+  out.written = {job.output};
 }
 
 }  // namespace
@@ -171,7 +194,7 @@ Result<TrialBegin> parse_begin(std::string_view text) {
 
 Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bool()>& wait_for_key) {
   if (auto s = check_numbers(job); !s) return std::unexpected(s.error());
-  if (auto s = check_ending(job.output, {".mcap"}, "a recording"); !s) return std::unexpected(s.error());
+  if (auto s = check_output(job); !s) return std::unexpected(s.error());
   if (auto s = check_apart(job, {job.output}, {DeviceSettings(job.source).what()}); !s)
     return std::unexpected(s.error());
   auto device = open_device(job.source, job.seed);
@@ -192,15 +215,14 @@ Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bo
                                    .begin = *begin});
   if (!recorder) return std::unexpected(recorder.error());
   if (job.say)
-    job.say(fmt::format("records {} LEDs at {} cameras, {:.6g} frames per second",
-                        granted->layout.led_count(), granted->layout.camera_count(), granted->plan.rate_hz));
+    job.say(fmt::format("{} {} LEDs at {} cameras, {:.6g} frames per second",
+                        job.check_up ? "looks at" : "records", granted->layout.led_count(),
+                        granted->layout.camera_count(), granted->plan.rate_hz));
   watch(job, **recorder);
   AcquireOutcome out;
   out.recorded = (*recorder)->finish();
   out.plan = std::move(*granted);
-  for (auto& note : describe_trial(out.recorded, out.plan.layout)) out.notes.push_back(std::move(note.text));
-  out.gates = {missing_gate(out.recorded.progress)};
-  out.written = {job.output};
+  conclude(job, out);
   return out;
 }
 

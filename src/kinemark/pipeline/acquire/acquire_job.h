@@ -15,6 +15,7 @@
 #include "kinemark/core/result.h"
 #include "kinemark/io/recording/writer.h"
 #include "kinemark/pipeline/acquire/recorder.h"
+#include "kinemark/pipeline/acquire/trial_notes.h"
 #include "kinemark/pipeline/files/job_settings.h"
 #include "kinemark/stream/device.h"
 
@@ -34,6 +35,7 @@ struct TrialBegin {
 struct AcquireJob : JobSettings {
   std::string source;             ///< address of a device, see open_device()
   std::filesystem::path output;   ///< .mcap
+  bool check_up = false;          ///< look at the device for 10 s, or duration_s, and keep nothing
   std::vector<std::string> leds;  ///< names; empty: the device's own
   int led_count = 0;              ///< where no names are given; 0: all that the device has
   double rate_hz = 0.0;           ///< 0: the highest
@@ -57,7 +59,7 @@ struct AcquireJob : JobSettings {
 struct AcquireOutcome : JobOutcome {
   stream::GrantedPlan plan;
   Recorded recorded;
-  std::vector<std::string> notes;  ///< texts of describe_trial()
+  std::vector<TrialNote> notes;  ///< describe_trial(), or check_up()
 };
 
 /// Open the device, wait for what begins the trial, record it, check it. Code::device where the device cannot
@@ -70,7 +72,7 @@ struct AcquireOutcome : JobOutcome {
 /// "frames", "acknowledged", "dropped_by_device", "dropped_here": a line of progress.
 [[nodiscard]] nlohmann::ordered_json progress_json(const RecorderProgress& progress);
 /// "written", "ended", the progress, "rate_hz", "clock" (null where it is not known), "leds" (levels of each
-/// LED at each camera), "notes", "warnings", "error".
+/// LED at each camera), "notes", "wrong" (those of them where something is), "warnings", "error".
 [[nodiscard]] nlohmann::ordered_json acquire_json(const AcquireOutcome& outcome);
 
 }  // namespace kinemark::pipeline

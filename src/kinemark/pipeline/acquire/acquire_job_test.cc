@@ -14,6 +14,7 @@ namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
 using Kind = TrialBegin::Kind;
 
@@ -47,7 +48,7 @@ TEST_F(Acquire, RecordsATrialWithWhatIsKnownOfIt) {
   ASSERT_TRUE(outcome) << outcome.error().message;
   EXPECT_EQ(outcome->exit_status(), 0);
   EXPECT_THAT(outcome->written, ElementsAre(asked.output));
-  EXPECT_THAT(outcome->notes, Contains("all 500 frames came and are kept"));
+  EXPECT_THAT(outcome->notes, Contains(Field(&TrialNote::text, "all 500 frames came and are kept")));
   const auto read = io::read_counts(asked.output).value();
   EXPECT_EQ(read.counts.leds, (std::vector<std::string>{"hand", "wrist"}));
   EXPECT_EQ(read.counts.frames(), 500);
@@ -92,7 +93,7 @@ TEST_F(Acquire, LostFramesMissTheGate) {
   asked.rate_hz = 100.0;
   const auto outcome = run_acquire(asked).value();
   EXPECT_EQ(outcome.exit_status(), 1);
-  EXPECT_THAT(outcome.notes, Contains(HasSubstr("the device lost")));
+  EXPECT_THAT(outcome.notes, Contains(Field(&TrialNote::text, HasSubstr("the device lost"))));
 }
 
 TEST_F(Acquire, StopsWhenAskedAndKeepsTheTrial) {

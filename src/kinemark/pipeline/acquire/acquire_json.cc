@@ -62,7 +62,11 @@ Json acquire_json(const AcquireOutcome& outcome) {
   out["rate_hz"] = outcome.plan.plan.rate_hz;
   out["clock"] = clock_json(outcome.recorded.clock);
   out["leds"] = levels_json(outcome);
-  out["notes"] = outcome.notes;
+  out["notes"] = out["wrong"] = Json::array();
+  for (const auto& note : outcome.notes) {
+    out["notes"].push_back(note.text);
+    if (!note.good) out["wrong"].push_back(note.text);
+  }
   out["error"] = outcome.recorded.error ? Json(outcome.recorded.error->message) : Json(nullptr);
   return out;
 }

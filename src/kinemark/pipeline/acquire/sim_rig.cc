@@ -61,7 +61,10 @@ Result<std::unique_ptr<stream::Device>> open_sim_rig(DeviceSettings settings, st
       .clock_ppm = settings.number("clock_ppm", 0.0, -9e4, 9e4),
       .buffer_s = settings.number("buffer", 1.0, 1e-3, 3600.0),
       .unplug_at_s = settings.number("unplug_at", 0.0, 1e-3, kYear_s),
-      .unplug_for_s = settings.number("unplug_for", 1.0, 0.0, kYear_s)};
+      .unplug_for_s = settings.number("unplug_for", 1.0, 0.0, kYear_s),
+      .dark_led = settings.whole("dark_led", 0, 1, simulation::kMostLeds),
+      .bright_led = settings.whole("bright_led", 0, 1, simulation::kMostLeds),
+      .noisy_channel = settings.whole("noisy_channel", 0, 1, 4 * cameras)};
   if (auto s = settings.check(); !s) return std::unexpected(s.error());
   auto rig = simulation::draw_rig({.seed = seed, .dark_slot = dark_slot});
   if (!rig) return std::unexpected(rig.error());

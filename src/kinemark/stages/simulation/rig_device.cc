@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/core/random.h"
 
 namespace kinemark::simulation {
 namespace {
@@ -17,6 +18,8 @@ using stream::ReadResult;
 
 constexpr std::int64_t kEndless = std::int64_t{1} << 32;  ///< frames that a recording can number
 constexpr std::int64_t kMostInBlock = 256;
+constexpr double kBright = 30.0, kNoisy_counts = 20.0;
+constexpr std::uint64_t kNoisyStream = std::uint64_t{1} << 40;  ///< of the fault's noise, far from all others
 
 Status check_intensities(const std::vector<double>& intensity) {
   for (const double i : intensity)
@@ -101,6 +104,7 @@ Result<stream::GrantedPlan> RigDevice::configure(const stream::ScanPlan& plan) {
   auto recording = grant(out.plan);
   if (!recording) return std::unexpected(recording.error());
   recording_ = std::move(*recording);
+  plant_faults(out.plan.leds.size());
   layout_ = internal::layout_of(rig_, out.plan.leds, {.rate_hz = recording_.rate_hz, .t0_s = 0.0});
   layout_.cameras = out.plan.cameras;
   if (auto s = layout_.validate(); !s) return fail(Code::usage, s.error().message);
@@ -108,6 +112,28 @@ Result<stream::GrantedPlan> RigDevice::configure(const stream::ScanPlan& plan) {
   out.layout = layout_;
   out.facts = {{"seed", fmt::format("{}", options_.seed)}};
   return out;
+}
+
+void RigDevice::plant_faults(std::size_t leds) {
+  auto& intensity = recording_.intensity;
+  if (intensity.empty()) intensity.assign(leds, 1.0);
+  const auto times = [&](int led, double factor) {
+    if (led > 0 && static_cast<std::size_t>(led) <= leds)
+      intensity[static_cast<std::size_t>(led) - 1] *= factor;
+  };
+  times(options_.dark_led, 0.0);
+  times(options_.bright_led, kBright);
+}
+
+// The noise that the fault adds, the same for every way of reading.
+void RigDevice::disturb(std::int64_t frame, std::int16_t* counts) const {
+  Random random(options_.seed, kNoisyStream + static_cast<std::uint64_t>(frame));
+  const auto channels = 4 * layout_.cameras.size();
+  for (std::size_t at = static_cast<std::size_t>(options_.noisy_channel) - 1;
+       at < channels * layout_.leds.size(); at += channels)
+    counts[at] =
+        static_cast<std::int16_t>(std::clamp(std::lround(counts[at] + kNoisy_counts * random.gaussian()), 0L,
+                                             static_cast<long>(layout_.highest_code)));
 }
 
 Status RigDevice::start() {
@@ -159,10 +185,14 @@ void RigDevice::fill(std::int64_t frames, stream::Block& block) {
   block.dark.resize(n * layout_.dark_time_s.size());
   block.flags.assign(n * observations, 0);
   const internal::FrameConverter converter(rig_, scene_, recording_, layout_);
-  for (std::size_t i = 0; i < n; ++i)
-    converter.convert(next_++, {.counts = block.counts.data() + 4 * i * observations,
-                                .dark = block.dark.data() + i * layout_.dark_time_s.size(),
-                                .flags = block.flags.data() + i * observations});
+  for (std::size_t i = 0; i < n; ++i) {
+    std::int16_t* counts = block.counts.data() + 4 * i * observations;
+    converter.convert(next_, {.counts = counts,
+                              .dark = block.dark.data() + i * layout_.dark_time_s.size(),
+                              .flags = block.flags.data() + i * observations});
+    if (options_.noisy_channel > 0) disturb(next_, counts);
+    ++next_;
+  }
   block.saturated = std::ranges::any_of(block.flags, [](std::uint8_t f) { return f != 0; });
 }
 

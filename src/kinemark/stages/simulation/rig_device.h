@@ -27,6 +27,10 @@ struct RigDeviceOptions {
   double buffer_s = 1.0;               ///< of frames that it keeps for a host that does not read; > 0
   double unplug_at_s = 0.0;            ///< when its plug is pulled; 0: never
   double unplug_for_s = 1.0;           ///< until it is put back
+  // Faults, each by number from 1; 0: none.
+  int dark_led = 0;       ///< that never shines
+  int bright_led = 0;     ///< with 30 times its light
+  int noisy_channel = 0;  ///< with 20 counts of noise; channels of camera after camera, +x -x +y -y
 
   /// Ranges hold.
   [[nodiscard]] Status check() const;
@@ -58,6 +62,8 @@ class RigDevice final : public stream::Device {
   RigDevice(PhysicalRig rig, RigScene scene, const RigDeviceOptions& options,
             std::shared_ptr<stream::HostClock> clock);
   [[nodiscard]] Result<RigRecordingOptions> grant(stream::ScanPlan& plan) const;
+  void plant_faults(std::size_t leds);
+  void disturb(std::int64_t frame, std::int16_t* counts) const;
   [[nodiscard]] std::int64_t due_ns(std::int64_t frame) const;
   [[nodiscard]] std::int64_t ended_frames(std::int64_t now_ns) const;
   [[nodiscard]] bool is_unplugged(std::int64_t now_ns) const;

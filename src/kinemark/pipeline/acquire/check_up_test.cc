@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The kinemark authors
+// SPDX-License-Identifier: Apache-2.0
+#include "kinemark/pipeline/acquire/check_up.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "kinemark/pipeline/acquire/acquire_job.h"
+
+namespace kinemark::pipeline {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+
+auto says(const char* words) { return Contains(Field(&TrialNote::text, HasSubstr(words))); }
+auto warns(const char* words) {
+  return Contains(AllOf(Field(&TrialNote::text, HasSubstr(words)), Field(&TrialNote::good, false)));
+}
+auto never_says(const char* words) { return Each(Field(&TrialNote::text, Not(HasSubstr(words)))); }
+
+// Two LEDs at two cameras: 138 Hz, 12 bits, everything as it should be.
+struct Healthy {
+  stream::GrantedPlan plan;
+  Recorded recorded;
+  Healthy() {
+    plan.layout = data::Counts::zeros({"hand", "wrist"}, {"A", "B"}, {.rate_hz = 138.0}, true);
+    recorded.progress = {.frames = 1380, .received = 1380};
+    recorded.clock = stream::ClockRate{.rate_hz = 138.01,
+                                       .sd_hz = 0.01,
+                                       .ppm_fast = 72.0,
+                                       .sd_ppm = 70.0,
+                                       .span_s = 10.0,
+                                       .delay_sd_s = 2e-4};
+    for (int at = 0; at < 4; ++at)
+      recorded.lit.push_back({.frames = 1380,
+                              .mean = {400.0 + 100 * at, 500, 600, 450.0 - 50 * at},
+                              .sd = {1, 1, 1, 1},
+                              .noise = {1.0, 1.1, 0.9, 1.0}});
+    recorded.lit[0].mean(1) = 520;
+    recorded.lit[1].mean(1) = recorded.lit[1].mean(2) = 700;
+    recorded.dark.assign(2, {.frames = 1380, .mean = {16, 17, 15, 16}, .noise = {0.9, 1.0, 0.9, 1.0}});
+  }
+  [[nodiscard]] std::vector<TrialNote> lines() const { return check_up(recorded, plan); }
+};
+
+TEST(CheckUp, OfAHealthyDeviceHasNothingToDo) {
+  const auto lines = Healthy().lines();
+  EXPECT_THAT(lines, Each(Field(&TrialNote::good, true)));
+  EXPECT_THAT(lines, says("138.0100 +- 0.0100 frames per second, 138.0000 granted"));
+  EXPECT_THAT(lines, says("none of 1380 frames is missing"));
+  EXPECT_THAT(lines, says("camera A in the dark: 15.0 to 17.0 counts"));
+  EXPECT_THAT(lines, says("noise of 8 channels: 0.90 to 1.00 counts"));
+  EXPECT_THAT(lines, says("LED 'hand': 47 % of the codes in camera A; 54 % of the codes in camera B"));
+  EXPECT_THAT(lines, never_says("the device does not keep its rate"));
+  EXPECT_THAT(lines, never_says("frames are missing: "));
+  EXPECT_THAT(lines, never_says("a channel is cut off at code 0"));
+  EXPECT_THAT(lines, never_says("the room is too bright"));
+  EXPECT_THAT(lines, never_says("follows no light"));
+  EXPECT_THAT(lines, never_says("are usual: look at its cable"));
+  EXPECT_THAT(lines, never_says("dark in camera"));
+  EXPECT_THAT(lines, never_says("saturates camera"));
+  EXPECT_THAT(lines, never_says("the rate was not measured"));
+  EXPECT_THAT(lines, never_says("the dark level is not known"));
+  EXPECT_THAT(lines, never_says("no frame came"));
+  EXPECT_TRUE(check_up_gate(lines).passed);
+}
+
+TEST(CheckUp, SaysWhenTheRateIsNotKept) {
+  Healthy device;
+  device.recorded.clock->ppm_fast = -2000.0;
+  EXPECT_THAT(device.lines(), warns("the device does not keep its rate"));
+  EXPECT_FALSE(check_up_gate(device.lines()).passed);
+  device.recorded.clock->sd_ppm = 600.0;  // it may be the granted one
+  EXPECT_THAT(device.lines(), never_says("the device does not keep its rate"));
+  device.recorded.clock.reset();
+  EXPECT_THAT(device.lines(), says("the rate was not measured"));
+}
+
+TEST(CheckUp, SaysWhatIsMissing) {
+  Healthy device;
+  device.recorded.progress.dropped_by_device = 3;
+  EXPECT_THAT(device.lines(), warns("3 of 1380 frames are missing: "));
+  EXPECT_THAT(device.lines(), never_says("is missing"));
+}
+
+TEST(CheckUp, JudgesTheDarkLevel) {
+  Healthy device;
+  device.recorded.dark[1].mean(2) = 0.2;
+  EXPECT_THAT(device.lines(),
+              warns("camera B in the dark: 0.2 to 17.0 counts: a channel is cut off at code 0"));
+  device.recorded.dark[1].mean = {500, 400, 400, 400};
+  EXPECT_THAT(device.lines(), warns("the room is too bright"));
+  device.recorded.dark.clear();
+  EXPECT_THAT(device.lines(), says("the dark level is not known"));
+}
+
+TEST(CheckUp, NamesTheNoisyChannelAndTheDeadOne) {
+  Healthy device;
+  for (int led = 0; led < 2; ++led) device.recorded.lit[static_cast<std::size_t>(2 * led + 1)].noise(3) = 9.0;
+  device.recorded.dark[1].noise(3) = 9.0;
+  EXPECT_THAT(device.lines(),
+              warns("channel -y of camera B has a noise of 9.00 counts where 0.95 are usual"));
+  device.recorded.dark[1].noise(3) = 1.0;  // it is the LEDs that move
+  EXPECT_THAT(device.lines(), never_says("are usual: look at its cable"));
+  for (const std::size_t at : {0U, 2U}) device.recorded.lit[at].mean(0) = 16.3;
+  EXPECT_THAT(device.lines(), warns("channel +x of camera A follows no light"));
+}
+
+TEST(CheckUp, NamesLedsThatAreDarkOrTooBright) {
+  Healthy device;
+  device.recorded.lit[3].mean = {20, 20, 25, 22};
+  device.recorded.lit[0].saturated = 5;
+  EXPECT_THAT(device.lines(), warns("LED 'wrist': 44 % of the codes in camera A; dark in camera B"));
+  EXPECT_THAT(device.lines(), warns("LED 'hand': saturates camera A"));
+}
+
+TEST(CheckUp, OfADeviceThatGivesNothingSaysSo) {
+  Healthy device;
+  device.recorded.progress = {};
+  EXPECT_THAT(device.lines(), warns("no frame came: is it running"));
+}
+
+// What the simulated rig says, with a fault planted.
+std::vector<TrialNote> of_rig(const std::string& fault) {
+  AcquireJob job;
+  job.source = "sim:rig?scene=tree&dark&fast" + fault;
+  job.check_up = true;
+  job.frames = 500;
+  const auto outcome = run_acquire(job);
+  EXPECT_TRUE(outcome) << outcome.error().message;
+  EXPECT_EQ(outcome->exit_status(), std::ranges::all_of(outcome->notes, &TrialNote::good) ? 0 : 1);
+  EXPECT_TRUE(outcome->written.empty());
+  return outcome->notes;
+}
+
+TEST(CheckUp, FindsTheFaultsOfTheSimulatedRigAndNoOthers) {
+  for (const char* seed : {"1", "2", "3", "4", "5"}) {
+    const std::string rig = std::string("&seed=") + seed;
+    EXPECT_THAT(of_rig(rig), Each(Field(&TrialNote::good, true))) << seed;
+    const auto wrong = [&](const std::string& fault) {
+      std::vector<std::string> texts;
+      for (const auto& note : of_rig(rig + fault))
+        if (!note.good) texts.push_back(note.text);
+      return texts;
+    };
+    EXPECT_THAT(wrong("&dark_led=2"), testing::ElementsAre(HasSubstr("LED 'back right': dark in camera A")))
+        << seed;
+    EXPECT_THAT(wrong("&bright_led=1"),
+                testing::ElementsAre(HasSubstr("LED 'back left': saturates camera A")))
+        << seed;
+    EXPECT_THAT(wrong("&noisy_channel=6"),
+                testing::ElementsAre(HasSubstr("channel -x of camera B has a noise of")))
+        << seed;
+  }
+}
+
+TEST(CheckUp, KeepsNothing) {
+  AcquireJob job;
+  job.source = "sim:rig?fast";
+  job.check_up = true;
+  job.output = "trial.mcap";
+  EXPECT_THAT(run_acquire(job).error().message, HasSubstr("a check-up keeps nothing"));
+}
+
+}  // namespace
+}  // namespace kinemark::pipeline
