@@ -143,6 +143,12 @@ std::string trouble_of(const Levels& levels, std::size_t led, std::size_t camera
   return "";
 }
 
+std::string brightness(const Levels& levels, std::size_t led, std::size_t camera) {
+  return fmt::format("brightest channel at {:.0f} % of the codes in camera {}",
+                     100.0 * levels.lit(led, camera).mean.maxCoeff() / levels.layout.highest_code,
+                     levels.layout.cameras[camera]);
+}
+
 void add_leds(const Levels& levels, std::vector<TrialNote>& out) {
   for (std::size_t l = 0; l < levels.leds(); ++l) {
     std::string line;
@@ -150,13 +156,10 @@ void add_leds(const Levels& levels, std::vector<TrialNote>& out) {
     for (std::size_t c = 0; c < levels.cameras(); ++c) {
       double light = 0.0;
       for (int k = 0; k < 4; ++k) light += levels.lit(l, c).mean(k) - levels.dark(c, k);
-      const double share = light / levels.layout.highest_code;
-      const std::string trouble = trouble_of(levels, l, c, share);
+      const std::string trouble = trouble_of(levels, l, c, light / levels.layout.highest_code);
       good = good && trouble.empty();
       line += line.empty() ? "" : "; ";
-      line += trouble.empty()
-                  ? fmt::format("{:.0f} % of the codes in camera {}", 100.0 * share, levels.layout.cameras[c])
-                  : trouble;
+      line += trouble.empty() ? brightness(levels, l, c) : trouble;
     }
     out.push_back({fmt::format("LED '{}': {}", levels.layout.leds[l], line), good});
   }

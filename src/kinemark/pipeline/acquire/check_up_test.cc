@@ -56,7 +56,8 @@ TEST(CheckUp, OfAHealthyDeviceHasNothingToDo) {
   EXPECT_THAT(lines, says("none of 1380 frames is missing"));
   EXPECT_THAT(lines, says("camera A in the dark: 15.0 to 17.0 counts"));
   EXPECT_THAT(lines, says("noise of 8 channels: 0.90 to 1.00 counts"));
-  EXPECT_THAT(lines, says("LED 'hand': 47 % of the codes in camera A; 54 % of the codes in camera B"));
+  EXPECT_THAT(lines, says("LED 'hand': brightest channel at 15 % of the codes in camera A; brightest channel "
+                          "at 17 % of the codes in camera B"));
   EXPECT_THAT(lines, never_says("the device does not keep its rate"));
   EXPECT_THAT(lines, never_says("frames are missing: "));
   EXPECT_THAT(lines, never_says("a channel is cut off at code 0"));
@@ -116,7 +117,8 @@ TEST(CheckUp, NamesLedsThatAreDarkOrTooBright) {
   Healthy device;
   device.recorded.lit[3].mean = {20, 20, 25, 22};
   device.recorded.lit[0].saturated = 5;
-  EXPECT_THAT(device.lines(), warns("LED 'wrist': 44 % of the codes in camera A; dark in camera B"));
+  EXPECT_THAT(device.lines(),
+              warns("LED 'wrist': brightest channel at 15 % of the codes in camera A; dark in camera B"));
   EXPECT_THAT(device.lines(), warns("LED 'hand': saturates camera A"));
 }
 

@@ -125,15 +125,17 @@ void RigDevice::plant_faults(std::size_t leds) {
   times(options_.bright_led, kBright);
 }
 
-// The noise that the fault adds, the same for every way of reading.
-void RigDevice::disturb(std::int64_t frame, std::int16_t* counts) const {
+// The noise that the fault adds to one channel, in every slot.
+void RigDevice::disturb(std::int64_t frame, std::int16_t* counts, std::int16_t* dark) const {
   Random random(options_.seed, kNoisyStream + static_cast<std::uint64_t>(frame));
-  const auto channels = 4 * layout_.cameras.size();
-  for (std::size_t at = static_cast<std::size_t>(options_.noisy_channel) - 1;
-       at < channels * layout_.leds.size(); at += channels)
-    counts[at] =
-        static_cast<std::int16_t>(std::clamp(std::lround(counts[at] + kNoisy_counts * random.gaussian()), 0L,
-                                             static_cast<long>(layout_.highest_code)));
+  const auto add = [&](std::int16_t& count) {
+    const long noisy = std::lround(count + kNoisy_counts * random.gaussian());
+    count = static_cast<std::int16_t>(std::clamp(noisy, 0L, static_cast<long>(layout_.highest_code)));
+  };
+  const auto channels = 4 * layout_.cameras.size(),
+             which = static_cast<std::size_t>(options_.noisy_channel) - 1;
+  for (std::size_t led = 0; led < layout_.leds.size(); ++led) add(counts[led * channels + which]);
+  if (layout_.has_dark_slot()) add(dark[which]);
 }
 
 Status RigDevice::start() {
@@ -187,10 +189,10 @@ void RigDevice::fill(std::int64_t frames, stream::Block& block) {
   const internal::FrameConverter converter(rig_, scene_, recording_, layout_);
   for (std::size_t i = 0; i < n; ++i) {
     std::int16_t* counts = block.counts.data() + 4 * i * observations;
-    converter.convert(next_, {.counts = counts,
-                              .dark = block.dark.data() + i * layout_.dark_time_s.size(),
-                              .flags = block.flags.data() + i * observations});
-    if (options_.noisy_channel > 0) disturb(next_, counts);
+    std::int16_t* dark = block.dark.data() + i * layout_.dark_time_s.size();
+    converter.convert(next_,
+                      {.counts = counts, .dark = dark, .flags = block.flags.data() + i * observations});
+    if (options_.noisy_channel > 0) disturb(next_, counts, dark);
     ++next_;
   }
   block.saturated = std::ranges::any_of(block.flags, [](std::uint8_t f) { return f != 0; });
