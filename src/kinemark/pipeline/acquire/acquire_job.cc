@@ -17,6 +17,7 @@
 #include "kinemark/pipeline/acquire/check_up.h"
 #include "kinemark/pipeline/acquire/device_settings.h"
 #include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/acquire/recording_room.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
 #include "kinemark/pipeline/files/output_check.h"
 
@@ -76,6 +77,10 @@ Result<std::optional<BrightnessTrigger>> brightness(const AcquireJob& job,
 }
 
 /// Of both lengths the shorter one; 0: neither was given.
+double duration_of(const AcquireJob& job) {
+  return job.check_up && job.duration_s == 0.0 && job.frames == 0 ? kCheckUp_s : job.duration_s;
+}
+
 std::int64_t frames_of(const AcquireJob& job, double rate_hz) {
   const double duration_s =
       job.check_up && job.duration_s == 0.0 && job.frames == 0 ? kCheckUp_s : job.duration_s;
@@ -143,7 +148,18 @@ void conclude(const AcquireJob& job, AcquireOutcome& out) {
   }
   out.notes = describe_trial(out.recorded, out.plan.layout);
   out.gates = {missing_gate(out.recorded.progress)};
-  out.written = {job.output};
+  if (out.recorded.progress.begun) {
+    out.written = {job.output};
+    return;
+  }
+  std::error_code none;
+  std::filesystem::remove(job.output, none);  // not a frame is in it
+  out.gates.push_back({.name = "begun",
+                       .passed = false,
+                       .value = 0.0,
+                       .bound = 1.0,
+                       .unit = "trials",
+                       .sentence = out.notes.front().text});
 }
 
 }  // namespace
@@ -206,6 +222,9 @@ Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bo
   if (!granted) return std::unexpected(granted.error());
   const auto begin = brightness(job, granted->plan.leds);
   if (!begin) return std::unexpected(begin.error());
+  if (auto room = job.check_up ? Status() : check_room(job.output, job.force, *granted, duration_of(job));
+      !room)
+    return std::unexpected(room.error());
   if (!wait_for_begin(job, wait_for_key)) return fail(Code::cancelled, "stopped before the trial began");
   auto recorder = Recorder::start(**device, *granted,
                                   {.file = job.output,

@@ -21,8 +21,7 @@ constexpr double kSd = 4.0;             // of a rate, within which it is the gra
 constexpr double kLeastDark = 1.0;      // counts: below, the noise is cut off at code 0
 constexpr double kMostDarkShare = 0.1;  // of the codes, that steady light may take
 constexpr double kNoiseFactor = 3.0, kNoiseCounts = 0.5;
-constexpr double kLeastLightShare = 0.03;  // of the codes, all channels together
-constexpr double kFollows_counts = 1.0;    // by which a channel differs between LEDs at least
+constexpr double kFollows_counts = 1.0;  // by which a channel differs between LEDs at least
 
 constexpr std::array<std::string_view, 4> kElectrodes = {"+x", "-x", "+y", "-y"};
 
@@ -132,13 +131,13 @@ void add_channels(const Levels& levels, std::vector<TrialNote>& out) {
 }
 
 /// What one camera says of an LED; empty: all is well.
-std::string trouble_of(const Levels& levels, std::size_t led, std::size_t camera, double share) {
+std::string trouble_of(const Levels& levels, std::size_t led, std::size_t camera) {
   const std::string& name = levels.layout.cameras[camera];
   const auto& lit = levels.lit(led, camera);
   if (lit.frames == 0) return fmt::format("no frame came from camera {}", name);
   if (lit.saturated > 0)
     return fmt::format("saturates camera {}: give it less light, or more distance", name);
-  if (share < kLeastLightShare)
+  if (is_dark(levels.recorded, levels.layout, led * levels.cameras() + camera))
     return fmt::format("dark in camera {}: look at its wire, and whether the camera sees it", name);
   return "";
 }
@@ -154,9 +153,7 @@ void add_leds(const Levels& levels, std::vector<TrialNote>& out) {
     std::string line;
     bool good = true;
     for (std::size_t c = 0; c < levels.cameras(); ++c) {
-      double light = 0.0;
-      for (int k = 0; k < 4; ++k) light += levels.lit(l, c).mean(k) - levels.dark(c, k);
-      const std::string trouble = trouble_of(levels, l, c, light / levels.layout.highest_code);
+      const std::string trouble = trouble_of(levels, l, c);
       good = good && trouble.empty();
       line += line.empty() ? "" : "; ";
       line += trouble.empty() ? brightness(levels, l, c) : trouble;

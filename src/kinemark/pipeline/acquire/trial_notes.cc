@@ -13,14 +13,21 @@ namespace {
 
 using Lines = std::vector<TrialNote>;
 
-void add_stillness(const Recorded& recorded, Lines& out) {
+constexpr double kLeastLightShare =
+    0.03;  // of the codes, all channels together: an LED that shines gives more
+
+void add_stillness(const Recorded& recorded, const data::Counts& layout, Lines& out) {
   std::vector<double> sd;
-  std::size_t still = 0;
-  for (const auto& levels : recorded.lit) {
+  std::size_t still = 0, seen = 0;
+  for (std::size_t at = 0; at < recorded.lit.size(); ++at) {
+    const auto& levels = recorded.lit[at];
+    if (is_dark(recorded, layout, at) || !levels.sd.allFinite()) continue;
+    ++seen;
     if (!levels.still) continue;
     ++still;
     for (const double one : levels.sd) sd.push_back(one);
   }
+  if (seen == 0) return;
   if (still == 0) {
     out.push_back({"every LED moved: hold one still for a second to see its noise"});
     return;
@@ -32,18 +39,28 @@ void add_stillness(const Recorded& recorded, Lines& out) {
                    math::median(sd), low, high, still, recorded.lit.size())});
 }
 
+void add_darkness(const Recorded& recorded, const data::Counts& layout, Lines& out) {
+  const auto cameras = layout.cameras.size();
+  for (std::size_t at = 0; at < recorded.lit.size(); ++at)
+    if (is_dark(recorded, layout, at))
+      out.push_back(
+          {fmt::format("LED '{}' is dark at camera {}: look at its wire, and whether the camera sees it",
+                       layout.leds[at / cameras], layout.cameras[at % cameras]),
+           false});
+}
+
 void add_missing(const RecorderProgress& p, Lines& out) {
-  if (p.dropped_by_device + p.dropped_here == 0)
-    out.push_back({fmt::format("all {} frames came and are kept", p.frames)});
+  if (p.acknowledged == p.frames) out.push_back({fmt::format("all {} frames came and are kept", p.frames)});
   if (p.dropped_by_device > 0)
     out.push_back({fmt::format("the device lost {} of {} frames: nobody read it in time, or it was away",
                                p.dropped_by_device, p.frames),
                    false});
   if (p.dropped_here > 0)
-    out.push_back({fmt::format("{} of {} frames came and were dropped here: the disk was too slow for them; "
-                               "record to another one, or with --sync never",
-                               p.dropped_here, p.frames),
-                   false});
+    out.push_back(
+        {fmt::format("{} of {} frames came and were dropped here: the disk was full or too slow for them; "
+                     "record to another one",
+                     p.dropped_here, p.frames),
+         false});
   if (p.reopened > 0)
     out.push_back({fmt::format("the device was away and came back {} time{}; frames in between are missing",
                                p.reopened, p.reopened == 1 ? "" : "s"),
@@ -55,8 +72,8 @@ void add_saturation(const Recorded& recorded, const data::Counts& layout, Lines&
   for (std::size_t at = 0; at < recorded.lit.size(); ++at) {
     const auto& levels = recorded.lit[at];
     if (levels.saturated > 0)
-      out.push_back({fmt::format("LED '{}' saturates camera {} in {} of {} frames: give it less light with "
-                                 "--intensity, or more distance",
+      out.push_back({fmt::format("LED '{}' saturates camera {} in {} of {} frames: give it less light, "
+                                 "or more distance",
                                  layout.leds[at / cameras], layout.cameras[at % cameras], levels.saturated,
                                  levels.frames),
                      false});
@@ -75,18 +92,28 @@ void add_clock(const Recorded& recorded, Lines& out) {
 
 }  // namespace
 
+bool is_dark(const Recorded& recorded, const data::Counts& layout, std::size_t at) {
+  const auto& levels = recorded.lit[at];
+  if (levels.frames == 0) return false;
+  const double dark = recorded.dark.empty() ? 0.0 : recorded.dark[at % layout.cameras.size()].mean.sum();
+  return levels.mean.sum() - dark < kLeastLightShare * layout.highest_code;
+}
+
 Lines describe_trial(const Recorded& recorded, const data::Counts& layout) {
   Lines out;
+  if (!recorded.progress.begun)
+    return {{"the trial did not begin: no frame came in which the LED of the trigger was as bright", false}};
   if (recorded.progress.frames == 0) return {{"no frame came", false}};
   add_missing(recorded.progress, out);
-  add_stillness(recorded, out);
+  add_stillness(recorded, layout, out);
+  add_darkness(recorded, layout, out);
   add_saturation(recorded, layout, out);
   add_clock(recorded, out);
   return out;
 }
 
 data::Gate missing_gate(const RecorderProgress& progress) {
-  const auto missing = progress.dropped_by_device + progress.dropped_here;
+  const auto missing = progress.frames - progress.acknowledged;
   return {.name = "frames_missing",
           .passed = missing == 0,
           .value = static_cast<double>(missing),

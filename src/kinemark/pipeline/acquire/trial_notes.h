@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,16 @@ struct TrialNote {
   bool good = true;  ///< nothing is wrong with it
 };
 
+/// Whether an LED gave no light at a camera: its channels together are less than 3 % of the codes above the
+/// dark level. @param at  its place in Recorded::lit
+[[nodiscard]] bool is_dark(const Recorded& recorded, const data::Counts& layout, std::size_t at);
+
 /// What there is to know of a trial before the next one, one sentence each: noise of LEDs that stood still,
-/// what is missing and who lost it, saturation, the device's clock.
+/// what is missing and who lost it, LEDs that are dark or saturate a camera, the device's clock.
 /// @param layout  names, as recorded
 [[nodiscard]] std::vector<TrialNote> describe_trial(const Recorded& recorded, const data::Counts& layout);
 
-/// "frames_missing": no frame was lost.
+/// "frames_missing": every frame is kept.
 [[nodiscard]] data::Gate missing_gate(const RecorderProgress& progress);
 
 }  // namespace kinemark::pipeline

@@ -21,7 +21,7 @@ data::Counts layout() {
 
 Recorded good() {
   Recorded out{.progress = {.frames = 100, .received = 100, .acknowledged = 100}};
-  out.lit.assign(4, {.frames = 100, .sd = {2.0, 2.5, 3.0, 2.5}, .still = true});
+  out.lit.assign(4, {.frames = 100, .mean = {500, 500, 500, 500}, .sd = {2.0, 2.5, 3.0, 2.5}, .still = true});
   return out;
 }
 
@@ -38,6 +38,7 @@ TEST(TrialNotes, AreGoodWhereNothingIsWrong) {
   EXPECT_TRUE(all_good(good()));
   for (const int which : {0, 1, 2, 3}) {
     auto trial = good();
+    if (which < 2) trial.progress.acknowledged = 99;
     if (which == 0) trial.progress.dropped_by_device = 1;
     if (which == 1) trial.progress.dropped_here = 1;
     if (which == 2) trial.progress.reopened = 1;
@@ -53,24 +54,28 @@ TEST(TrialNotes, OfAGoodTrialSayNothingElse) {
       ElementsAre("all 100 frames came and are kept",
                   "LEDs that stood still have an SD of 2.50 counts, 2.00 to 3.00 (4 of 4 LEDs at their "
                   "cameras)"));
-  const auto said = describe_trial(good(), layout());
+  const auto said = said_of(good(), layout());
   EXPECT_THAT(said, Each(Not(HasSubstr("every LED moved: hold one still"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("the device lost {} of 100 frames: nobody read it in time"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("frames came and were dropped here"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("the device was away and came back"))));
-  EXPECT_THAT(said, Each(Not(HasSubstr("frames: give it less light with --intensity"))));
+  EXPECT_THAT(said, Each(Not(HasSubstr("frames: give it less light, or more distance"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("by this machine's clock the device gives"))));
+  EXPECT_THAT(said_of(good(), layout()),
+              Not(Contains(HasSubstr(": look at its wire, and whether the camera sees it"))));
+  EXPECT_THAT(said_of(good(), layout()), Not(Contains(HasSubstr("the trial did not begin: no frame came"))));
   EXPECT_TRUE(missing_gate(good().progress).passed);
 }
 
 TEST(TrialNotes, TellWhoLostWhat) {
   auto trial = good();
   trial.progress.dropped_by_device = 30;
+  trial.progress.acknowledged = 70;
   auto said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("the device lost 30 of 100 frames: nobody read it in time")));
   EXPECT_THAT(said, Each(Not(HasSubstr("dropped here"))));
   EXPECT_THAT(said, Each(Not(HasSubstr("frames came and are kept"))));
-  trial.progress = {.frames = 100, .dropped_here = 5, .reopened = 1};
+  trial.progress = {.frames = 100, .acknowledged = 95, .dropped_here = 5, .reopened = 1};
   said = said_of(trial, layout());
   EXPECT_THAT(said, Contains(HasSubstr("5 of 100 frames came and were dropped here")));
   EXPECT_THAT(said, Contains(HasSubstr("was away and came back 1 time;")));
@@ -84,10 +89,37 @@ TEST(TrialNotes, NameTheLedThatSaturatesACamera) {
   auto trial = good();
   trial.lit[3].saturated = 7;
   const auto said = said_of(trial, layout());
+  EXPECT_THAT(
+      said, Contains(HasSubstr(
+                "LED 'wrist' saturates camera B in 7 of 100 frames: give it less light, or more distance")));
+  EXPECT_THAT(said, Each(Not(HasSubstr("'hand'"))));
+}
+
+TEST(TrialNotes, NameALedThatIsDark) {
+  auto trial = good();
+  trial.lit[2].mean = {10, 12, 9, 11};
+  trial.lit[2].sd = {0, 0, 0, 0};
+  const auto said = said_of(trial, layout());
   EXPECT_THAT(said,
               Contains(HasSubstr(
-                  "LED 'wrist' saturates camera B in 7 of 100 frames: give it less light with --intensity")));
+                  "LED 'wrist' is dark at camera A: look at its wire, and whether the camera sees it")));
+  EXPECT_THAT(said, Contains(HasSubstr("2.00 to 3.00 (3 of 4 LEDs")));  // it is none that stood still
   EXPECT_THAT(said, Each(Not(HasSubstr("'hand'"))));
+}
+
+TEST(TrialNotes, SayThatATriggerNeverCame) {
+  Recorded trial;
+  trial.progress.begun = false;
+  EXPECT_THAT(said_of(trial, layout()),
+              ElementsAre(HasSubstr("the trial did not begin: no frame came in which the LED")));
+}
+
+TEST(TrialNotes, OfASingleFrameSayNothingOfMovement) {
+  auto trial = good();
+  trial.progress = {.frames = 1, .received = 1, .acknowledged = 1};
+  for (auto& levels : trial.lit)
+    levels = {.frames = 1, .mean = {500, 500, 500, 500}, .sd = Eigen::Vector4d::Constant(kNaN)};
+  EXPECT_THAT(said_of(trial, layout()), Each(Not(HasSubstr("every LED moved"))));
 }
 
 TEST(TrialNotes, AskForAStillLedWhereAllMoved) {
