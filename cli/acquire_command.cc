@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/desk/acquire_desk.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
@@ -35,21 +37,21 @@ struct AcquireArguments {
   bool list = false;
 };
 
+constexpr double kMostLeds = 64.0;
+
 /// "4" for as many, or "hand,wrist" for these.
 Status take_leds(const std::string& text, pipeline::AcquireJob& job) {
   if (text.empty()) return {};
-  if (const auto count = parse_number(text); count && *count == static_cast<int>(*count)) {
-    if (*count < 1.0) return fail(Code::usage, fmt::format("--leds: {} LEDs; need 1 or more", text));
+  if (const auto count = parse_number(text)) {
+    if (!(*count >= 1.0 && *count <= kMostLeds) || *count != std::floor(*count))
+      return fail(Code::usage, fmt::format("--leds: {} LEDs; need a whole number from 1 to {:g}, or names",
+                                           text, kMostLeds));
     job.led_count = static_cast<int>(*count);
     return {};
   }
-  for (std::size_t at = 0; at <= text.size();) {
-    const auto comma = std::min(text.find(',', at), text.size());
-    job.leds.push_back(text.substr(at, comma - at));
-    if (job.leds.back().empty())
-      return fail(Code::usage, fmt::format("--leds: '{}' has an empty name", text));
-    at = comma + 1;
-  }
+  auto names = pipeline::parse_leds(text);
+  if (!names) return fail(Code::usage, "--" + names.error().message);
+  job.leds = std::move(*names);
   return {};
 }
 
@@ -131,9 +133,25 @@ int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome)
   return outcome.exit_status();
 }
 
+/// An option that the menus have no use for.
+Status check_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
+  const char* of_files = !arguments.begin.empty()       ? "trigger"
+                         : !arguments.intensity.empty() ? "intensity"
+                         : arguments.job.frames > 0     ? "frames"
+                         : common.force                 ? "force"
+                                                        : "";
+  if (*of_files == '\0') return {};
+  return fail(
+      Code::usage,
+      fmt::format("--{} is for a recording that --output names; without one the menus are shown", of_files));
+}
+
 /// The menus: a person chooses what the options say otherwise.
 int acquire_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
-  pipeline::TrialFiles files{.folder = ".", .seed = common.seed};
+  if (const auto s = check_by_hand(common, arguments); !s) return report_error(s.error());
+  const auto sync = kSync.parse(arguments.sync, "--sync");
+  if (!sync) return report_error(sync.error());
+  pipeline::TrialFiles files{.folder = ".", .seed = common.seed, .recording = {.sync = *sync}};
   if (!arguments.rig.empty()) {
     auto rig = io::read_rig(arguments.rig);
     if (!rig) return report_error(rig.error());
@@ -143,14 +161,15 @@ int acquire_by_hand(const CommonOptions& common, const AcquireArguments& argumen
   pipeline::Wanted wanted;
   wanted.source = arguments.job.source;
   wanted.subject = arguments.job.subject;
-  if (!arguments.leds.empty()) wanted.leds = arguments.leds;
+  wanted.leds = arguments.leds;
   if (!arguments.job.trial.empty()) wanted.trial = arguments.job.trial;
   if (arguments.job.rate_hz > 0.0) wanted.rate_hz = format_number(arguments.job.rate_hz);
   if (arguments.job.duration_s > 0.0) wanted.duration_s = format_number(arguments.job.duration_s);
   end_gently();
   const auto kept = screens::acquire_by_hand(desk, wanted, [] { return signal_that_came() != 0; });
-  for (const auto& file : kept) say(common, "written: " + file);
-  return signal_that_came() != 0 ? 128 + signal_that_came() : 0;
+  for (const auto& file : kept) say(common, "wrote " + file);
+  if (signal_that_came() != 0) return 128 + signal_that_came();
+  return desk.failure() ? report_error(*desk.failure()) : 0;
 }
 
 int acquire(const CommonOptions& common, AcquireArguments& arguments) {
@@ -206,7 +225,8 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
   command->footer(
       "Ctrl-C ends the trial and keeps it. Exit status 1 when a frame is missing, 4 when the disk, 5 when "
       "the\n"
-      "device failed; what came before is kept. Devices: sim:rig?leds=8&rate=138, replay:FILE.mcap.");
+      "device failed; what came before is kept. Devices: sim:rig?leds=8&rate=138, replay:FILE.mcap,\n"
+      "serial:/dev/ttyACM0, comedi:/dev/comedi0. Without --output: menus, or questions in lines.");
   const auto arguments = std::make_shared<AcquireArguments>();
   auto& job = arguments->job;
   command->add_option("SOURCE", job.source, "Address of the device, as --list shows it")->type_name("DEVICE");

@@ -33,6 +33,7 @@ Menu::Menu(pipeline::Desk& desk, Wanted wanted)
       plan_(plan_form(session_.state().wanted)) {}
 
 void Menu::press(const Key& key) {
+  if (key.kind == Key::Kind::none) return;
   if (key.kind == Key::Kind::interrupt) return session_.leave();
   switch (state().step) {
     case DeskStep::source:
@@ -83,6 +84,7 @@ void Menu::press_plan(const Key& key) {
     chosen_led_ = 0;
     session_.start({"", plan_.value(kLeds), plan_.value(kRate), plan_.value(kDuration), plan_.value(kSubject),
                     plan_.value(kTrial)});
+    plan_.set(kTrial, state().wanted.trial);
   }
   if (key.kind == Key::Kind::escape) session_.leave_source();
 }

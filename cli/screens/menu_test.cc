@@ -64,7 +64,10 @@ TEST(Menu, ATrialIsDiscardedOnlyAfterASecondKey) {
   EXPECT_EQ(menu.state().step, DeskStep::check);
   EXPECT_THAT(desk.calls, Not(testing::Contains("discard")));
   EXPECT_THAT(shown(menu), Not(HasSubstr("Discard 01?")));
-  type(menu, U"dy");
+  type(menu, U"d");
+  press(menu, Key::Kind::none, 20);  // two seconds without a key
+  EXPECT_THAT(shown(menu), HasSubstr("Discard 01?"));
+  type(menu, U"y");
   EXPECT_EQ(desk.calls.back(), "discard");
   EXPECT_THAT(shown(menu), HasSubstr("Discarded: 01"));
   EXPECT_TRUE(menu.state().kept.empty());

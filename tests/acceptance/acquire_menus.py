@@ -81,7 +81,9 @@ def session(columns, rows):
             )
             refused = "" if missing else screen.text()
             missing = missing or steps(screen, (("r",), "RECORDING 01"), (("s",), "came and are kept"), (("k",), "Kept: 01.mcap"))
-            missing = missing or steps(screen, (("r",), "RECORDING 02"), (("s",), "k keep"), (("d",), "Discard 02?"), (("y",), "Discarded: 02"))
+            missing = missing or steps(screen, (("r",), "RECORDING 02"), (("s",), "k keep"), (("d",), "Discard 02?"))
+            time.sleep(1.0)  # as a person who reads the question
+            missing = missing or steps(screen, (("y",), "Discarded: 02"))
             missing = missing or steps(screen, (("q",), "ended 0"))
         finally:
             screen.close()

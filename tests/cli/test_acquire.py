@@ -107,6 +107,12 @@ class Acquire(CommandTest):
             ((FAST,), "--output"),
             (("-o", "t.mcap"), "--list"),
             ((FAST, "-o", "t.mcap", "--rig", "rig.toml"), "--rig is for the menus"),
+            ((FAST, "-o", "t.mcap", "--leds", "1e300"), "a whole number from 1 to 64"),
+            ((FAST, "-o", "t.mcap", "--leds", "1.5"), "a whole number from 1 to 64"),
+            ((FAST, "-o", "t.mcap", "--leds", "hand,hand"), "named twice"),
+            (("--trigger", "key"), "--trigger is for a recording"),
+            (("--force",), "--force is for a recording"),
+            ((FAST, "-o", "t.mcap", "--check"), "a check-up keeps nothing"),
             (("usb:1", "-o", "t.mcap"), "address of no device"),
             (("sim:rig?leds=12", "-o", "t.mcap"), "from 1 to 8"),
         ):
@@ -116,6 +122,24 @@ class Acquire(CommandTest):
                 self.assertIn(said, ran.err)
                 self.assertEqual(list(self.folder.iterdir()), [])
         self.assertEqual(self.acquire(FAST, "-o", "absent/t.mcap", "--frames", 5).status, 4)
+
+    def test_a_device_is_looked_at_and_nothing_kept(self):
+        ran = self.acquire("sim:rig?scene=tree&dark&fast", "--check", "--frames", 300)
+        self.assertEqual(ran.status, 0, ran.err)
+        self.assertIn("none of 300 frames is missing", ran.err)
+        self.assertNotIn("! ", ran.err)
+        ran = self.acquire("sim:rig?scene=tree&dark&fast&dark_led=2", "--check", "--frames", 300, "--json")
+        self.assertEqual(ran.status, 1, ran.err)
+        said = json.loads(ran.out.splitlines()[-1])
+        self.assertEqual(len(said["wrong"]), 1)
+        self.assertIn("dark in camera A", said["wrong"][0])
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_trigger_that_never_comes_leaves_no_file(self):
+        ran = self.acquire("sim:rig?seconds=1&fast", "-o", "t.mcap", "--trigger", "threshold=1e6")
+        self.assertEqual(ran.status, 1, ran.err)
+        self.assertIn("the trial did not begin", ran.err)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_without_a_recording_to_write_it_asks_in_lines(self):
         lines = ["o", "sim:rig?leds=3", "", "", "0.2", "S1", "reach", "k", "q"]

@@ -9,17 +9,17 @@
 
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/acquire/recording_room.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
+#include "kinemark/pipeline/desk/plan_text.h"
 #include "kinemark/workflow/rig/alignment_guide.h"
 
 namespace kinemark::pipeline {
 namespace {
 
-constexpr double kLeastRoom_s = 60.0;  // of a trial without a duration
-constexpr int kSeconds = 1;            // of frames that the live view shows
+constexpr int kSeconds = 1;  // of frames that the live view shows
 
-// Bytes that a frame takes in the file, beside its counts: message, check and index.
-constexpr double kFrameBytes = 90.0;
+constexpr int kMostNames = 10000;  // that are tried for a free one
 
 std::size_t size_of(std::int64_t n) { return static_cast<std::size_t>(n); }
 
@@ -98,16 +98,33 @@ std::vector<stream::DeviceInfo> AcquireDesk::sources() { return enumerate_device
 Result<stream::DeviceCapabilities> AcquireDesk::open(const std::string& uri) {
   close();
   auto device = open_device(uri, files_.seed);
-  if (!device) return std::unexpected(device.error());
+  if (!device) {
+    failure_ = device.error();
+    return std::unexpected(device.error());
+  }
+  failure_.reset();
   uri_ = uri;
   device_ = std::move(*device);
   return device_->capabilities();
 }
 
+// A device that was away is looked for once.
+Result<stream::GrantedPlan> AcquireDesk::configure(const stream::ScanPlan& plan) {
+  auto granted = device_->configure(plan);
+  if (granted || granted.error().code != Code::device || !device_->reopen()) return granted;
+  (void)device_->stop();
+  return device_->configure(plan);
+}
+
 Result<stream::GrantedPlan> AcquireDesk::run(const stream::ScanPlan& plan) {
   recorder_.reset();
-  auto granted = device_->configure(plan);
-  if (!granted) return std::unexpected(granted.error());
+  auto granted = configure(plan);
+  if (!granted) {
+    // What ran before goes on, where the device is there.
+    if (watcher_)
+      if (const auto again = start({}); !again) trouble_ = again.error().message;
+    return std::unexpected(granted.error());
+  }
   granted_ = std::move(*granted);
   if (const auto started = start({}); !started) return std::unexpected(started.error());
   return granted_;
@@ -132,7 +149,10 @@ LiveView AcquireDesk::live() {
   if (!recorder_) return view;
   const RecorderProgress progress = recorder_->progress();
   if (progress.away)
-    view.trouble = uri_ + ": the device does not answer; look at its plug. What came is kept";
+    view.trouble = uri_ + (recording_ ? ": the device does not answer; look at its plug. What came is kept"
+                                      : ": the device does not answer; look at its plug");
+  if (!recording_ && recorder_->wait_for(std::chrono::milliseconds(0)))
+    view.trouble = uri_ + ": the device gives no more frames; start it again from the set-up";
   if (!recording_) return view;
   view.acknowledged = progress.acknowledged;
   view.dropped_by_device = progress.dropped_by_device;
@@ -154,19 +174,18 @@ void AcquireDesk::restart_guide() {
   if (watcher_) watcher_->restart_guide();
 }
 
-Status AcquireDesk::check_room(const TrialName& name) const {
+std::filesystem::path AcquireDesk::file_of(const std::string& trial) const {
+  return (files_.folder / (trial + ".mcap")).lexically_normal();
+}
+
+std::string AcquireDesk::free_name(const std::string& trial) const {
+  std::string name = trial;
   std::error_code none;
-  const auto space = std::filesystem::space(files_.folder, none);
-  if (none) return {};
-  const double frame =
-      9.0 * static_cast<double>(granted_.layout.led_count() * granted_.layout.camera_count()) +
-      8.0 * static_cast<double>(granted_.layout.camera_count()) + kFrameBytes;
-  const double seconds = static_cast<double>(space.available) / (frame * granted_.plan.rate_hz);
-  if (seconds >= std::max(name.duration_s, kLeastRoom_s)) return {};
-  return fail(
-      Code::io,
-      fmt::format("{}: the disk has room for {:.0f} s of this trial; make room or choose another folder",
-                  files_.folder.string(), seconds));
+  for (int tries = 0;
+       tries < kMostNames && std::filesystem::exists(std::filesystem::symlink_status(file_of(name), none));
+       ++tries)
+    name = next_trial(name);
+  return name;
 }
 
 std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) const {
@@ -184,8 +203,8 @@ Status AcquireDesk::record(const TrialName& name) {
     return fail(Code::io, fmt::format("{}: cannot be made: {}", files_.folder.string(), failed.message()));
   if (name.trial.find('/') != std::string::npos)
     return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
-  if (const auto room = check_room(name); !room) return room;
-  trial_ = (files_.folder / (name.trial + ".mcap")).lexically_normal();
+  if (const auto room = check_room(file_of(name.trial), false, granted_, name.duration_s); !room) return room;
+  trial_ = file_of(name.trial);
   RecorderOptions options;
   options.file = trial_;
   options.recording = files_.recording;
@@ -204,6 +223,7 @@ Result<std::vector<CheckLine>> AcquireDesk::stop() {
   const Recorded recorded = recorder_->finish();
   recording_ = false;
   std::vector<CheckLine> lines;
+  failure_ = recorded.error;
   if (recorded.error) lines.push_back({false, recorded.error->message});
   for (const TrialNote& note : describe_trial(recorded, granted_.layout))
     lines.push_back({note.good, note.text});

@@ -37,6 +37,7 @@ class AcquireDesk final : public Desk {
   [[nodiscard]] LiveView live() override;
   [[nodiscard]] Status set_intensity(int led, double intensity) override;
   void restart_guide() override;
+  [[nodiscard]] std::string free_name(const std::string& trial) const override;
   /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
   /// Recorder::start().
   [[nodiscard]] Status record(const TrialName& name) override;
@@ -44,11 +45,15 @@ class AcquireDesk final : public Desk {
   [[nodiscard]] Result<std::string> keep() override;
   [[nodiscard]] Status discard() override;
   void close() override;
+  /// Of the last device that could not be opened, or of the disk or device that ended a trial; nothing: all
+  /// went well.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
   class Watcher;
   [[nodiscard]] Status start(RecorderOptions options);
-  [[nodiscard]] Status check_room(const TrialName& name) const;
+  [[nodiscard]] std::filesystem::path file_of(const std::string& trial) const;
+  [[nodiscard]] Result<stream::GrantedPlan> configure(const stream::ScanPlan& plan);
   [[nodiscard]] std::vector<io::RecordingMetadata> about(const TrialName& name) const;
 
   TrialFiles files_;
@@ -60,6 +65,7 @@ class AcquireDesk final : public Desk {
   std::filesystem::path trial_;         // that is recorded, or was and is not judged yet
   bool recording_ = false;
   std::string trouble_;
+  std::optional<Error> failure_;
 };
 
 }  // namespace kinemark::pipeline

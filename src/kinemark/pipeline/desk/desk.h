@@ -56,6 +56,8 @@ class Desk {
   [[nodiscard]] virtual Status set_intensity(int led, double intensity) = 0;
   /// Forget what the alignment guide has seen: a camera was turned.
   virtual void restart_guide() = 0;
+  /// That name, or the first one counted on from it of which there is no file.
+  [[nodiscard]] virtual std::string free_name(const std::string& trial) const = 0;
   /// Begin a trial.
   [[nodiscard]] virtual Status record(const TrialName& name) = 0;
   /// End the trial; what to know of it before it is kept.

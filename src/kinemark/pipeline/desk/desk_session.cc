@@ -63,6 +63,7 @@ void DeskSession::start(Wanted lines) {
   auto& intensity = state_.granted.plan.intensity;
   if (intensity.empty()) intensity.assign(state_.granted.plan.leds.size(), 1.0);
   state_.duration_s = plan->duration_s;
+  state_.wanted.trial = desk_.free_name(std::string(trim(state_.wanted.trial)));
   state_.message.clear();
   state_.step = DeskStep::live;
   tick();
@@ -118,7 +119,7 @@ void DeskSession::keep() {
   if (!file) return fail_with(file.error());
   state_.kept.push_back(*file);
   state_.message = "Kept: " + *file;
-  state_.wanted.trial = next_trial(std::string(trim(state_.wanted.trial)));
+  state_.wanted.trial = desk_.free_name(next_trial(state_.wanted.trial));
   state_.step = DeskStep::live;
 }
 
@@ -139,7 +140,11 @@ void DeskSession::leave() {
 void DeskSession::tick() {
   if (state_.step != DeskStep::live && state_.step != DeskStep::recording) return;
   state_.live = desk_.live();
-  if (!state_.live.trouble.empty()) state_.message = state_.live.trouble;
+  if (state_.live.trouble != trouble_) {
+    if (state_.message == trouble_) state_.message.clear();  // it is over
+    trouble_ = state_.live.trouble;
+    if (!trouble_.empty()) state_.message = trouble_;
+  }
   const bool over =
       state_.live.ended || (state_.duration_s > 0.0 && state_.live.recorded_s >= state_.duration_s);
   if (state_.step == DeskStep::recording && over) stop();

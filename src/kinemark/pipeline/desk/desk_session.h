@@ -59,6 +59,7 @@ class DeskSession {
 
   Desk& desk_;
   DeskState state_;
+  std::string trouble_;  // of the last tick
 };
 
 }  // namespace kinemark::pipeline

@@ -113,6 +113,28 @@ TEST(DeskSession, ASourceIsLeftAndAnotherOpened) {
   EXPECT_EQ(session.state().message, "");
 }
 
+TEST(DeskSession, TroubleIsGoneOnceItIsOver) {
+  FakeDesk desk;
+  DeskSession session = running(desk);
+  desk.now.trouble = "the plug is out";
+  session.tick();
+  EXPECT_EQ(session.state().message, "the plug is out");
+  desk.now.trouble.clear();
+  session.tick();
+  EXPECT_EQ(session.state().message, "");
+}
+
+TEST(DeskSession, NamesOfTrialsAreFree) {
+  FakeDesk desk;
+  desk.taken = {"01", "02", "04"};
+  DeskSession session = running(desk);
+  EXPECT_EQ(session.state().wanted.trial, "03");
+  session.record();
+  session.stop();
+  session.keep();
+  EXPECT_EQ(session.state().wanted.trial, "05");
+}
+
 TEST(DeskStep, HasANameForEach) {
   EXPECT_EQ(to_string(DeskStep::source), "source");
   EXPECT_EQ(to_string(DeskStep::ended), "ended");

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,12 @@ struct FakeDesk final : Desk {
   Status set_intensity(int, double intensity) override {
     light = intensity;
     return {};
+  }
+  std::vector<std::string> taken;  ///< names of trials
+  std::string free_name(const std::string& trial) const override {
+    std::string name = trial;
+    while (std::find(taken.begin(), taken.end(), name) != taken.end()) name = next_trial(name);
+    return name;
   }
   void restart_guide() override { calls.push_back("restart_guide"); }
   Status record(const TrialName& name) override {
