@@ -219,7 +219,7 @@ TEST(Menu, FitsIntoTheSmallestScreenAndUsesALargeOne) {
   EXPECT_EQ(small.at(2, 1).glyph, U'┌');
   EXPECT_THAT(large.to_text(), HasSubstr("r record"));
   EXPECT_EQ(large.at(2, 1).glyph, U'┌');
-  EXPECT_EQ(large.at(40, 1).glyph, U'└') << large.to_text();
+  EXPECT_EQ(large.at(46, 1).glyph, U'└') << large.to_text();
 }
 
 TEST(Menu, WrongLinesOfTheSetUpAreNamed) {

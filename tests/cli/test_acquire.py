@@ -95,8 +95,8 @@ class Acquire(CommandTest):
         for words, said in (
             ((FAST, "-o", "t.mcap", "--rate", 300), "276.5 frames per second at most"),
             ((FAST, "-o", "t.mcap", "--leds", 5), "it has 4"),
-            ((FAST, "-o", "t.mcap", "--leds", "a,,b"), "empty name"),
-            ((FAST, "-o", "t.mcap", "--leds", "0"), "need 1 or more"),
+            ((FAST, "-o", "t.mcap", "--leds", "a,,b"), "a name is missing"),
+            ((FAST, "-o", "t.mcap", "--leds", "0"), "a whole number from 1 to 64"),
             ((FAST, "-o", "t.mcap", "--trigger", "digital"), "no digital line"),
             ((FAST, "-o", "t.mcap", "--trigger", "now"), "none of key"),
             ((FAST, "-o", "t.mcap", "--intensity", "hand"), "neither a number"),

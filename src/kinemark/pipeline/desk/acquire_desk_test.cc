@@ -118,21 +118,52 @@ TEST(AcquireDesk, RefusesARateThatTheLedsLeaveNoRoomFor) {
   plan.rate_hz = 100000.0;
   const auto granted = rig.desk.run(plan);
   ASSERT_FALSE(granted);
-  EXPECT_THAT(granted.error().message, HasSubstr("highest"));
+  EXPECT_THAT(granted.error().message, HasSubstr("at most"));
+  EXPECT_GT(rig.after(10).frames, 0);  // what ran before goes on
 }
 
 TEST(AcquireDesk, SaysThatTheDeviceIsAwayWhileItIs) {
   AcquireDesk desk({});
   const auto device = desk.open("sim:rig?leds=1&speed=20&unplug_at=2&unplug_for=1000");
   ASSERT_TRUE(desk.run(plan_of({.leds = "1"}, *device)->scan));
-  EXPECT_THAT(desk.live().trouble,
-              Not(HasSubstr("the device does not answer; look at its plug. What came is kept")));
+  EXPECT_THAT(desk.live().trouble, Not(HasSubstr(": the device does not answer; look at its plug")));
   std::string trouble;
   for (int i = 0; i < 6000 && trouble.empty(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     trouble = desk.live().trouble;
   }
-  EXPECT_THAT(trouble, HasSubstr("the device does not answer; look at its plug. What came is kept"));
+  EXPECT_THAT(trouble, HasSubstr(": the device does not answer; look at its plug"));
+}
+
+TEST(AcquireDesk, SaysThatADeviceHasEnded) {
+  AcquireDesk desk({});
+  const auto device = desk.open("sim:rig?leds=1&speed=20&seconds=2");
+  ASSERT_TRUE(desk.run(plan_of({.leds = "1"}, *device)->scan));
+  EXPECT_THAT(desk.live().trouble, Not(HasSubstr(": the device gives no more frames; start it again")));
+  std::string trouble;
+  for (int i = 0; i < 6000 && trouble.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    trouble = desk.live().trouble;
+  }
+  EXPECT_THAT(trouble, HasSubstr(": the device gives no more frames; start it again"));
+}
+
+TEST(AcquireDesk, NamesOfTrialsAreFree) {
+  const testing_support::ScratchFolder folder;
+  const AcquireDesk desk({.folder = folder.path()});
+  EXPECT_EQ(desk.free_name("01"), "01");
+  std::ofstream(folder / "01.mcap") << "mine";
+  std::filesystem::create_symlink(folder / "absent", folder / "02.mcap");
+  EXPECT_EQ(desk.free_name("01"), "03");
+}
+
+TEST(AcquireDesk, ADeviceThatCannotBeOpenedIsAFailureUntilOneIs) {
+  AcquireDesk desk({});
+  EXPECT_FALSE(desk.open("serial:/absent"));
+  ASSERT_TRUE(desk.failure());
+  EXPECT_EQ(desk.failure()->code, Code::device);
+  EXPECT_TRUE(desk.open("sim:rig"));
+  EXPECT_FALSE(desk.failure());
 }
 
 TEST(AcquireDesk, GuidesTheAlignmentWhereTheRigIsKnown) {
