@@ -215,7 +215,7 @@ TEST(Menu, FitsIntoTheSmallestScreenAndUsesALargeOne) {
   Menu menu(desk, rig_at("8"));
   press(menu, Key::Kind::enter);
   const Canvas small = menu.draw(24, 80), large = menu.draw(60, 200);
-  EXPECT_THAT(small.to_text(), HasSubstr("  8       100%"));
+  EXPECT_THAT(small.to_text(), HasSubstr("  8        100%"));
   EXPECT_EQ(small.at(2, 1).glyph, U'┌');
   EXPECT_THAT(large.to_text(), HasSubstr("r record"));
   EXPECT_EQ(large.at(2, 1).glyph, U'┌');
