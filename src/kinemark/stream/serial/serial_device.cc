@@ -181,6 +181,7 @@ Result<GrantedPlan> SerialDevice::configure(const ScanPlan& wanted) {
 }
 
 Status SerialDevice::begin() {
+  if (!talk_) return gone();
   const auto answer = talk_->insist("start", "start", "stop");
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind != "start")

@@ -163,6 +163,34 @@ TEST_F(SerialDeviceTest, GoesOnWithAGapWhenTheRigIsBack) {
   EXPECT_GT(block_.first_frame, last);
 }
 
+TEST_F(SerialDeviceTest, SaysThatItIsGoneWhateverIsAskedOfIt) {
+  auto device = running();
+  rig_.unplug();
+  for (int again = 0; again < 2; ++again) {  // before and after it was looked for
+    EXPECT_EQ(device->read(block_, kLong).error().code, Code::device);
+    EXPECT_EQ(device->write_digital(0, true).error().code, Code::device);
+    EXPECT_EQ(device->write_analog(0, 1.0).error().code, Code::usage);  // which it never had
+    EXPECT_EQ(device->reopen().error().code, Code::device);
+  }
+  EXPECT_EQ(device->stop().error().code, Code::device);
+  EXPECT_TRUE(device->stop());
+  EXPECT_EQ(device->start().error().code, Code::device);
+  EXPECT_EQ(device->configure(two_leds()).error().code, Code::device);
+  EXPECT_EQ(device->start().error().code, Code::device);
+  rig_.plug_in();
+  ASSERT_TRUE(device->reopen());
+  EXPECT_TRUE(device->start());
+}
+
+TEST_F(SerialDeviceTest, SaysThatItIsGoneBeforeItWasLookedFor) {
+  auto device = running();
+  ASSERT_TRUE(device->stop());
+  rig_.unplug();
+  EXPECT_EQ(device->start().error().code, Code::device);
+  EXPECT_EQ(device->configure(two_leds()).error().code, Code::device);
+  EXPECT_EQ(device->write_digital(0, true).error().code, Code::device);
+}
+
 TEST_F(SerialDeviceTest, IsNotTakenForTheSameWhenAnotherComesBack) {
   auto device = running();
   rig_.unplug();
