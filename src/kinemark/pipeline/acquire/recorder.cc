@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <span>
@@ -30,8 +31,10 @@ using stream::RingBlock;
 
 constexpr milliseconds kLook{100};  ///< how long a device is waited for before it is seen whether all is over
 constexpr std::int64_t kMostNumber = 0xFFFFFFFF;
+constexpr auto kNever_ns = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostGapsNoted = 1000;
 constexpr double kFewestInRing = 1024;
+constexpr double kSilence_s = 2.0, kSilence_frames = 3.0;  ///< after both of which a device is looked for
 
 /// A thread that follows, with blocks that wait for it.
 struct Follower {
@@ -78,6 +81,9 @@ struct Recorder::State {
         speed(device_to_read.capabilities().speed),
         rate_hz(granted.layout.time.rate_hz),
         most_waiting(std::llround(std::max(kFewestInRing, options.ring_s * rate_hz * std::max(speed, 1.0)))),
+        silence_ns(device_to_read.capabilities().pauses || speed == 0.0
+                       ? kNever_ns
+                       : std::llround(1e9 * std::max(kSilence_s, kSilence_frames / (rate_hz * speed)))),
         ring(most_waiting),
         clock_fit(rate_hz * (speed > 0.0 ? speed : 1.0)),
         levels(granted.layout) {}
@@ -92,16 +98,18 @@ struct Recorder::State {
   const stream::GrantedPlan plan;
   const RecorderOptions options;
   const double speed, rate_hz;
-  const std::int64_t most_waiting;
+  const std::int64_t most_waiting, silence_ns;
   BlockRing ring;
   std::vector<std::unique_ptr<Follower>> followers;
   std::optional<io::CountsWriter> writer;
 
   // Of the thread that reads.
   stream::ClockFit clock_fit;
-  std::int64_t first = 0;     ///< number of the device's frame that is the recording's frame 0
-  std::int64_t expected = 0;  ///< next number of the device
-  RingBlock passed;           ///< being taken in
+  std::int64_t first = 0;                 ///< number of the device's frame that is the recording's frame 0
+  std::int64_t expected = 0;              ///< next number of the device
+  RingBlock passed;                       ///< being taken in
+  std::optional<std::int64_t> heard_ns;   ///< when frames came or it was found again; nothing: none came yet
+  std::optional<std::int64_t> missed_ns;  ///< since when it is looked for without a frame
   std::int64_t pending_by_device = 0, pending_here = 0;  ///< lost since the last block that went on
 
   // Of the thread that writes.
@@ -135,8 +143,8 @@ struct Recorder::State {
         break;
       }
       const auto result = device.read(block, kLook);
-      if (!result) {
-        if (!find_again(result.error())) break;
+      if (!result || is_silent(*result)) {
+        if (!find_again(result ? silent() : result.error())) break;
       } else if (*result == ReadResult::ended || (*result == ReadResult::block && !take(block))) {
         break;
       }
@@ -153,20 +161,39 @@ struct Recorder::State {
     return !error;
   }
 
+  /// Whether it should have given a frame by now: a board that was reset holds its line open.
+  bool is_silent(ReadResult result) {
+    if (result == ReadResult::timeout) return heard_ns && options.clock->now_ns() - *heard_ns > silence_ns;
+    missed_ns.reset();
+    heard_ns = options.clock->now_ns();
+    return false;
+  }
+
+  [[nodiscard]] Error silent() const {
+    return {Code::device,
+            fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
+                        device.capabilities().name)};
+  }
+
   /// Look for a device that failed. false: it is given up, or nobody wants it any more.
   bool find_again(const Error& why) {
     if (why.code != Code::device) return fail_with(why), false;
     away = true;
-    const auto give_up_ns = options.clock->now_ns() + std::llround(1e9 * options.give_up_s);
+    if (!missed_ns) missed_ns = options.clock->now_ns();
+    const auto give_up_ns = *missed_ns + std::llround(1e9 * options.give_up_s);
     const auto step_ns = std::chrono::nanoseconds(options.look_every).count();
     while (!stopping) {
+      if (options.clock->now_ns() >= give_up_ns) return fail_with(why), false;
       if (device.reopen()) {
         ++reopened;
         away = false;
         clock_fit.restart();
+        if (heard_ns)
+          heard_ns = options.clock->now_ns();
+        else
+          missed_ns.reset();  // it waits for its trigger
         return true;
       }
-      if (options.clock->now_ns() >= give_up_ns) return fail_with(why), false;
       options.clock->sleep_until(options.clock->now_ns() + step_ns);
     }
     return true;

@@ -48,7 +48,7 @@ struct RecorderOptions {
   std::int64_t frames = 0;                      ///< of the device, lost ones included; 0: until stop()
   std::optional<BrightnessTrigger> begin;       ///< nothing: with frame 0
   double ring_s = 10.0;                         ///< of frames that wait for the disk at most, > 0
-  double give_up_s = 600.0;                     ///< that a device may be away
+  double give_up_s = 600.0;                     ///< that a device may be away, without a frame
   std::chrono::milliseconds look_every{200};    ///< for one that is away
   std::vector<std::shared_ptr<BlockFollower>> followers = {};
   std::shared_ptr<stream::HostClock> clock;  ///< nullptr: the machine's
@@ -65,7 +65,7 @@ struct RecorderProgress {
   std::int64_t missed_by_followers = 0;
   int reopened = 0;           ///< times that it was away and came back
   double fullest_ring = 0.0;  ///< 0 to 1, of the room for frames that wait for the disk
-  bool away = false;          ///< it is unplugged now
+  bool away = false;          ///< it is unplugged now, or silent
   bool begun = true;          ///< false: waits for the LED that begins it
 };
 
@@ -91,7 +91,8 @@ struct Recorded {
 /// frames are dropped and counted; a device without a clock of its own (speed 0) waits instead. What is
 /// missing is a step of the frames' numbers, with a metadata record "gap" before it that says who lost it
 /// (the first thousand). At the end comes the record "acquisition_end". A device that fails is looked for
-/// until it is back, and its frames go on in the same recording. The device is stopped at the end.
+/// until it is back, and its frames go on in the same recording; so is one with a clock that gave frames and
+/// gives none for 2 s and three frames, unless it pauses. The device is stopped at the end.
 class Recorder {
  public:
   /// Makes the file, then starts the device. Fails as both do; no file stays where the device cannot start.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -23,6 +24,14 @@ using stream::ReadResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// A clock that a test moves on.
+class HandClock final : public stream::HostClock {
+ public:
+  [[nodiscard]] std::int64_t now_ns() const override { return now; }
+  void sleep_until(std::int64_t time_ns) override { now = std::max<std::int64_t>(now, time_ns); }
+  std::atomic<std::int64_t> now = 1;
+};
+
 /// A device that does what the test says; it has one LED and one camera.
 class PlayedDevice final : public stream::Device {
  public:
@@ -30,12 +39,15 @@ class PlayedDevice final : public stream::Device {
   std::function<Result<ReadResult>(PlayedDevice&, Block&)> play;
   std::function<Status(PlayedDevice&)> come_back = [](PlayedDevice&) { return Status(); };
   std::int64_t next = 0;
+  double rate_hz = 100.0;
   Status starts;
+  void pauses() { capabilities_.pauses = true; }
 
   [[nodiscard]] const stream::DeviceCapabilities& capabilities() const override { return capabilities_; }
   [[nodiscard]] Result<stream::GrantedPlan> configure(const stream::ScanPlan& plan) override {
-    return stream::GrantedPlan{
-        .plan = plan, .layout = data::Counts::zeros({"hand"}, {"A"}, {.rate_hz = 100.0}, false), .facts = {}};
+    return stream::GrantedPlan{.plan = plan,
+                               .layout = data::Counts::zeros({"hand"}, {"A"}, {.rate_hz = rate_hz}, false),
+                               .facts = {}};
   }
   [[nodiscard]] Status start() override { return starts; }
   [[nodiscard]] Result<ReadResult> read(Block& block, milliseconds) override { return play(*this, block); }
@@ -176,6 +188,67 @@ TEST_F(Recording, GivesUpADeviceThatStaysAwayAndKeepsWhatCame) {
   EXPECT_EQ(read.counts.frames(), 50);
   EXPECT_EQ(read.end, io::RecordingEnd::closed);
   EXPECT_EQ(value(read, "acquisition_end", "ended"), "failed");
+}
+
+/// 50 frames, then a line that stays open and says nothing, until it was looked for twice and is back.
+struct Silence {
+  explicit Silence(double rate_hz = 100.0, double speed = 1.0) : device(speed) {
+    device.rate_hz = rate_hz;
+    device.play = [this](PlayedDevice& d, Block& block) -> Result<ReadResult> {
+      if (d.next >= 100) return ReadResult::ended;
+      if (d.next != 50 || looks == 2) return d.give(block, 10);
+      clock->now += 100'000'000;
+      if (++timeouts == 1000) d.next = 100;  // nobody looks
+      return ReadResult::timeout;
+    };
+    device.come_back = [this](PlayedDevice& d) -> Status {
+      if (++looks == 1) return fail(Code::device, "played: no rig answers");
+      d.next = 70;
+      return {};
+    };
+  }
+  std::shared_ptr<HandClock> clock = std::make_shared<HandClock>();
+  PlayedDevice device;
+  int timeouts = 0, looks = 0;
+};
+
+TEST_F(Recording, LooksForADeviceThatFellSilentOnAnOpenLine) {
+  Silence silence;
+  const auto done = record(silence.device, {.clock = silence.clock});
+  EXPECT_EQ(done.end, RecorderEnd::complete);
+  EXPECT_EQ(silence.timeouts, 21);  // of 100 ms
+  EXPECT_EQ(silence.looks, 2);
+  EXPECT_EQ(done.progress.reopened, 1);
+  EXPECT_FALSE(done.progress.away);
+  EXPECT_EQ(done.progress.dropped_by_device, 20);
+  expect_adds_up(done.progress);
+  EXPECT_EQ(value(io::read_counts(file_).value(), "gap", "frames"), "20");
+}
+
+TEST_F(Recording, WaitsThreeFramesOfASlowDevice) {
+  Silence silence(0.5);
+  EXPECT_EQ(record(silence.device, {.clock = silence.clock}).progress.reopened, 1);
+  EXPECT_EQ(silence.timeouts, 61);
+}
+
+TEST_F(Recording, LetsADeviceBeSilentThatMay) {
+  Silence paused, without_clock(100.0, 0.0), waits_for_trigger;
+  paused.device.pauses();
+  waits_for_trigger.device.next = 50;
+  for (auto* one : {&paused, &without_clock, &waits_for_trigger}) {
+    const auto done = record(one->device, {.recording = {.force = true}, .clock = one->clock});
+    EXPECT_EQ(one->looks, 0);
+    EXPECT_EQ(done.progress.reopened, 0);
+  }
+}
+
+TEST_F(Recording, GivesUpADeviceThatIsFoundAgainAndStaysSilent) {
+  Silence silence;
+  silence.device.come_back = [](PlayedDevice&) { return Status(); };
+  const auto done = record(silence.device, {.give_up_s = 5.0, .clock = silence.clock});
+  EXPECT_EQ(done.end, RecorderEnd::failed);
+  EXPECT_THAT(done.error->message, HasSubstr("played: gives no frames any more"));
+  EXPECT_EQ(done.progress.acknowledged, 50);
 }
 
 TEST_F(Recording, AnyOtherFailureEndsItAtOnce) {
