@@ -281,11 +281,15 @@ struct Recorder::State {
   void write_all() {
     RingBlock block;
     while (ring.pop(block)) {
-      if (disk_failed) continue;
-      if (const auto s = write(block); !s) {
-        fail_with(s.error());
-        disk_failed = stopping = true;
+      const auto before = acknowledged.load();
+      if (!disk_failed) {
+        if (const auto s = write(block); !s) {
+          fail_with(s.error());
+          disk_failed = stopping = true;
+        }
       }
+      here += block.block.frames - (acknowledged - before);  // none, but for a disk that failed
+      if (disk_failed) continue;
       levels.add(block.block);
     }
   }

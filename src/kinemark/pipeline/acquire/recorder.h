@@ -55,13 +55,13 @@ struct RecorderOptions {
 };
 
 /// Where a recording stands. frames = received + dropped_by_device; received = acknowledged + dropped_here +
-/// those that wait.
+/// those that wait, which are none once it is finished.
 struct RecorderProgress {
   std::int64_t frames = 0;             ///< of the device since the beginning, whoever lost them
   std::int64_t received = 0;           ///< read from the device
   std::int64_t acknowledged = 0;       ///< that a stop of this program cannot lose
   std::int64_t dropped_by_device = 0;  ///< that it never gave
-  std::int64_t dropped_here = 0;       ///< that the disk was too slow for
+  std::int64_t dropped_here = 0;       ///< that the disk was too slow or too full for
   std::int64_t missed_by_followers = 0;
   int reopened = 0;           ///< times that it was away and came back
   double fullest_ring = 0.0;  ///< 0 to 1, of the room for frames that wait for the disk
@@ -83,7 +83,7 @@ struct Recorded {
   RecorderEnd end = RecorderEnd::complete;
   std::optional<Error> error;              ///< why it failed; what was acknowledged is kept
   std::optional<stream::ClockRate> clock;  ///< of the device; nothing: too short, or it has no clock
-  std::vector<stream::CountLevels> lit;    ///< L x C, of what was kept
+  std::vector<stream::CountLevels> lit;    ///< L x C, of the blocks that were kept whole
   std::vector<stream::CountLevels> dark;   ///< C; empty without a dark slot
 };
 

@@ -3,10 +3,12 @@
 #include "kinemark/pipeline/acquire/recorder.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <csignal>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -158,6 +160,46 @@ TEST_F(Recording, CountsWhatTheDiskWasTooSlowForInThreads) {
   for (std::int64_t f = 0; f < read.counts.frames(); ++f)
     lost += read.counts.has_flag(f, 0, 0, data::kCountLost);
   EXPECT_EQ(lost, done.progress.dropped_here);
+}
+
+/// For its lifetime no file of this process may grow beyond `bytes`, as if the disk were full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(Recording, CountsWhatAFullDiskDidNotTakeInThreads) {
+  for (const double speed : {0.0, 1.0}) {
+    PlayedDevice device(speed);
+    device.play = [](PlayedDevice& d, Block& block) -> Result<ReadResult> {
+      if (d.next == 50) d.next = 60;
+      return d.give(block, 10);
+    };
+    const FullDisk full(5000);
+    const auto done = record(device, {.recording = {.force = true}});
+    EXPECT_EQ(done.end, RecorderEnd::failed);
+    EXPECT_THAT(done.error->message, HasSubstr("File too large"));
+    EXPECT_GT(done.progress.acknowledged, 0);
+    EXPECT_GT(done.progress.dropped_here, 0);
+    EXPECT_EQ(done.progress.dropped_by_device, 10);
+    expect_adds_up(done.progress);
+    EXPECT_LE(done.lit.front().frames, done.progress.acknowledged);
+  }
 }
 
 TEST_F(Recording, GoesOnWithADeviceThatComesBack) {
