@@ -12,7 +12,6 @@
 #include <mutex>
 #include <numeric>
 #include <span>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -354,15 +353,14 @@ Result<std::unique_ptr<Recorder>> Recorder::start(stream::Device& device, const 
   check(!asked.begin || (asked.begin->led >= 0 && asked.begin->led < plan.layout.led_count()),
         "an LED of the plan begins it");
   state->begun = !asked.begin;
+  if (auto s = device.start(); !s) return std::unexpected(s.error());
   if (!asked.file.empty()) {
     auto writer = io::CountsWriter::create(asked.file, plan.layout, asked.metadata, asked.recording);
-    if (!writer) return std::unexpected(writer.error());
+    if (!writer) {
+      (void)device.stop();
+      return std::unexpected(writer.error());
+    }
     state->writer.emplace(std::move(*writer));
-  }
-  if (auto s = device.start(); !s) {
-    std::error_code ignored;
-    if (state->writer) std::filesystem::remove(asked.file, ignored);
-    return std::unexpected(s.error());
   }
   for (const auto& follower : asked.followers)
     state->followers.push_back(std::make_unique<Follower>(follower, state->most_waiting));

@@ -95,7 +95,8 @@ struct Recorded {
 /// gives none for 2 s and three frames, unless it pauses. The device is stopped at the end.
 class Recorder {
  public:
-  /// Makes the file, then starts the device. Fails as both do; no file stays where the device cannot start.
+  /// Starts the device, then makes the file. Fails as both do: where the device does not start no file is
+  /// made and none is replaced; where no file can be made the device is stopped.
   /// @param device  configured with `plan`; must outlive the recorder, and is nobody else's meanwhile
   [[nodiscard]] static Result<std::unique_ptr<Recorder>> start(stream::Device& device,
                                                                const stream::GrantedPlan& plan,

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <csignal>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -388,6 +389,19 @@ TEST_F(Recording, MakesNoFileWhereItCannotStart) {
   EXPECT_FALSE(std::filesystem::exists(file_));
   device.starts = Status();
   EXPECT_EQ(Recorder::start(device, plan, {.file = scratch_ / "absent" / "x.mcap"}).error().code, Code::io);
+  EXPECT_EQ(device.stops, 1);
+}
+
+TEST_F(Recording, LeavesAnEarlierRecordingAsItIsWhereTheDeviceDoesNotStart) {
+  std::ofstream(file_) << "an earlier recording";
+  PlayedDevice device;
+  device.starts = fail(Code::device, "busy");
+  const auto plan = device.configure({}).value();
+  EXPECT_FALSE(Recorder::start(device, plan, {.file = file_, .recording = {.force = true}}));
+  std::string kept;
+  std::getline(std::ifstream(file_), kept);
+  EXPECT_EQ(kept, "an earlier recording");
+  EXPECT_EQ(device.stops, 0);
 }
 
 TEST_F(Recording, WithoutAFileKeepsFiguresAlone) {
