@@ -47,7 +47,7 @@ struct Follower {
   std::jthread thread;
 };
 
-io::RecordingMetadata end_note(const Recorded& end) {
+io::RecordingMetadata end_note(const Recorded& end, const std::string& not_stopped) {
   const auto& p = end.progress;
   io::RecordingMetadata out{"acquisition_end",
                             {{"frames", fmt::format("{}", p.frames)},
@@ -57,6 +57,7 @@ io::RecordingMetadata end_note(const Recorded& end) {
                              {"reopened", fmt::format("{}", p.reopened)},
                              {"fullest_ring", format_number(p.fullest_ring)},
                              {"ended", std::string(to_string(end.end))}}};
+  if (!not_stopped.empty()) out.values["not_stopped"] = not_stopped;
   if (!end.clock) return out;
   out.values["clock_rate_hz"] = format_number(end.clock->rate_hz);
   out.values["clock_rate_sd_hz"] = format_number(end.clock->sd_hz);
@@ -124,6 +125,7 @@ struct Recorder::State {
   bool reader_ended = false;
   RecorderEnd end = RecorderEnd::complete;
   std::optional<Error> error;
+  std::string not_stopped;  ///< why the device did not stop; empty: it did
 
   std::thread reader, writer_thread;
 
@@ -148,16 +150,12 @@ struct Recorder::State {
         break;
       }
     }
-    if (const auto s = device.stop(); !s && error_is_empty()) fail_with(s.error());
+    const auto stopped = device.stop();
     ring.close();
     const std::scoped_lock lock(mutex);
+    if (!stopped) not_stopped = stopped.error().message;  // all frames are here: a note
     reader_ended = true;
     changed.notify_all();
-  }
-
-  bool error_is_empty() {
-    const std::scoped_lock lock(mutex);
-    return !error;
   }
 
   /// Whether it should have given a frame by now: a board that was reset holds its line open.
@@ -391,7 +389,7 @@ Recorded Recorder::finish() {
                .dark = s.levels.dark()};
   if (s.speed > 0.0) out.clock = s.clock_fit.rate();
   if (!s.writer) return out;
-  auto closed = s.disk_failed ? Status() : s.writer->add_metadata(end_note(out));
+  auto closed = s.disk_failed ? Status() : s.writer->add_metadata(end_note(out, s.not_stopped));
   if (closed && !s.disk_failed) closed = s.writer->close();
   if (!closed) {
     out.end = RecorderEnd::failed;

@@ -92,7 +92,8 @@ struct Recorded {
 /// missing is a step of the frames' numbers, with a metadata record "gap" before it that says who lost it
 /// (the first thousand). At the end comes the record "acquisition_end". A device that fails is looked for
 /// until it is back, and its frames go on in the same recording; so is one with a clock that gave frames and
-/// gives none for 2 s and three frames, unless it pauses. The device is stopped at the end.
+/// gives none for 2 s and three frames, unless it pauses. The device is stopped at the end; that it does
+/// not answer any more is noted there, and spoils nothing.
 class Recorder {
  public:
   /// Starts the device, then makes the file. Fails as both do: where the device does not start no file is

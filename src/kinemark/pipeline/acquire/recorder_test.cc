@@ -43,7 +43,7 @@ class PlayedDevice final : public stream::Device {
   std::function<Status(PlayedDevice&)> come_back = [](PlayedDevice&) { return Status(); };
   std::int64_t next = 0;
   double rate_hz = 100.0;
-  Status starts;
+  Status starts, ends;
   void pauses() { capabilities_.pauses = true; }
 
   [[nodiscard]] const stream::DeviceCapabilities& capabilities() const override { return capabilities_; }
@@ -54,7 +54,7 @@ class PlayedDevice final : public stream::Device {
   }
   [[nodiscard]] Status start() override { return starts; }
   [[nodiscard]] Result<ReadResult> read(Block& block, milliseconds) override { return play(*this, block); }
-  [[nodiscard]] Status stop() override { return ++stops, Status(); }
+  [[nodiscard]] Status stop() override { return ++stops, ends; }
   [[nodiscard]] Status reopen() override { return come_back(*this); }
   [[nodiscard]] Status write_analog(int, double) override { return {}; }
   [[nodiscard]] Status write_digital(int, bool) override { return {}; }
@@ -313,6 +313,26 @@ TEST_F(Recording, StopsWhenAnotherThreadAsksForIt) {
   EXPECT_EQ(done.end, RecorderEnd::stopped);
   EXPECT_EQ(done.progress.acknowledged, done.progress.frames);
   EXPECT_EQ(io::read_counts(file_).value().counts.frames(), done.progress.frames);
+}
+
+TEST_F(Recording, ADeviceThatDoesNotStopSpoilsNothing) {
+  PlayedDevice device;
+  device.ends = fail(Code::device, "played: is gone");
+  device.play = [](PlayedDevice& d, Block& block) -> Result<ReadResult> { return d.give(block, 10); };
+  const auto whole = record(device, {.frames = 100});
+  EXPECT_EQ(whole.end, RecorderEnd::complete);
+  EXPECT_FALSE(whole.error);
+  EXPECT_EQ(whole.progress.acknowledged, 100);
+  const auto read = io::read_counts(file_).value();
+  EXPECT_EQ(value(read, "acquisition_end", "ended"), "complete");
+  EXPECT_EQ(value(read, "acquisition_end", "not_stopped"), "played: is gone");
+
+  const auto plan = device.configure({}).value();
+  const auto recorder = Recorder::start(device, plan, {.file = scratch_ / "b.mcap"}).value();
+  recorder->stop();
+  const auto cut = recorder->finish();
+  EXPECT_EQ(cut.end, RecorderEnd::stopped);
+  EXPECT_FALSE(cut.error);
 }
 
 TEST_F(Recording, LeftWithoutFinishIsAsAfterAKill) {
