@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
-#include "kinemark/core/number.h"
+#include "kinemark/pipeline/acquire/recorder_notes.h"
 #include "kinemark/stream/block_ring.h"
 
 namespace kinemark::pipeline {
@@ -46,26 +46,6 @@ struct Follower {
   BlockRing ring;
   std::jthread thread;
 };
-
-io::RecordingMetadata end_note(const Recorded& end, const std::string& not_stopped) {
-  const auto& p = end.progress;
-  io::RecordingMetadata out{"acquisition_end",
-                            {{"frames", fmt::format("{}", p.frames)},
-                             {"acknowledged", fmt::format("{}", p.acknowledged)},
-                             {"dropped_by_device", fmt::format("{}", p.dropped_by_device)},
-                             {"dropped_here", fmt::format("{}", p.dropped_here)},
-                             {"reopened", fmt::format("{}", p.reopened)},
-                             {"fullest_ring", format_number(p.fullest_ring)},
-                             {"ended", std::string(to_string(end.end))}}};
-  if (!not_stopped.empty()) out.values["not_stopped"] = not_stopped;
-  if (!end.clock) return out;
-  out.values["clock_rate_hz"] = format_number(end.clock->rate_hz);
-  out.values["clock_rate_sd_hz"] = format_number(end.clock->sd_hz);
-  out.values["clock_fast_ppm"] = format_number(end.clock->ppm_fast);
-  out.values["clock_fast_sd_ppm"] = format_number(end.clock->sd_ppm);
-  out.values["clock_seconds"] = format_number(end.clock->span_s);
-  return out;
-}
 
 }  // namespace
 
@@ -286,8 +266,7 @@ struct Recorder::State {
         }
       }
       here += block.block.frames - (acknowledged - before);  // none, but for a disk that failed
-      if (disk_failed) continue;
-      levels.add(block.block);
+      if (!disk_failed) levels.add(block.block);
     }
   }
 
@@ -317,11 +296,8 @@ struct Recorder::State {
     const auto lost = block.lost_by_device + block.lost_here;
     if (lost == 0 || gaps_noted == kMostGapsNoted) return {};
     ++gaps_noted;
-    return writer->add_metadata({"gap",
-                                 {{"first_frame", fmt::format("{}", block.block.first_frame - lost)},
-                                  {"frames", fmt::format("{}", lost)},
-                                  {"dropped_by_device", fmt::format("{}", block.lost_by_device)},
-                                  {"dropped_here", fmt::format("{}", block.lost_here)}}});
+    return writer->add_metadata(
+        gap_note(block.block.first_frame - lost, block.lost_by_device, block.lost_here));
   }
 
   RecorderProgress progress() const {
