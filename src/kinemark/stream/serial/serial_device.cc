@@ -107,6 +107,7 @@ Result<std::pair<Conversation, SerialRigFacts>> meet(const std::string& path) {
     if (answer && answer->kind == "rig") {
       const auto facts = serial_facts(*answer);
       if (!facts) return fail_at(path, facts.error());
+      talk.port().keep_setting();
       return std::pair(std::move(talk), *facts);
     }
     if (steady_clock::now() >= deadline && !answer) return std::unexpected(answer.error());
