@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <util/atomic.h>
 
 #include "scan.h"
 #include "sender.h"
@@ -137,10 +138,13 @@ static void set_output(char* at) {
   const uint32_t line = next_number(&at, 2), high = next_number(&at, 2);
   if (line > 1 || high > 1) return refuse(PSTR("output"));
   const uint8_t pin = line ? OUTPUT_1 : OUTPUT_0;
-  if (high)
-    PORTB |= pin;
-  else
-    PORTB &= (uint8_t)~pin;
+  // The scan's interrupts light LEDs of the same port.
+  ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
+    if (high)
+      PORTB |= pin;
+    else
+      PORTB &= (uint8_t)~pin;
+  }
   answer(PSTR("out"));
   transmit_number(PSTR(" line="), line);
   transmit_number(PSTR(" high="), high);

@@ -41,6 +41,7 @@ struct DeviceCapabilities {
   double lowest_rate_hz = 0.0;            ///< frames in a second; the highest follows from the slots
   bool sets_intensity = false;            ///< of each LED, by the length of its pulse or its current
   bool has_dark_slot = false;             ///< can convert with all LEDs dark
+  bool pauses = false;                    ///< may give no frames for long and be there: a recording with gaps
   int analog_outputs = 0;                 ///< channels of write_analog()
   int digital_outputs = 0;                ///< lines of write_digital()
   std::vector<Trigger> triggers;          ///< at least at_once

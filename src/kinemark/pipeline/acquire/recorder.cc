@@ -8,15 +8,15 @@
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <span>
-#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "kinemark/core/check.h"
-#include "kinemark/core/number.h"
+#include "kinemark/pipeline/acquire/recorder_notes.h"
 #include "kinemark/stream/block_ring.h"
 
 namespace kinemark::pipeline {
@@ -30,8 +30,10 @@ using stream::RingBlock;
 
 constexpr milliseconds kLook{100};  ///< how long a device is waited for before it is seen whether all is over
 constexpr std::int64_t kMostNumber = 0xFFFFFFFF;
+constexpr auto kNever_ns = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostGapsNoted = 1000;
 constexpr double kFewestInRing = 1024;
+constexpr double kSilence_s = 2.0, kSilence_frames = 3.0;  ///< after both of which a device is looked for
 
 /// A thread that follows, with blocks that wait for it.
 struct Follower {
@@ -44,25 +46,6 @@ struct Follower {
   BlockRing ring;
   std::jthread thread;
 };
-
-io::RecordingMetadata end_note(const Recorded& end) {
-  const auto& p = end.progress;
-  io::RecordingMetadata out{"acquisition_end",
-                            {{"frames", fmt::format("{}", p.frames)},
-                             {"acknowledged", fmt::format("{}", p.acknowledged)},
-                             {"dropped_by_device", fmt::format("{}", p.dropped_by_device)},
-                             {"dropped_here", fmt::format("{}", p.dropped_here)},
-                             {"reopened", fmt::format("{}", p.reopened)},
-                             {"fullest_ring", format_number(p.fullest_ring)},
-                             {"ended", std::string(to_string(end.end))}}};
-  if (!end.clock) return out;
-  out.values["clock_rate_hz"] = format_number(end.clock->rate_hz);
-  out.values["clock_rate_sd_hz"] = format_number(end.clock->sd_hz);
-  out.values["clock_fast_ppm"] = format_number(end.clock->ppm_fast);
-  out.values["clock_fast_sd_ppm"] = format_number(end.clock->sd_ppm);
-  out.values["clock_seconds"] = format_number(end.clock->span_s);
-  return out;
-}
 
 }  // namespace
 
@@ -78,6 +61,9 @@ struct Recorder::State {
         speed(device_to_read.capabilities().speed),
         rate_hz(granted.layout.time.rate_hz),
         most_waiting(std::llround(std::max(kFewestInRing, options.ring_s * rate_hz * std::max(speed, 1.0)))),
+        silence_ns(device_to_read.capabilities().pauses || speed == 0.0
+                       ? kNever_ns
+                       : std::llround(1e9 * std::max(kSilence_s, kSilence_frames / (rate_hz * speed)))),
         ring(most_waiting),
         clock_fit(rate_hz * (speed > 0.0 ? speed : 1.0)),
         levels(granted.layout) {}
@@ -92,16 +78,18 @@ struct Recorder::State {
   const stream::GrantedPlan plan;
   const RecorderOptions options;
   const double speed, rate_hz;
-  const std::int64_t most_waiting;
+  const std::int64_t most_waiting, silence_ns;
   BlockRing ring;
   std::vector<std::unique_ptr<Follower>> followers;
   std::optional<io::CountsWriter> writer;
 
   // Of the thread that reads.
   stream::ClockFit clock_fit;
-  std::int64_t first = 0;     ///< number of the device's frame that is the recording's frame 0
-  std::int64_t expected = 0;  ///< next number of the device
-  RingBlock passed;           ///< being taken in
+  std::int64_t first = 0;                 ///< number of the device's frame that is the recording's frame 0
+  std::int64_t expected = 0;              ///< next number of the device
+  RingBlock passed;                       ///< being taken in
+  std::optional<std::int64_t> heard_ns;   ///< when frames came or it was found again; nothing: none came yet
+  std::optional<std::int64_t> missed_ns;  ///< since when it is looked for without a frame
   std::int64_t pending_by_device = 0, pending_here = 0;  ///< lost since the last block that went on
 
   // Of the thread that writes.
@@ -117,6 +105,7 @@ struct Recorder::State {
   bool reader_ended = false;
   RecorderEnd end = RecorderEnd::complete;
   std::optional<Error> error;
+  std::string not_stopped;  ///< why the device did not stop; empty: it did
 
   std::thread reader, writer_thread;
 
@@ -135,38 +124,53 @@ struct Recorder::State {
         break;
       }
       const auto result = device.read(block, kLook);
-      if (!result) {
-        if (!find_again(result.error())) break;
+      if (!result || is_silent(*result)) {
+        if (!find_again(result ? silent() : result.error())) break;
       } else if (*result == ReadResult::ended || (*result == ReadResult::block && !take(block))) {
         break;
       }
     }
-    if (const auto s = device.stop(); !s && error_is_empty()) fail_with(s.error());
+    const auto stopped = device.stop();
     ring.close();
     const std::scoped_lock lock(mutex);
+    if (!stopped) not_stopped = stopped.error().message;  // all frames are here: a note
     reader_ended = true;
     changed.notify_all();
   }
 
-  bool error_is_empty() {
-    const std::scoped_lock lock(mutex);
-    return !error;
+  /// Whether it should have given a frame by now: a board that was reset holds its line open.
+  bool is_silent(ReadResult result) {
+    if (result == ReadResult::timeout) return heard_ns && options.clock->now_ns() - *heard_ns > silence_ns;
+    missed_ns.reset();
+    heard_ns = options.clock->now_ns();
+    return false;
+  }
+
+  [[nodiscard]] Error silent() const {
+    return {Code::device,
+            fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
+                        device.capabilities().name)};
   }
 
   /// Look for a device that failed. false: it is given up, or nobody wants it any more.
   bool find_again(const Error& why) {
     if (why.code != Code::device) return fail_with(why), false;
     away = true;
-    const auto give_up_ns = options.clock->now_ns() + std::llround(1e9 * options.give_up_s);
+    if (!missed_ns) missed_ns = options.clock->now_ns();
+    const auto give_up_ns = *missed_ns + std::llround(1e9 * options.give_up_s);
     const auto step_ns = std::chrono::nanoseconds(options.look_every).count();
     while (!stopping) {
+      if (options.clock->now_ns() >= give_up_ns) return fail_with(why), false;
       if (device.reopen()) {
         ++reopened;
         away = false;
         clock_fit.restart();
+        if (heard_ns)
+          heard_ns = options.clock->now_ns();
+        else
+          missed_ns.reset();  // it waits for its trigger
         return true;
       }
-      if (options.clock->now_ns() >= give_up_ns) return fail_with(why), false;
       options.clock->sleep_until(options.clock->now_ns() + step_ns);
     }
     return true;
@@ -254,12 +258,15 @@ struct Recorder::State {
   void write_all() {
     RingBlock block;
     while (ring.pop(block)) {
-      if (disk_failed) continue;
-      if (const auto s = write(block); !s) {
-        fail_with(s.error());
-        disk_failed = stopping = true;
+      const auto before = acknowledged.load();
+      if (!disk_failed) {
+        if (const auto s = write(block); !s) {
+          fail_with(s.error());
+          disk_failed = stopping = true;
+        }
       }
-      levels.add(block.block);
+      here += block.block.frames - (acknowledged - before);  // none, but for a disk that failed
+      if (!disk_failed) levels.add(block.block);
     }
   }
 
@@ -289,11 +296,8 @@ struct Recorder::State {
     const auto lost = block.lost_by_device + block.lost_here;
     if (lost == 0 || gaps_noted == kMostGapsNoted) return {};
     ++gaps_noted;
-    return writer->add_metadata({"gap",
-                                 {{"first_frame", fmt::format("{}", block.block.first_frame - lost)},
-                                  {"frames", fmt::format("{}", lost)},
-                                  {"dropped_by_device", fmt::format("{}", block.lost_by_device)},
-                                  {"dropped_here", fmt::format("{}", block.lost_here)}}});
+    return writer->add_metadata(
+        gap_note(block.block.first_frame - lost, block.lost_by_device, block.lost_here));
   }
 
   RecorderProgress progress() const {
@@ -323,15 +327,14 @@ Result<std::unique_ptr<Recorder>> Recorder::start(stream::Device& device, const 
   check(!asked.begin || (asked.begin->led >= 0 && asked.begin->led < plan.layout.led_count()),
         "an LED of the plan begins it");
   state->begun = !asked.begin;
+  if (auto s = device.start(); !s) return std::unexpected(s.error());
   if (!asked.file.empty()) {
     auto writer = io::CountsWriter::create(asked.file, plan.layout, asked.metadata, asked.recording);
-    if (!writer) return std::unexpected(writer.error());
+    if (!writer) {
+      (void)device.stop();
+      return std::unexpected(writer.error());
+    }
     state->writer.emplace(std::move(*writer));
-  }
-  if (auto s = device.start(); !s) {
-    std::error_code ignored;
-    if (state->writer) std::filesystem::remove(asked.file, ignored);
-    return std::unexpected(s.error());
   }
   for (const auto& follower : asked.followers)
     state->followers.push_back(std::make_unique<Follower>(follower, state->most_waiting));
@@ -362,7 +365,7 @@ Recorded Recorder::finish() {
                .dark = s.levels.dark()};
   if (s.speed > 0.0) out.clock = s.clock_fit.rate();
   if (!s.writer) return out;
-  auto closed = s.disk_failed ? Status() : s.writer->add_metadata(end_note(out));
+  auto closed = s.disk_failed ? Status() : s.writer->add_metadata(end_note(out, s.not_stopped));
   if (closed && !s.disk_failed) closed = s.writer->close();
   if (!closed) {
     out.end = RecorderEnd::failed;

@@ -48,24 +48,24 @@ struct RecorderOptions {
   std::int64_t frames = 0;                      ///< of the device, lost ones included; 0: until stop()
   std::optional<BrightnessTrigger> begin;       ///< nothing: with frame 0
   double ring_s = 10.0;                         ///< of frames that wait for the disk at most, > 0
-  double give_up_s = 600.0;                     ///< that a device may be away
+  double give_up_s = 600.0;                     ///< that a device may be away, without a frame
   std::chrono::milliseconds look_every{200};    ///< for one that is away
   std::vector<std::shared_ptr<BlockFollower>> followers = {};
   std::shared_ptr<stream::HostClock> clock;  ///< nullptr: the machine's
 };
 
 /// Where a recording stands. frames = received + dropped_by_device; received = acknowledged + dropped_here +
-/// those that wait.
+/// those that wait, which are none once it is finished.
 struct RecorderProgress {
   std::int64_t frames = 0;             ///< of the device since the beginning, whoever lost them
   std::int64_t received = 0;           ///< read from the device
   std::int64_t acknowledged = 0;       ///< that a stop of this program cannot lose
   std::int64_t dropped_by_device = 0;  ///< that it never gave
-  std::int64_t dropped_here = 0;       ///< that the disk was too slow for
+  std::int64_t dropped_here = 0;       ///< that the disk was too slow or too full for
   std::int64_t missed_by_followers = 0;
   int reopened = 0;           ///< times that it was away and came back
   double fullest_ring = 0.0;  ///< 0 to 1, of the room for frames that wait for the disk
-  bool away = false;          ///< it is unplugged now
+  bool away = false;          ///< it is unplugged now, or silent
   bool begun = true;          ///< false: waits for the LED that begins it
 };
 
@@ -83,7 +83,7 @@ struct Recorded {
   RecorderEnd end = RecorderEnd::complete;
   std::optional<Error> error;              ///< why it failed; what was acknowledged is kept
   std::optional<stream::ClockRate> clock;  ///< of the device; nothing: too short, or it has no clock
-  std::vector<stream::CountLevels> lit;    ///< L x C, of what was kept
+  std::vector<stream::CountLevels> lit;    ///< L x C, of the blocks that were kept whole
   std::vector<stream::CountLevels> dark;   ///< C; empty without a dark slot
 };
 
@@ -91,10 +91,13 @@ struct Recorded {
 /// frames are dropped and counted; a device without a clock of its own (speed 0) waits instead. What is
 /// missing is a step of the frames' numbers, with a metadata record "gap" before it that says who lost it
 /// (the first thousand). At the end comes the record "acquisition_end". A device that fails is looked for
-/// until it is back, and its frames go on in the same recording. The device is stopped at the end.
+/// until it is back, and its frames go on in the same recording; so is one with a clock that gave frames and
+/// gives none for 2 s and three frames, unless it pauses. The device is stopped at the end; that it does
+/// not answer any more is noted there, and spoils nothing.
 class Recorder {
  public:
-  /// Makes the file, then starts the device. Fails as both do; no file stays where the device cannot start.
+  /// Starts the device, then makes the file. Fails as both do: where the device does not start no file is
+  /// made and none is replaced; where no file can be made the device is stopped.
   /// @param device  configured with `plan`; must outlive the recorder, and is nobody else's meanwhile
   [[nodiscard]] static Result<std::unique_ptr<Recorder>> start(stream::Device& device,
                                                                const stream::GrantedPlan& plan,

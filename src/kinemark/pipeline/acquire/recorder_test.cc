@@ -3,9 +3,13 @@
 #include "kinemark/pipeline/acquire/recorder.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
+#include <csignal>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -23,6 +27,14 @@ using stream::ReadResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// A clock that a test moves on.
+class HandClock final : public stream::HostClock {
+ public:
+  [[nodiscard]] std::int64_t now_ns() const override { return now; }
+  void sleep_until(std::int64_t time_ns) override { now = std::max<std::int64_t>(now, time_ns); }
+  std::atomic<std::int64_t> now = 1;
+};
+
 /// A device that does what the test says; it has one LED and one camera.
 class PlayedDevice final : public stream::Device {
  public:
@@ -30,16 +42,19 @@ class PlayedDevice final : public stream::Device {
   std::function<Result<ReadResult>(PlayedDevice&, Block&)> play;
   std::function<Status(PlayedDevice&)> come_back = [](PlayedDevice&) { return Status(); };
   std::int64_t next = 0;
-  Status starts;
+  double rate_hz = 100.0;
+  Status starts, ends;
+  void pauses() { capabilities_.pauses = true; }
 
   [[nodiscard]] const stream::DeviceCapabilities& capabilities() const override { return capabilities_; }
   [[nodiscard]] Result<stream::GrantedPlan> configure(const stream::ScanPlan& plan) override {
-    return stream::GrantedPlan{
-        .plan = plan, .layout = data::Counts::zeros({"hand"}, {"A"}, {.rate_hz = 100.0}, false), .facts = {}};
+    return stream::GrantedPlan{.plan = plan,
+                               .layout = data::Counts::zeros({"hand"}, {"A"}, {.rate_hz = rate_hz}, false),
+                               .facts = {}};
   }
   [[nodiscard]] Status start() override { return starts; }
   [[nodiscard]] Result<ReadResult> read(Block& block, milliseconds) override { return play(*this, block); }
-  [[nodiscard]] Status stop() override { return ++stops, Status(); }
+  [[nodiscard]] Status stop() override { return ++stops, ends; }
   [[nodiscard]] Status reopen() override { return come_back(*this); }
   [[nodiscard]] Status write_analog(int, double) override { return {}; }
   [[nodiscard]] Status write_digital(int, bool) override { return {}; }
@@ -148,6 +163,46 @@ TEST_F(Recording, CountsWhatTheDiskWasTooSlowForInThreads) {
   EXPECT_EQ(lost, done.progress.dropped_here);
 }
 
+/// For its lifetime no file of this process may grow beyond `bytes`, as if the disk were full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST_F(Recording, CountsWhatAFullDiskDidNotTakeInThreads) {
+  for (const double speed : {0.0, 1.0}) {
+    PlayedDevice device(speed);
+    device.play = [](PlayedDevice& d, Block& block) -> Result<ReadResult> {
+      if (d.next == 50) d.next = 60;
+      return d.give(block, 10);
+    };
+    const FullDisk full(5000);
+    const auto done = record(device, {.recording = {.force = true}});
+    EXPECT_EQ(done.end, RecorderEnd::failed);
+    EXPECT_THAT(done.error->message, HasSubstr("File too large"));
+    EXPECT_GT(done.progress.acknowledged, 0);
+    EXPECT_GT(done.progress.dropped_here, 0);
+    EXPECT_EQ(done.progress.dropped_by_device, 10);
+    expect_adds_up(done.progress);
+    EXPECT_LE(done.lit.front().frames, done.progress.acknowledged);
+  }
+}
+
 TEST_F(Recording, GoesOnWithADeviceThatComesBack) {
   const auto device = open_device("sim:rig?leds=2&seconds=8&fast&unplug_at=2&unplug_for=3").value();
   const auto done = record(*device, {}, {.rate_hz = 100.0});
@@ -178,6 +233,67 @@ TEST_F(Recording, GivesUpADeviceThatStaysAwayAndKeepsWhatCame) {
   EXPECT_EQ(value(read, "acquisition_end", "ended"), "failed");
 }
 
+/// 50 frames, then a line that stays open and says nothing, until it was looked for twice and is back.
+struct Silence {
+  explicit Silence(double rate_hz = 100.0, double speed = 1.0) : device(speed) {
+    device.rate_hz = rate_hz;
+    device.play = [this](PlayedDevice& d, Block& block) -> Result<ReadResult> {
+      if (d.next >= 100) return ReadResult::ended;
+      if (d.next != 50 || looks == 2) return d.give(block, 10);
+      clock->now += 100'000'000;
+      if (++timeouts == 1000) d.next = 100;  // nobody looks
+      return ReadResult::timeout;
+    };
+    device.come_back = [this](PlayedDevice& d) -> Status {
+      if (++looks == 1) return fail(Code::device, "played: no rig answers");
+      d.next = 70;
+      return {};
+    };
+  }
+  std::shared_ptr<HandClock> clock = std::make_shared<HandClock>();
+  PlayedDevice device;
+  int timeouts = 0, looks = 0;
+};
+
+TEST_F(Recording, LooksForADeviceThatFellSilentOnAnOpenLine) {
+  Silence silence;
+  const auto done = record(silence.device, {.clock = silence.clock});
+  EXPECT_EQ(done.end, RecorderEnd::complete);
+  EXPECT_EQ(silence.timeouts, 21);  // of 100 ms
+  EXPECT_EQ(silence.looks, 2);
+  EXPECT_EQ(done.progress.reopened, 1);
+  EXPECT_FALSE(done.progress.away);
+  EXPECT_EQ(done.progress.dropped_by_device, 20);
+  expect_adds_up(done.progress);
+  EXPECT_EQ(value(io::read_counts(file_).value(), "gap", "frames"), "20");
+}
+
+TEST_F(Recording, WaitsThreeFramesOfASlowDevice) {
+  Silence silence(0.5);
+  EXPECT_EQ(record(silence.device, {.clock = silence.clock}).progress.reopened, 1);
+  EXPECT_EQ(silence.timeouts, 61);
+}
+
+TEST_F(Recording, LetsADeviceBeSilentThatMay) {
+  Silence paused, without_clock(100.0, 0.0), waits_for_trigger;
+  paused.device.pauses();
+  waits_for_trigger.device.next = 50;
+  for (auto* one : {&paused, &without_clock, &waits_for_trigger}) {
+    const auto done = record(one->device, {.recording = {.force = true}, .clock = one->clock});
+    EXPECT_EQ(one->looks, 0);
+    EXPECT_EQ(done.progress.reopened, 0);
+  }
+}
+
+TEST_F(Recording, GivesUpADeviceThatIsFoundAgainAndStaysSilent) {
+  Silence silence;
+  silence.device.come_back = [](PlayedDevice&) { return Status(); };
+  const auto done = record(silence.device, {.give_up_s = 5.0, .clock = silence.clock});
+  EXPECT_EQ(done.end, RecorderEnd::failed);
+  EXPECT_THAT(done.error->message, HasSubstr("played: gives no frames any more"));
+  EXPECT_EQ(done.progress.acknowledged, 50);
+}
+
 TEST_F(Recording, AnyOtherFailureEndsItAtOnce) {
   PlayedDevice device;
   device.play = [](PlayedDevice&, Block&) -> Result<ReadResult> { return fail(Code::io, "no disk"); };
@@ -197,6 +313,26 @@ TEST_F(Recording, StopsWhenAnotherThreadAsksForIt) {
   EXPECT_EQ(done.end, RecorderEnd::stopped);
   EXPECT_EQ(done.progress.acknowledged, done.progress.frames);
   EXPECT_EQ(io::read_counts(file_).value().counts.frames(), done.progress.frames);
+}
+
+TEST_F(Recording, ADeviceThatDoesNotStopSpoilsNothing) {
+  PlayedDevice device;
+  device.ends = fail(Code::device, "played: is gone");
+  device.play = [](PlayedDevice& d, Block& block) -> Result<ReadResult> { return d.give(block, 10); };
+  const auto whole = record(device, {.frames = 100});
+  EXPECT_EQ(whole.end, RecorderEnd::complete);
+  EXPECT_FALSE(whole.error);
+  EXPECT_EQ(whole.progress.acknowledged, 100);
+  const auto read = io::read_counts(file_).value();
+  EXPECT_EQ(value(read, "acquisition_end", "ended"), "complete");
+  EXPECT_EQ(value(read, "acquisition_end", "not_stopped"), "played: is gone");
+
+  const auto plan = device.configure({}).value();
+  const auto recorder = Recorder::start(device, plan, {.file = scratch_ / "b.mcap"}).value();
+  recorder->stop();
+  const auto cut = recorder->finish();
+  EXPECT_EQ(cut.end, RecorderEnd::stopped);
+  EXPECT_FALSE(cut.error);
 }
 
 TEST_F(Recording, LeftWithoutFinishIsAsAfterAKill) {
@@ -273,6 +409,19 @@ TEST_F(Recording, MakesNoFileWhereItCannotStart) {
   EXPECT_FALSE(std::filesystem::exists(file_));
   device.starts = Status();
   EXPECT_EQ(Recorder::start(device, plan, {.file = scratch_ / "absent" / "x.mcap"}).error().code, Code::io);
+  EXPECT_EQ(device.stops, 1);
+}
+
+TEST_F(Recording, LeavesAnEarlierRecordingAsItIsWhereTheDeviceDoesNotStart) {
+  std::ofstream(file_) << "an earlier recording";
+  PlayedDevice device;
+  device.starts = fail(Code::device, "busy");
+  const auto plan = device.configure({}).value();
+  EXPECT_FALSE(Recorder::start(device, plan, {.file = file_, .recording = {.force = true}}));
+  std::string kept;
+  std::getline(std::ifstream(file_), kept);
+  EXPECT_EQ(kept, "an earlier recording");
+  EXPECT_EQ(device.stops, 0);
 }
 
 TEST_F(Recording, WithoutAFileKeepsFiguresAlone) {

@@ -61,6 +61,7 @@ Result<std::unique_ptr<stream::Device>> ReplayDevice::open(DeviceSettings settin
                         .fastest = {.dark_slot = layout.has_dark_slot()},
                         .lowest_rate_hz = layout.time.rate_hz,
                         .has_dark_slot = layout.has_dark_slot(),
+                        .pauses = true,
                         .triggers = {stream::Trigger::at_once},
                         .speed = fast ? 0.0 : 1.0};
   return out;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "kinemark/core/check.h"
+#include "kinemark/stream/internal/frame_anchor.h"
 #include "kinemark/stream/serial/rig_plan.h"
 #include "kinemark/stream/serial/serial_port.h"
 
@@ -106,6 +107,7 @@ Result<std::pair<Conversation, SerialRigFacts>> meet(const std::string& path) {
     if (answer && answer->kind == "rig") {
       const auto facts = serial_facts(*answer);
       if (!facts) return fail_at(path, facts.error());
+      talk.port().keep_setting();
       return std::pair(std::move(talk), *facts);
     }
     if (steady_clock::now() >= deadline && !answer) return std::unexpected(answer.error());
@@ -140,6 +142,7 @@ class SerialDevice final : public Device {
 
  private:
   Status begin();
+  Status go_on();
   bool take_frames(Block& block);
   void put(const SerialFrame& frame, Block& block) const;
 
@@ -162,7 +165,7 @@ class SerialDevice final : public Device {
   std::int64_t next_number_ = 0;   // of the frame that is expected
   std::int64_t dropped_said_ = 0;  // frames that blocks have told of
   std::int64_t before_ns_ = 0, after_ns_ = 0;
-  steady_clock::time_point started_;
+  FrameAnchor anchor_{1.0};
 };
 
 Result<GrantedPlan> SerialDevice::configure(const ScanPlan& wanted) {
@@ -181,6 +184,7 @@ Result<GrantedPlan> SerialDevice::configure(const ScanPlan& wanted) {
 }
 
 Status SerialDevice::begin() {
+  if (!talk_) return gone();
   const auto answer = talk_->insist("start", "start", "stop");
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind != "start")
@@ -197,8 +201,12 @@ Status SerialDevice::begin() {
 
 Status SerialDevice::start() {
   check(granted_.has_value() && !runs_, "a rig starts with a plan, and once");
+  // It may have come back into the middle of a recording, without the trigger that had begun it.
+  if (granted_->plan.trigger != wanted_.trigger)
+    if (auto granted = configure(wanted_); !granted) return std::unexpected(granted.error());
   if (auto s = begin(); !s) return s;
-  started_ = steady_clock::now();
+  anchor_ = FrameAnchor(granted_->plan.rate_hz);
+  if (wanted_.trigger == Trigger::at_once) anchor_.begin(0, after_ns_);
   first_number_ = next_number_ = 0;
   return {};
 }
@@ -236,6 +244,7 @@ bool SerialDevice::take_frames(Block& block) {
   if (block.frames == 0) return false;
   block.host_before_ns = before_ns_;
   block.host_after_ns = after_ns_;
+  anchor_.came(next_number_, after_ns_);
   return true;
 }
 
@@ -283,15 +292,24 @@ Status SerialDevice::reopen() {
                   fmt::format("{}: is {} now, and was {}", path_, met->second.name, facts_.name));
     talk_ = std::move(met->first);
   }
-  if (!granted_) return {};
+  return granted_ ? go_on() : Status();
+}
+
+/// With the plan that it had, and, once frames have come, without waiting for the trigger.
+Status SerialDevice::go_on() {
   const bool ran = std::exchange(runs_, false);
-  auto granted = configure(wanted_);
+  const ScanPlan wanted = wanted_;
+  ScanPlan plan = wanted;
+  if (ran && next_number_ > 0) plan.trigger = Trigger::at_once;
+  auto granted = configure(plan);
+  wanted_ = wanted;
   runs_ = ran;
   if (!granted) return std::unexpected(granted.error());
   if (!ran) return {};
   if (auto s = begin(); !s) return s;
-  const double away_s = std::chrono::duration<double>(steady_clock::now() - started_).count();
-  first_number_ = std::max<std::int64_t>(next_number_, std::llround(away_s * granted_->plan.rate_hz));
+  if (plan.trigger != Trigger::at_once) return {};
+  first_number_ = anchor_.after_break(next_number_, after_ns_);
+  anchor_.begin(first_number_, after_ns_);
   return {};
 }
 

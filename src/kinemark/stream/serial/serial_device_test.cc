@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "kinemark/stream/serial/testing/pty_rig.h"
@@ -161,6 +163,83 @@ TEST_F(SerialDeviceTest, GoesOnWithAGapWhenTheRigIsBack) {
   ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
   EXPECT_TRUE(block_.gap || block_.first_frame == last + 1);
   EXPECT_GT(block_.first_frame, last);
+}
+
+TEST_F(SerialDeviceTest, SaysThatItIsGoneWhateverIsAskedOfIt) {
+  auto device = running();
+  rig_.unplug();
+  for (int again = 0; again < 2; ++again) {  // before and after it was looked for
+    EXPECT_EQ(device->read(block_, kLong).error().code, Code::device);
+    EXPECT_EQ(device->write_digital(0, true).error().code, Code::device);
+    EXPECT_EQ(device->write_analog(0, 1.0).error().code, Code::usage);  // which it never had
+    EXPECT_EQ(device->reopen().error().code, Code::device);
+  }
+  EXPECT_EQ(device->stop().error().code, Code::device);
+  EXPECT_TRUE(device->stop());
+  EXPECT_EQ(device->start().error().code, Code::device);
+  EXPECT_EQ(device->configure(two_leds()).error().code, Code::device);
+  EXPECT_EQ(device->start().error().code, Code::device);
+  rig_.plug_in();
+  ASSERT_TRUE(device->reopen());
+  EXPECT_TRUE(device->start());
+}
+
+TEST_F(SerialDeviceTest, SaysThatItIsGoneBeforeItWasLookedFor) {
+  auto device = running();
+  ASSERT_TRUE(device->stop());
+  rig_.unplug();
+  EXPECT_EQ(device->start().error().code, Code::device);
+  EXPECT_EQ(device->configure(two_leds()).error().code, Code::device);
+  EXPECT_EQ(device->write_digital(0, true).error().code, Code::device);
+}
+
+std::int64_t now_ns() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+TEST_F(SerialDeviceTest, MissesWhatPassedSinceTheLastFrameHoweverFastItsClockHadRun) {
+  auto device = running();
+  rig_.send_frames(49'999, 1);  // 500 s by its clock
+  ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+  const auto last_ns = block_.host_after_ns, next = block_.first_frame + 1;
+  rig_.unplug();
+  EXPECT_FALSE(device->read(block_, kLong));
+  rig_.plug_in();
+  ASSERT_TRUE(device->reopen());
+  const double most_s = 1e-9 * static_cast<double>(now_ns() - last_ns);
+  rig_.send_frames(0, 1);
+  ASSERT_EQ(device->read(block_, kLong), ReadResult::block);
+  EXPECT_TRUE(block_.gap);
+  EXPECT_GE(block_.first_frame, next + 1);
+  EXPECT_LE(block_.first_frame, next + 1 + std::llround(100.0 * most_s));
+}
+
+TEST_F(SerialDeviceTest, DoesNotWaitForItsTriggerInTheMiddleOfARecording) {
+  auto device = open_serial(rig_.path()).value();
+  auto plan = two_leds();
+  plan.trigger = Trigger::digital_line;
+  ASSERT_TRUE(device->configure(plan));
+  ASSERT_TRUE(device->start());
+  const auto come_back = [&] {
+    rig_.unplug();
+    EXPECT_FALSE(device->read(block_, kLong));
+    rig_.plug_in();
+    EXPECT_TRUE(device->reopen());
+    rig_.send_frames(0, 1);
+    EXPECT_EQ(device->read(block_, kLong), ReadResult::block);
+  };
+  const std::string waits = "plan 2 0 20000 624 128 416 1", goes_on = "plan 2 0 20000 624 128 416 0";
+  come_back();
+  rig_.wait_for(waits, 2);
+  EXPECT_EQ(block_.first_frame, 0);  // what passed before the trigger is not lost
+  EXPECT_FALSE(block_.gap);
+  come_back();
+  rig_.wait_for(goes_on);
+  EXPECT_GT(block_.first_frame, 1);
+  EXPECT_TRUE(block_.gap);
+  ASSERT_TRUE(device->stop());
+  ASSERT_TRUE(device->start());  // a new recording waits again
+  rig_.wait_for(waits, 3);
 }
 
 TEST_F(SerialDeviceTest, IsNotTakenForTheSameWhenAnotherComesBack) {

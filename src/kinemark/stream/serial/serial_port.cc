@@ -23,9 +23,7 @@ namespace {
 constexpr int kWriteMs = 1000;
 
 /// Raw bytes at 500,000 baud. The control line stays up when the program ends: boards restart when it falls.
-bool set_raw(int fd) {
-  termios line{};
-  if (tcgetattr(fd, &line) != 0) return false;
+bool set_raw(int fd, termios line) {
   cfmakeraw(&line);
   line.c_cflag |= CLOCAL | CREAD;
   line.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
@@ -47,14 +45,22 @@ int poll_one(int fd, short events, std::chrono::milliseconds timeout, short& fou
 
 SerialPort::SerialPort(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
 SerialPort::SerialPort(SerialPort&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)) {}
+    : fd_(std::exchange(other.fd_, -1)),
+      before_(other.before_),
+      is_alone_(other.is_alone_),
+      path_(std::move(other.path_)) {}
 SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
   std::swap(fd_, other.fd_);
+  std::swap(before_, other.before_);
+  std::swap(is_alone_, other.is_alone_);
   std::swap(path_, other.path_);
   return *this;
 }
 SerialPort::~SerialPort() {
-  if (fd_ >= 0) close(fd_);
+  if (fd_ < 0) return;
+  if (before_) tcsetattr(fd_, TCSANOW, &*before_);
+  if (is_alone_) ioctl(fd_, TIOCNXCL);
+  close(fd_);
 }
 
 Result<SerialPort> SerialPort::open(const std::string& path) {
@@ -63,8 +69,10 @@ Result<SerialPort> SerialPort::open(const std::string& path) {
   if (isatty(out.fd_) == 0) return fail(Code::device, fmt::format("{}: is no serial line", path));
   // The lock is for programs that ask, the other for those that do not.
   if (flock(out.fd_, LOCK_EX | LOCK_NB) != 0) return fail(Code::device, cannot_open(path, errno));
-  ioctl(out.fd_, TIOCEXCL);
-  if (!set_raw(out.fd_))
+  termios before{};
+  if (tcgetattr(out.fd_, &before) == 0) out.before_ = before;
+  out.is_alone_ = ioctl(out.fd_, TIOCEXCL) == 0;
+  if (!out.before_ || !set_raw(out.fd_, before))
     return fail(Code::device,
                 fmt::format("{}: cannot be set to 500,000 baud: {}", path, std::strerror(errno)));
   out.discard();

@@ -3,9 +3,12 @@
 // A serial line of this machine, held by this program alone.
 #pragma once
 
+#include <termios.h>
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +17,8 @@
 
 namespace kinemark::stream {
 
-/// An open line at 500,000 baud, 8 bits, no parity, as raw bytes. Failures have Code::device and name the
-/// path.
+/// An open line at 500,000 baud, 8 bits, no parity, as raw bytes; set as it was before once it closes, and
+/// free for others. Failures have Code::device and name the path.
 class SerialPort {
  public:
   /// Fails with what to do: absent, no permission (which group to join), in use (by whom), no serial line.
@@ -29,6 +32,9 @@ class SerialPort {
   [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout);
   /// All of it, within a second; by any thread.
   [[nodiscard]] Status write(std::string_view text) const;
+  /// The line stays as it is set when it closes: what was written last has to leave at this speed, and boards
+  /// restart when the control line falls.
+  void keep_setting() { before_.reset(); }
   /// Forget what came and was not read.
   void discard() const;
   [[nodiscard]] const std::string& path() const { return path_; }  ///< as it was opened
@@ -37,6 +43,8 @@ class SerialPort {
   SerialPort(int fd, std::string path);
   [[nodiscard]] std::unexpected<Error> unplugged() const;
   int fd_ = -1;
+  std::optional<termios> before_;  ///< as it was found
+  bool is_alone_ = false;          ///< others are kept out; not so of a line that another has
   std::string path_;
 };
 

@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinemark/stream/serial/serial_port.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 
+#include "kinemark/stream/serial/serial_device.h"
 #include "kinemark/stream/serial/testing/pty_rig.h"
 #include "support/scratch.h"
 
@@ -87,6 +92,86 @@ TEST(SerialPort, TellsASecondProgramWhoHasIt) {
   for (const int fd : {ready[0], ready[1], done[0], done[1]}) close(fd);
   waitpid(other, nullptr, 0);
   EXPECT_EQ(refusal(path), "opened");
+}
+
+/// A terminal that somebody else has open and that is no rig.
+class Terminal {
+ public:
+  Terminal() {
+    rig_.facts = "";
+    termios line = now();
+    line.c_lflag |= ICANON | ECHO;
+    line.c_cflag |= HUPCL;
+    cfsetspeed(&line, B9600);
+    tcsetattr(fd_, TCSANOW, &line);
+  }
+  ~Terminal() { close(fd_); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  [[nodiscard]] termios now() const {
+    termios line{};
+    EXPECT_EQ(tcgetattr(fd_, &line), 0);
+    return line;
+  }
+  [[nodiscard]] bool is_exclusive() const {
+    int out = 0;
+    EXPECT_EQ(ioctl(fd_, TIOCGEXCL, &out), 0);
+    return out != 0;
+  }
+  [[nodiscard]] std::string path() const { return rig_.path(); }
+
+ private:
+  testing_support::ScratchFolder scratch_;
+  testing::PtyRig rig_{scratch_ / "line"};
+  int fd_ = open(rig_.path().c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+};
+
+bool same(const termios& a, const termios& b) {
+  return a.c_iflag == b.c_iflag && a.c_oflag == b.c_oflag && a.c_cflag == b.c_cflag &&
+         a.c_lflag == b.c_lflag && std::equal(a.c_cc, a.c_cc + NCCS, b.c_cc) &&
+         cfgetospeed(&a) == cfgetospeed(&b);
+}
+
+TEST(SerialPort, LeavesALineAsItWasFound) {
+  const Terminal terminal;
+  const auto before = terminal.now();
+  {
+    auto port = SerialPort::open(terminal.path()).value();
+    const SerialPort moved = std::move(port);
+    EXPECT_FALSE(same(terminal.now(), before));
+    EXPECT_TRUE(terminal.is_exclusive());
+  }
+  EXPECT_TRUE(same(terminal.now(), before));
+  EXPECT_FALSE(terminal.is_exclusive());
+}
+
+TEST(SerialPort, LeavesATerminalAsItWasWhereNoRigAnswers) {
+  const Terminal terminal;
+  const auto before = terminal.now();
+  EXPECT_FALSE(open_serial(terminal.path()));
+  EXPECT_TRUE(same(terminal.now(), before));
+  EXPECT_FALSE(terminal.is_exclusive());
+}
+
+TEST(SerialPort, ASecondOpeningChangesNothingForTheFirst) {
+  const Terminal terminal;
+  const auto first = SerialPort::open(terminal.path()).value();
+  const auto set = terminal.now();
+  EXPECT_NE(refusal(terminal.path()), "opened");
+  EXPECT_TRUE(same(terminal.now(), set));
+  EXPECT_TRUE(terminal.is_exclusive());
+}
+
+TEST(SerialPort, KeepsTheSettingOfALineThatHasARig) {
+  const Terminal terminal;
+  termios set{};
+  {
+    auto port = SerialPort::open(terminal.path()).value();
+    port.keep_setting();
+    set = terminal.now();
+  }
+  EXPECT_TRUE(same(terminal.now(), set));
+  EXPECT_FALSE(terminal.is_exclusive());
 }
 
 TEST(SerialPort, SaysThatThePlugWasPulled) {
