@@ -63,7 +63,7 @@ void add_rate(const Levels& levels, std::vector<TrialNote>& out) {
                  false});
 }
 
-void add_missing(const RecorderProgress& progress, std::vector<TrialNote>& out) {
+void add_losses(const RecorderProgress& progress, std::vector<TrialNote>& out) {
   if (progress.dropped_by_device + progress.dropped_here == 0) {
     out.push_back({fmt::format("none of {} frames is missing", progress.frames)});
     return;
@@ -171,7 +171,7 @@ std::vector<TrialNote> check_up(const Recorded& recorded, const stream::GrantedP
   const Levels levels{recorded, granted.layout};
   std::vector<TrialNote> out;
   add_rate(levels, out);
-  add_missing(recorded.progress, out);
+  add_losses(recorded.progress, out);
   add_dark(levels, out);
   add_channels(levels, out);
   add_leds(levels, out);

@@ -239,28 +239,28 @@ struct Silence {
     device.rate_hz = rate_hz;
     device.play = [this](PlayedDevice& d, Block& block) -> Result<ReadResult> {
       if (d.next >= 100) return ReadResult::ended;
-      if (d.next != 50 || looks == 2) return d.give(block, 10);
+      if (d.next != 50 || tries == 2) return d.give(block, 10);
       clock->now += 100'000'000;
-      if (++timeouts == 1000) d.next = 100;  // nobody looks
+      if (++timeouts == 1000) d.next = 100;  // nobody tries
       return ReadResult::timeout;
     };
     device.come_back = [this](PlayedDevice& d) -> Status {
-      if (++looks == 1) return fail(Code::device, "played: no rig answers");
+      if (++tries == 1) return fail(Code::device, "played: no rig answers");
       d.next = 70;
       return {};
     };
   }
   std::shared_ptr<HandClock> clock = std::make_shared<HandClock>();
   PlayedDevice device;
-  int timeouts = 0, looks = 0;
+  int timeouts = 0, tries = 0;
 };
 
-TEST_F(Recording, LooksForADeviceThatFellSilentOnAnOpenLine) {
+TEST_F(Recording, SeeksADeviceThatFellSilentOnAnOpenLine) {
   Silence silence;
   const auto done = record(silence.device, {.clock = silence.clock});
   EXPECT_EQ(done.end, RecorderEnd::complete);
   EXPECT_EQ(silence.timeouts, 21);  // of 100 ms
-  EXPECT_EQ(silence.looks, 2);
+  EXPECT_EQ(silence.tries, 2);
   EXPECT_EQ(done.progress.reopened, 1);
   EXPECT_FALSE(done.progress.away);
   EXPECT_EQ(done.progress.dropped_by_device, 20);
@@ -280,7 +280,7 @@ TEST_F(Recording, LetsADeviceBeSilentThatMay) {
   waits_for_trigger.device.next = 50;
   for (auto* one : {&paused, &without_clock, &waits_for_trigger}) {
     const auto done = record(one->device, {.recording = {.force = true}, .clock = one->clock});
-    EXPECT_EQ(one->looks, 0);
+    EXPECT_EQ(one->tries, 0);
     EXPECT_EQ(done.progress.reopened, 0);
   }
 }
