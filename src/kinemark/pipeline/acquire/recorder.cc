@@ -188,6 +188,7 @@ struct Recorder::State {
     shorten(std::min(passed.block.frames, limit - from));
     advance(from + passed.block.frames);
     received += passed.block.frames;
+    if (block.renumbered) clock_fit.restart();
     if (speed > 0.0) clock_fit.add(expected, block.host_after_ns);
     passed.block.first_frame -= first;
     hand_on();
