@@ -147,9 +147,10 @@ struct Recorder::State {
   }
 
   [[nodiscard]] Error silent() const {
-    return {Code::device,
-            fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
-                        device.capabilities().name)};
+    return fail(Code::device,
+                fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
+                            device.capabilities().name))
+        .error();
   }
 
   /// Look for a device that failed. false: it is given up, or nobody wants it any more.
