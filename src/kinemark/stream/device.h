@@ -91,7 +91,8 @@ struct Block {
   std::vector<std::uint8_t> flags;   ///< F x L x C, bits of data::CountFlag
   bool overflow = false;             ///< the device's own buffer ran over before this block
   bool gap = false;                  ///< frames are missing before first_frame, whoever lost them
-  bool saturated = false;            ///< one of these counts or more stands at the highest code
+  bool renumbered = false;  ///< first_frame is by the host's clock, since the device began to count again
+  bool saturated = false;   ///< one of these counts or more stands at the highest code
 };
 
 /// What read() found.

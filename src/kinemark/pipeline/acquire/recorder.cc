@@ -147,9 +147,10 @@ struct Recorder::State {
   }
 
   [[nodiscard]] Error silent() const {
-    return {Code::device,
-            fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
-                        device.capabilities().name)};
+    return fail(Code::device,
+                fmt::format("{}: gives no frames any more; look at its plug, or pull it and put it in again",
+                            device.capabilities().name))
+        .error();
   }
 
   /// Look for a device that failed. false: it is given up, or nobody wants it any more.
@@ -188,6 +189,7 @@ struct Recorder::State {
     shorten(std::min(passed.block.frames, limit - from));
     advance(from + passed.block.frames);
     received += passed.block.frames;
+    if (block.renumbered) clock_fit.restart();
     if (speed > 0.0) clock_fit.add(expected, block.host_after_ns);
     passed.block.first_frame -= first;
     hand_on();

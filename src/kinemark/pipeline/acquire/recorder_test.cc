@@ -194,6 +194,7 @@ TEST_F(Recording, CountsWhatAFullDiskDidNotTakeInThreads) {
     const FullDisk full(5000);
     const auto done = record(device, {.recording = {.force = true}});
     EXPECT_EQ(done.end, RecorderEnd::failed);
+    ASSERT_TRUE(done.error);
     EXPECT_THAT(done.error->message, HasSubstr("File too large"));
     EXPECT_GT(done.progress.acknowledged, 0);
     EXPECT_GT(done.progress.dropped_here, 0);
@@ -290,6 +291,7 @@ TEST_F(Recording, GivesUpADeviceThatIsFoundAgainAndStaysSilent) {
   silence.device.come_back = [](PlayedDevice&) { return Status(); };
   const auto done = record(silence.device, {.give_up_s = 5.0, .clock = silence.clock});
   EXPECT_EQ(done.end, RecorderEnd::failed);
+  ASSERT_TRUE(done.error);
   EXPECT_THAT(done.error->message, HasSubstr("played: gives no frames any more"));
   EXPECT_EQ(done.progress.acknowledged, 50);
 }
@@ -399,6 +401,23 @@ TEST_F(Recording, FindsTheRateOfTheDevicesClock) {
   ASSERT_TRUE(done.clock);
   EXPECT_NEAR(done.clock->ppm_fast, 300.0, 0.01);
   EXPECT_NE(value(io::read_counts(file_).value(), "acquisition_end", "clock_rate_hz"), "absent");
+}
+
+TEST_F(Recording, FindsTheRateOfAClockWhoseFramesWereNumberedAnew) {
+  PlayedDevice device(1.0);
+  std::int64_t real = 0;  // frames by the device's clock, which numbers that the host gives do not follow
+  device.play = [&](PlayedDevice& d, Block& block) -> Result<ReadResult> {
+    block.renumbered = real == 2000 || real == 4000;
+    if (block.renumbered) d.next += 7;
+    const auto result = d.give(block, 1);
+    block.host_after_ns = std::llround(static_cast<double>(++real) * 1e7 / 1.0003);
+    return result;
+  };
+  const auto done = record(device, {.frames = 6014, .ring_s = 100.0});
+  ASSERT_TRUE(done.clock);
+  EXPECT_NEAR(done.clock->ppm_fast, 300.0, 0.01);
+  EXPECT_NEAR(done.clock->span_s, 20.0, 1.0);
+  EXPECT_EQ(done.progress.reopened, 0);
 }
 
 TEST_F(Recording, MakesNoFileWhereItCannotStart) {

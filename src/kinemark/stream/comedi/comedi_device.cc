@@ -13,7 +13,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "kinemark/core/check.h"
 #include "kinemark/stream/comedi/comedi_plan.h"
 #include "kinemark/stream/internal/device_file.h"
+#include "kinemark/stream/internal/frame_anchor.h"
 
 namespace kinemark::stream {
 namespace {
@@ -169,12 +169,12 @@ class ComediDevice final : public Device {
   std::optional<GrantedPlan> granted_;
   ScanPlan wanted_;
   ScanClock clock_;
-  bool runs_ = false, overflow_ = false;
+  bool runs_ = false, overflow_ = false, renumbered_ = false;
   std::vector<std::byte> bytes_;   // samples of frames that are not whole
   std::int64_t first_number_ = 0;  // of the next frame since scans last began
   std::int64_t next_number_ = 0;   // that is expected
   std::int64_t before_ns_ = 0, after_ns_ = 0;
-  steady_clock::time_point started_;
+  FrameAnchor anchor_{1.0};
 };
 
 Result<GrantedPlan> ComediDevice::configure(const ScanPlan& wanted) {
@@ -210,9 +210,10 @@ Status ComediDevice::start() {
   check(granted_.has_value() && !runs_, "a board starts with a plan, and once");
   if (!open_.board) return gone();
   if (auto s = begin(); !s) return s;
-  started_ = steady_clock::now();
+  anchor_ = FrameAnchor(granted_->plan.rate_hz);
+  anchor_.begin(0, after_ns_);
   first_number_ = next_number_ = 0;
-  overflow_ = false;
+  overflow_ = renumbered_ = false;
   return {};
 }
 
@@ -220,8 +221,9 @@ Status ComediDevice::start() {
 Status ComediDevice::begin_again() {
   comedi_cancel(open_.board.get(), static_cast<unsigned>(open_.inputs));
   if (auto s = begin(); !s) return s;
-  const double away_s = std::chrono::duration<double>(steady_clock::now() - started_).count();
-  first_number_ = std::max<std::int64_t>(next_number_, std::llround(away_s * granted_->plan.rate_hz));
+  first_number_ = anchor_.after_break(next_number_, after_ns_);
+  anchor_.begin(first_number_, after_ns_);
+  renumbered_ = true;
   return {};
 }
 
@@ -236,6 +238,7 @@ bool ComediDevice::take_frames(Block& block) {
   block.first_frame = first_number_;
   block.gap = first_number_ != next_number_;
   block.overflow = std::exchange(overflow_, false);
+  block.renumbered = std::exchange(renumbered_, false);
   first_number_ += block.frames;
   next_number_ = first_number_;
   for (std::size_t i = 0; i < block.counts.size(); i += 4) {
@@ -246,6 +249,7 @@ bool ComediDevice::take_frames(Block& block) {
   }
   block.host_before_ns = before_ns_;
   block.host_after_ns = after_ns_;
+  anchor_.came(next_number_, after_ns_);
   return true;
 }
 
@@ -278,14 +282,15 @@ Result<ReadResult> ComediDevice::read(Block& block, milliseconds timeout) {
   block.dark.clear();
   block.flags.clear();
   block.frames = 0;
-  block.overflow = block.gap = block.saturated = false;
+  block.overflow = block.gap = block.renumbered = block.saturated = false;
   if (!open_.board) return gone();
   const auto deadline = steady_clock::now() + timeout;
   while (!take_frames(block)) {
     const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
     const auto came = take_samples(std::max(milliseconds(0), left));
     if (!came) return std::unexpected(came.error());
-    if (!*came && steady_clock::now() >= deadline) return ReadResult::timeout;
+    // Whatever came: a board may stop at once each time that it begins.
+    if (steady_clock::now() >= deadline) return take_frames(block) ? ReadResult::block : ReadResult::timeout;
   }
   return ReadResult::block;
 }
