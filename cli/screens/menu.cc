@@ -28,7 +28,7 @@ Form plan_form(const Wanted& wanted) {
 }  // namespace
 
 Menu::Menu(pipeline::Desk& desk, Wanted wanted)
-    : session_(desk, wanted),
+    : session_(desk, std::move(wanted)),
       address_({{"Source", "", "sim:rig, replay:FILE, serial:/dev/ttyACM0, comedi:/dev/comedi0"}}),
       plan_(plan_form(session_.state().wanted)) {}
 

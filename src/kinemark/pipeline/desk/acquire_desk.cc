@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "kinemark/pipeline/acquire/acquire_job.h"
@@ -209,7 +210,7 @@ Status AcquireDesk::record(const TrialName& name) {
   options.file = trial_;
   options.recording = files_.recording;
   options.metadata = about(name);
-  options.frames = static_cast<std::int64_t>(name.duration_s * granted_.plan.rate_hz + 0.5);
+  options.frames = std::llround(name.duration_s * granted_.plan.rate_hz);
   if (const auto started = start(std::move(options)); !started) {
     if (const auto again = start({}); !again) trouble_ = again.error().message;
     return started;

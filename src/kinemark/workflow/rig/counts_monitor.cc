@@ -54,7 +54,7 @@ std::size_t CountsMonitor::index(int led, int camera) const {
 
 Eigen::Vector4d CountsMonitor::light(const Frame& frame, int led, int camera) const {
   using Channels = Eigen::Map<const Eigen::Matrix<std::int16_t, 4, 1>>;
-  const Eigen::Vector4d counts = Channels(frame.counts.data() + 4 * index(led, camera)).cast<double>();
+  Eigen::Vector4d counts = Channels(frame.counts.data() + 4 * index(led, camera)).cast<double>();
   if (frame.dark.empty()) return counts;
   return counts - Channels(frame.dark.data() + 4 * static_cast<std::size_t>(camera)).cast<double>();
 }
