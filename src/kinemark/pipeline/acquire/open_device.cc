@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -24,12 +25,12 @@ using Opened = Result<std::unique_ptr<stream::Device>>;
 /// A kind of device: its addresses, how one is opened, and those that are there.
 struct Kind {
   std::string_view scheme, address;
-  Opened (*open)(DeviceSettings settings, std::uint64_t seed, Clock clock);
+  Opened (*open)(DeviceSettings& settings, std::uint64_t seed, const Clock& clock);
   std::vector<stream::DeviceInfo> (*enumerate)();
 };
 
-Opened open_sim(DeviceSettings settings, std::uint64_t seed, Clock clock) {
-  if (settings.what() == "rig") return open_sim_rig(std::move(settings), seed, std::move(clock));
+Opened open_sim(DeviceSettings& settings, std::uint64_t seed, const Clock& clock) {
+  if (settings.what() == "rig") return open_sim_rig(std::move(settings), seed, clock);
   return fail(Code::usage, fmt::format("{}: is no simulated device that gives counts; there is sim:rig",
                                        printable(settings.uri(), 200)));
 }
@@ -38,15 +39,15 @@ std::vector<stream::DeviceInfo> find_sim() {
   return {{.uri = "sim:rig", .name = "simulated rig of 1986", .state = ""}};
 }
 
-Opened open_replay(DeviceSettings settings, std::uint64_t /*seed*/, Clock clock) {
-  return ReplayDevice::open(std::move(settings), std::move(clock));
+Opened open_replay(DeviceSettings& settings, std::uint64_t /*seed*/, const Clock& clock) {
+  return ReplayDevice::open(std::move(settings), clock);
 }
 
 std::vector<stream::DeviceInfo> find_none() { return {}; }
 
 /// The device behind a path, "/dev/ttyACM0", which takes no settings.
 template <Opened (*open)(const std::string&)>
-Opened open_path(DeviceSettings settings, std::uint64_t /*seed*/, Clock /*clock*/) {
+Opened open_path(DeviceSettings& settings, std::uint64_t /*seed*/, const Clock& /*clock*/) {
   if (auto s = settings.check(); !s) return std::unexpected(s.error());
   return open(settings.what());
 }
@@ -67,7 +68,7 @@ Opened open_device(std::string_view uri, std::uint64_t seed, Clock clock) {
   if (clock == nullptr) clock = std::make_shared<stream::SteadyHostClock>();
   std::string addresses;
   for (const auto& kind : kKinds) {
-    if (kind.scheme == settings.scheme()) return kind.open(std::move(settings), seed, std::move(clock));
+    if (kind.scheme == settings.scheme()) return kind.open(settings, seed, clock);
     addresses += fmt::format("{}{}", addresses.empty() ? "" : ", ", kind.address);
   }
   return fail(Code::usage,
@@ -76,8 +77,8 @@ Opened open_device(std::string_view uri, std::uint64_t seed, Clock clock) {
 
 std::vector<stream::DeviceInfo> enumerate_devices() {
   std::vector<stream::DeviceInfo> out;
-  for (auto kind = kKinds.rbegin(); kind != kKinds.rend(); ++kind)
-    for (auto& device : kind->enumerate()) out.push_back(std::move(device));
+  for (const auto& kind : std::views::reverse(kKinds))
+    for (auto& device : kind.enumerate()) out.push_back(std::move(device));
   return out;
 }
 
