@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,7 +20,6 @@
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/desk/acquire_desk.h"
-#include "kinemark/pipeline/desk/plan_text.h"
 #include "kinemark/pipeline/files/json_text.h"
 
 namespace kinemark::cli {
@@ -31,29 +29,11 @@ constexpr EnumNames<io::SyncPolicy::always> kSync{"never", "background", "always
 
 struct AcquireArguments {
   pipeline::AcquireJob job;
-  std::string leds, begin, sync = "background";
+  std::string begin, sync = "background";
   std::vector<std::string> intensity;
   std::filesystem::path rig;  ///< that the cameras are aligned with, in the menus
   bool list = false;
 };
-
-constexpr double kMostLeds = 64.0;
-
-/// "4" for as many, or "hand,wrist" for these.
-Status take_leds(const std::string& text, pipeline::AcquireJob& job) {
-  if (text.empty()) return {};
-  if (const auto count = parse_number(text)) {
-    if (!(*count >= 1.0 && *count <= kMostLeds) || *count != std::floor(*count))
-      return fail(Code::usage, fmt::format("--leds: {} LEDs; need a whole number from 1 to {:g}, or names",
-                                           text, kMostLeds));
-    job.led_count = static_cast<int>(*count);
-    return {};
-  }
-  auto names = pipeline::parse_leds(text);
-  if (!names) return fail(Code::usage, "--" + names.error().message);
-  job.leds = std::move(*names);
-  return {};
-}
 
 Status take_intensity(const std::vector<std::string>& given, pipeline::AcquireJob& job) {
   for (const auto& text : given) {
@@ -80,7 +60,6 @@ Status complete(AcquireArguments& arguments) {
     if (!begin) return std::unexpected(begin.error());
     job.begin = *begin;
   }
-  if (auto s = take_leds(arguments.leds, job); !s) return s;
   return take_intensity(arguments.intensity, job);
 }
 
@@ -161,7 +140,7 @@ int acquire_by_hand(const CommonOptions& common, const AcquireArguments& argumen
   pipeline::Wanted wanted;
   wanted.source = arguments.job.source;
   wanted.subject = arguments.job.subject;
-  wanted.leds = arguments.leds;
+  wanted.leds = arguments.job.leds;
   if (!arguments.job.trial.empty()) wanted.trial = arguments.job.trial;
   if (arguments.job.rate_hz > 0.0) wanted.rate_hz = format_number(arguments.job.rate_hz);
   if (arguments.job.duration_s > 0.0) wanted.duration_s = format_number(arguments.job.duration_s);
@@ -198,7 +177,7 @@ int acquire(const CommonOptions& common, AcquireArguments& arguments) {
 
 void add_plan_options(CLI::App& command, AcquireArguments& arguments) {
   auto& job = arguments.job;
-  command.add_option("--leds", arguments.leds, "How many LEDs to light, or their names with commas between")
+  command.add_option("--leds", job.leds, "How many LEDs to light, or their names with commas between")
       ->type_name("N|NAMES");
   command.add_option("--rate", job.rate_hz,
                      "Frames per second; the highest that device and LEDs allow when absent");

@@ -42,14 +42,13 @@ Result<std::unique_ptr<DeskParts>> open_desk(const CommonOptions& common, const 
     if (!wanted_rig) return std::unexpected(wanted_rig.error());
     files.wanted_rig = std::move(*wanted_rig);
   }
-  desk = std::make_unique<pipeline::AcquireDesk>(std::move(files));
+  auto acquire_desk = std::make_unique<pipeline::AcquireDesk>(std::move(files));
   pipeline::Wanted wanted;
   wanted.source = uri;
-  session = std::make_unique<pipeline::DeskSession>(*desk, wanted);
-  if (session->state().step != pipeline::DeskStep::source) return parts;
-  // The session has words for it alone; the exit status follows from the error.
-  const auto again = desk->open(uri);
-  return again ? fail(Code::device, session->state().message) : std::unexpected(again.error());
+  session = std::make_unique<pipeline::DeskSession>(*acquire_desk, wanted);
+  if (const auto& failure = acquire_desk->failure()) return std::unexpected(*failure);
+  desk = std::move(acquire_desk);
+  return parts;
 }
 
 int serve_desk(const CommonOptions& common, server::HttpServer& http, server::Keys keys, DeskParts& parts) {

@@ -159,7 +159,7 @@ Json desk_json(const pipeline::DeskState& state) {
   Json sources = Json::array(), check = Json::array();
   for (const auto& [uri, name, why] : state.sources)
     sources.push_back({{"uri", uri}, {"name", name}, {"state", why}});
-  for (const auto& [good, text] : state.check) check.push_back({{"good", good}, {"text", text}});
+  for (const auto& [text, good] : state.check) check.push_back({{"good", good}, {"text", text}});
   const bool is_open = state.step != DeskStep::source && state.step != DeskStep::ended;
   const bool runs = is_open && state.step != DeskStep::plan;
   const auto& wanted = state.wanted;

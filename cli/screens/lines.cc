@@ -4,32 +4,38 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "kinemark/core/number.h"
 #include "kinemark/core/utf8.h"
-#include "kinemark/pipeline/desk/plan_text.h"
+#include "kinemark/pipeline/desk/desk_session.h"
 
 namespace kinemark::screens {
 namespace {
 
 constexpr int kTick_ms = 100;  // between two looks at a trial that is recorded
 
+using pipeline::DeskStep;
+
 class Dialogue {
  public:
-  Dialogue(pipeline::Desk& desk, pipeline::Wanted wanted, const LineTerminal& terminal)
-      : desk_(desk), wanted_(std::move(wanted)), terminal_(terminal) {}
+  Dialogue(pipeline::Desk& desk, const pipeline::Wanted& wanted, const LineTerminal& terminal)
+      : session_(desk, wanted), terminal_(terminal) {}
 
   std::vector<std::string> run() {
-    while (open() && set_up())
-      if (!trials()) break;
-    desk_.close();
-    return kept_;
+    say_message();
+    while (choose_source() && set_up() && record_trials()) {
+      session_.set_up();
+      session_.leave_source();
+    }
+    session_.leave();
+    return state().kept;
   }
 
  private:
+  [[nodiscard]] const pipeline::DeskState& state() const { return session_.state(); }
   // The line that was typed, or what stands in brackets; nothing at the end of the input.
   std::optional<std::string> ask(const std::string& question, const std::string& otherwise) {
     terminal_.write(question + (otherwise.empty() ? "" : " [" + otherwise + "]") + ": ");
@@ -39,112 +45,91 @@ class Dialogue {
     return text.empty() ? otherwise : text;
   }
   void say(const std::string& sentence) { terminal_.write(printable_sentence(sentence) + "\n"); }
+  void say_message() {
+    if (!state().message.empty()) say(state().message);
+  }
 
-  bool open() {
-    std::string uri = std::exchange(wanted_.source, {});
-    while (true) {
-      if (uri.empty()) {
-        const auto sources = desk_.sources();
-        for (std::size_t i = 0; i < sources.size(); ++i)
-          say(fmt::format("{}  {}  {}", i + 1, sources[i].uri,
-                          sources[i].state.empty() ? sources[i].name : sources[i].state));
-        const auto typed = ask("Source, a number or an address; q ends", sources.empty() ? "" : "1");
-        if (!typed || *typed == "q") return false;
-        const auto number = parse_number(*typed);
-        const bool listed = number && *number >= 1 && *number <= static_cast<double>(sources.size()) &&
-                            *number == std::floor(*number);
-        uri = listed ? sources[static_cast<std::size_t>(*number) - 1].uri : *typed;
-      }
-      const auto device = desk_.open(uri);
-      if (device) {
-        device_ = *device;
-        if (wanted_.leds.empty()) wanted_.leds = std::to_string(std::max(device_.most_leds, 1));
-        return true;
-      }
-      say(device.error().message);
-      uri.clear();
+  // false: the person leaves.
+  bool choose_source() {
+    while (state().step == DeskStep::source) {
+      session_.look_for_sources();
+      const auto& sources = state().sources;
+      for (std::size_t i = 0; i < sources.size(); ++i)
+        say(fmt::format("{}  {}  {}", i + 1, sources[i].uri,
+                        sources[i].state.empty() ? sources[i].name : sources[i].state));
+      const auto typed = ask("Source, a number or an address; q ends", sources.empty() ? "" : "1");
+      if (!typed || *typed == "q") return false;
+      const auto number = parse_number(*typed);
+      const bool listed = number && *number >= 1 && *number <= static_cast<double>(sources.size()) &&
+                          *number == std::floor(*number);
+      session_.open(listed ? sources[static_cast<std::size_t>(*number) - 1].uri : *typed);
+      say_message();
     }
+    return true;
   }
 
   bool set_up() {
-    while (true) {
-      for (const auto& [question, value] :
-           {std::pair{"LEDs, how many or their names", &wanted_.leds},
-            {"Rate, Hz; empty: the highest", &wanted_.rate_hz},
-            {"Duration of a trial, s; empty: until Enter", &wanted_.duration_s},
-            {"Subject", &wanted_.subject}}) {
+    while (state().step == DeskStep::plan) {
+      pipeline::Wanted lines = state().wanted;
+      for (const auto& [question, value] : {std::pair{"LEDs, how many or their names", &lines.leds},
+                                            {"Rate, Hz; empty: the highest", &lines.rate_hz},
+                                            {"Duration of a trial, s; empty: until Enter", &lines.duration_s},
+                                            {"Subject", &lines.subject}}) {
         const auto typed = ask(question, *value);
         if (!typed) return false;
         *value = *typed;
       }
-      const auto plan = pipeline::plan_of(wanted_, device_);
-      const auto granted = plan ? desk_.run(plan->scan) : std::unexpected(plan.error());
-      if (granted) {
-        duration_s_ = plan->duration_s;
-        say(fmt::format("{} LEDs, {} cameras, {:.4g} Hz", granted->plan.leds.size(),
-                        granted->plan.cameras.size(), granted->plan.rate_hz));
-        return true;
-      }
-      say(granted.error().message);
+      session_.start(std::move(lines));
+      say_message();
     }
+    const auto& plan = state().granted.plan;
+    say(fmt::format("{} LEDs, {} cameras, {:.4g} Hz", plan.leds.size(), plan.cameras.size(), plan.rate_hz));
+    return true;
   }
 
   // Whether another source is wanted.
-  bool trials() {
+  bool record_trials() {
     while (true) {
-      const auto name = ask("Name of the next trial; s another source, q ends", wanted_.trial);
+      const auto name = ask("Name of the next trial; s another source, q ends", state().wanted.trial);
       if (!name || *name == "q") return false;
       if (*name == "s") return true;
-      wanted_.trial = *name;
-      if (const auto begun = desk_.record({wanted_.subject, wanted_.trial, duration_s_}); !begun) {
-        say(begun.error().message);
-        continue;
-      }
-      if (!record()) return false;
+      session_.name_trial(*name);
+      session_.record();
+      if (state().step == DeskStep::live) say_message();
+      if (state().step == DeskStep::recording && !wait_for_its_end()) return false;
+      if (state().step == DeskStep::check && !judge()) return false;
     }
   }
 
   // Whether the input goes on.
-  bool record() {
-    say(duration_s_ > 0.0 ? fmt::format("Recording for {:g} s; Enter stops", duration_s_)
-                          : "Recording; Enter stops");
-    TypedLine line;
-    while (line.kind == TypedLine::Kind::nothing) {
-      const pipeline::LiveView live = desk_.live();
-      if (live.ended || (duration_s_ > 0.0 && live.recorded_s >= duration_s_)) break;
-      line = terminal_.read(kTick_ms);
+  bool wait_for_its_end() {
+    say(state().duration_s > 0.0 ? fmt::format("Recording for {:g} s; Enter stops", state().duration_s)
+                                 : "Recording; Enter stops");
+    std::string said;
+    while (state().step == DeskStep::recording) {
+      const TypedLine line = terminal_.read(kTick_ms);
+      if (line.kind == TypedLine::Kind::closed) return false;
+      if (line.kind == TypedLine::Kind::line) session_.stop();
+      session_.tick();
+      if (state().message != std::exchange(said, state().message)) say_message();
     }
-    const auto check = desk_.stop();
-    if (!check) say(check.error().message);
-    if (check)
-      for (const pipeline::CheckLine& found : *check) say((found.good ? "  " : "! ") + found.text);
-    if (line.kind == TypedLine::Kind::closed) return keep(), false;
+    return true;
+  }
+
+  bool judge() {
+    for (const auto& note : state().check) say((note.good ? "  " : "! ") + note.text);
     const auto answer = ask("k keep, d discard", "k");
-    if (answer && *answer == "d")
-      discard();
+    if (!answer) return false;
+    if (*answer == "d")
+      session_.discard();
     else
-      keep();
-    return answer.has_value();
+      session_.keep();
+    say_message();
+    return true;
   }
 
-  void keep() {
-    const auto file = desk_.keep();
-    if (!file) return say(file.error().message);
-    kept_.push_back(*file);
-    say("Kept: " + *file);
-    wanted_.trial = pipeline::next_trial(wanted_.trial);
-  }
-  void discard() {
-    const auto gone = desk_.discard();
-    say(gone ? "Discarded: " + wanted_.trial : gone.error().message);
-  }
-
-  pipeline::Desk& desk_;
-  pipeline::Wanted wanted_;
+  pipeline::DeskSession session_;
   const LineTerminal& terminal_;
-  stream::DeviceCapabilities device_;
-  double duration_s_ = 0.0;
-  std::vector<std::string> kept_;
 };
 
 }  // namespace

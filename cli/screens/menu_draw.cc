@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/screens/menu.h"
+#include "kinemark/pipeline/acquire/led_names.h"
 
 namespace kinemark::screens {
 namespace {
@@ -144,7 +145,7 @@ void Menu::draw_plan(Canvas& canvas) const {
                   : fmt::format("{}: lights no LEDs, {} cameras, {} bits", state().device.name,
                                 state().device.cameras, state().device.bits),
               Ink::dim);
-  const auto leds = pipeline::parse_leds(plan_.value(0));
+  const auto leds = pipeline::parse_leds(plan_.value(0), state().device);
   if (!leds) return;
   const int count = static_cast<int>(leds->size());
   const data::SlotTiming timing = stream::usual_timing(state().device);

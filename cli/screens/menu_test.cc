@@ -226,7 +226,7 @@ TEST(Menu, WrongLinesOfTheSetUpAreNamed) {
   Wanted unnamed = rig_at();
   unnamed.trial = " ";
   for (const auto& [wanted, said] :
-       std::vector<std::pair<Wanted, std::string>>{{rig_at("0"), "no count from 1"},
+       std::vector<std::pair<Wanted, std::string>>{{rig_at("0"), "no whole number from 1"},
                                                    {rig_at("a,,b"), "a name is missing"},
                                                    {rig_at("a, a"), "named twice"},
                                                    {rig_at("3", "fast"), "Rate: 'fast' is no number above 0"},

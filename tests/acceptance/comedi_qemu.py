@@ -26,11 +26,13 @@ from rows import PROGRAM, exit_status, row
 BIN = Path(PROGRAM).parent
 KEPT = BIN.parent / "comedi_kernel"  # the kernel's package, unpacked
 RATE_HZ = 1000
+PROGRAM_FRAMES = 3000  # that kinemark acquire records
 OVERRUN_HZ = 40_000  # 640 kB/s: the kernel's 2 MB run over within 5 s
 INIT = """#!/bin/sh
 B=/bin/busybox
 $B mount -t proc proc /proc; $B mount -t sysfs sys /sys; $B mount -t devtmpfs dev /dev
 $B insmod /m/comedi.ko comedi_default_buf_maxsize_kb=2048 && $B insmod /m/comedi_test.ko
+/kinemark acquire comedi:/dev/comedi0 -o /tmp/trial.mcap --rate RATE --frames FRAMES --json --quiet
 /comedi_tool ARGUMENTS
 echo DONE
 $B poweroff -f
@@ -59,16 +61,16 @@ def make_root(folder, modules, arguments):
         (root / name).mkdir(parents=True)
     shutil.copy("/bin/busybox", root / "bin/busybox")
     (root / "bin/sh").symlink_to("busybox")
-    tool = BIN / "comedi_tool"
-    shutil.copy(tool, root / "comedi_tool")
-    for library in re.findall(r"(/\S+) \(0x", subprocess.run(["ldd", tool], capture_output=True, text=True, check=True).stdout):
-        target = root / library[1:]
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(library, target)
+    for program in (BIN / "comedi_tool", Path(PROGRAM)):
+        shutil.copy(program, root / program.name)
+        for library in re.findall(r"(/\S+) \(0x", subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout):
+            target = root / library[1:]
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(library, target)
     for module in modules:
         shutil.copy(module, root / "m")
     init = root / "init"
-    init.write_text(INIT.replace("ARGUMENTS", arguments))
+    init.write_text(INIT.replace("ARGUMENTS", arguments).replace("RATE", str(RATE_HZ)).replace("FRAMES", str(PROGRAM_FRAMES)))
     init.chmod(0o755)
     names = "\n".join(str(p.relative_to(root)) for p in sorted(root.rglob("*"))) + "\n"
     archive = subprocess.run(["cpio", "-o", "-H", "newc", "--quiet"], cwd=root, input=names.encode(), capture_output=True, check=True).stdout
@@ -92,7 +94,8 @@ def run_machine(folder, seconds, times):
         at = line.find('{"')
         if at >= 0:
             one = json.loads(line[at:])
-            said.setdefault(one.get("what", "error"), []).append(one)
+            what = "acquired" if "acknowledged" in one else one.get("what", "error")
+            said.setdefault(what, []).append(one)
     if "DONE" not in ran.stdout or "error" in said:
         raise SystemExit(f"the machine did not end as it should: {ran.stdout[-2000:]}{ran.stderr[-500:]}")
     return said, wall_s
@@ -108,6 +111,9 @@ def main():
         said, wall_s = run_machine(Path(name), seconds, times)
     board = said["board"][0]
     row(board["cameras"] == 2 and board["listed"] == 1 and "has it; end that first" in board["second"], "comedi_test: a board of two cameras; a second opening is told who has it", "2", f"{board['name']}: {board['second']}")
+    acquired = said["acquired"][-1]
+    row(acquired.get("ended") == "complete" and acquired["acknowledged"] == PROGRAM_FRAMES and acquired["dropped_by_device"] == acquired["dropped_here"] == 0,
+        "kinemark acquire comedi: in the machine", f"{PROGRAM_FRAMES} frames, 0 lost", f"{acquired['acknowledged']} frames, {acquired['dropped_by_device'] + acquired['dropped_here']} lost")
     steady = said["steady"]
     good = [s for s in steady if s["frames"] == s["last"] + 1 >= seconds * RATE_HZ and s["lost"] == s["uneven"] == 0]
     row(len(good) == times, f"8 inputs at 1 kHz, {times} starts and stops of {seconds} s: every sample, in order", f"{times} x {seconds * RATE_HZ} frames",

@@ -121,6 +121,18 @@ def check_counts(folder, seconds):
     row(pins["two_lit"] == 0, "no two LEDs lit at once", "0", f"{pins['two_lit']}")
 
 
+def check_program(folder):
+    """The program itself, by the address that its list shows."""
+    simulate(folder / "two", SEED, "--leds", "2", "--rate", 100, "--duration", 1)
+    truth = counts_of(folder / "two/recording.mcap")
+    with chip(folder, folder / "two/recording.mcap") as one:
+        said = json.loads(output("acquire", f"serial:{one.line}", "-o", folder / "two.mcap", "--leds", "2", "--rate", 100, "--frames", len(truth), "--json", "--quiet").splitlines()[-1])
+    got = counts_of(folder / "two.mcap")
+    wrong = differing(got, range(len(got)), truth)
+    row(wrong == 0 and len(got) == said["acknowledged"] == len(truth) and said["dropped_by_device"] == said["dropped_here"] == 0,
+        "kinemark acquire serial: every count is the model's", f"{len(truth)} frames, 0 lost", f"{len(got) - wrong}, {said['dropped_by_device'] + said['dropped_here']} lost")
+
+
 def diameter_of(counts, scan, folder):
     """Error of the wheel's diameter and its SD, mm, by a rig that is calibrated from a scan."""
     output("calibrate", scan, "--nominal", folder / "rig_nominal.toml", "--method", "scan", "-o", folder / "rig.toml", "--quiet")
@@ -236,6 +248,7 @@ def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as name:
         folder = Path(name)
         check_counts(folder, seconds)
+        check_program(folder)
         check_wheel(folder, seconds)
         check_faults(folder, seconds)
         check_stall(folder)

@@ -94,9 +94,9 @@ class Acquire(CommandTest):
     def test_what_cannot_be_is_refused_with_what_can(self):
         for words, said in (
             ((FAST, "-o", "t.mcap", "--rate", 300), "276.5 frames per second at most"),
-            ((FAST, "-o", "t.mcap", "--leds", 5), "it has 4"),
+            ((FAST, "-o", "t.mcap", "--leds", 5), "5 were asked for; the device has 4"),
             ((FAST, "-o", "t.mcap", "--leds", "a,,b"), "a name is missing"),
-            ((FAST, "-o", "t.mcap", "--leds", "0"), "a whole number from 1 to 64"),
+            ((FAST, "-o", "t.mcap", "--leds", "0"), "no whole number from 1 to 64"),
             ((FAST, "-o", "t.mcap", "--trigger", "digital"), "no digital line"),
             ((FAST, "-o", "t.mcap", "--trigger", "now"), "none of key"),
             ((FAST, "-o", "t.mcap", "--intensity", "hand"), "neither a number"),
@@ -107,8 +107,8 @@ class Acquire(CommandTest):
             ((FAST,), "--output"),
             (("-o", "t.mcap"), "--list"),
             ((FAST, "-o", "t.mcap", "--rig", "rig.toml"), "--rig is for the menus"),
-            ((FAST, "-o", "t.mcap", "--leds", "1e300"), "a whole number from 1 to 64"),
-            ((FAST, "-o", "t.mcap", "--leds", "1.5"), "a whole number from 1 to 64"),
+            ((FAST, "-o", "t.mcap", "--leds", "1e300"), "no whole number from 1 to 64"),
+            ((FAST, "-o", "t.mcap", "--leds", "1.5"), "no whole number from 1 to 64"),
             ((FAST, "-o", "t.mcap", "--leds", "hand,hand"), "named twice"),
             (("--trigger", "key"), "--trigger is for a recording"),
             (("--force",), "--force is for a recording"),

@@ -14,8 +14,25 @@ namespace {
 using Eigen::Vector4d;
 
 constexpr double kStillFactor = 1.5, kStillCounts = 0.3;
+constexpr double kThirdDifference = 20.0;  // variance of one, in that of a frame
 
 }  // namespace
+
+void DifferenceNoise::add(std::int64_t frame, const Vector4d& counts) {
+  if (in_a_row_ > 0 && frame != last_frame_ + 1) in_a_row_ = 0;
+  if (in_a_row_ >= 3) {
+    squares_ += (counts - 3.0 * last_[0] + 3.0 * last_[1] - last_[2]).cwiseAbs2();
+    ++differences_;
+  }
+  last_ = {counts, last_[0], last_[1]};
+  last_frame_ = frame;
+  ++in_a_row_;
+}
+
+Vector4d DifferenceNoise::sd() const {
+  if (differences_ == 0) return Vector4d::Constant(kNaN);
+  return (squares_ / (kThirdDifference * static_cast<double>(differences_))).cwiseSqrt();
+}
 
 CountCheck::CountCheck(const data::Counts& like)
     : lit_(like.leds.size() * like.cameras.size()), dark_(like.dark_time_s.size() / 4) {}
@@ -25,12 +42,7 @@ void CountCheck::Running::add(std::int64_t frame, const std::int16_t* counts) {
   const Vector4d off = now - mean;
   mean += off / static_cast<double>(++frames);
   squares += off.cwiseProduct(now - mean);
-  if (frame == last_frame + 1) {
-    difference_squares += (now - last).cwiseAbs2();
-    ++differences;
-  }
-  last = now;
-  last_frame = frame;
+  noise.add(frame, now);
 }
 
 CountLevels CountCheck::Running::levels() const {
@@ -38,9 +50,7 @@ CountLevels CountCheck::Running::levels() const {
   if (frames == 0) out.mean.setConstant(kNaN);
   out.sd = frames > 1 ? Vector4d((squares / static_cast<double>(frames - 1)).cwiseSqrt())
                       : Vector4d::Constant(kNaN);
-  out.noise = differences > 0
-                  ? Vector4d((difference_squares / (2.0 * static_cast<double>(differences))).cwiseSqrt())
-                  : Vector4d::Constant(kNaN);
+  out.noise = noise.sd();
   out.still = ((out.sd - kStillFactor * out.noise).array() <= kStillCounts).all();
   return out;
 }

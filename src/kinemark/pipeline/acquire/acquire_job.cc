@@ -15,10 +15,11 @@
 #include "kinemark/core/text.h"
 #include "kinemark/core/version.h"
 #include "kinemark/pipeline/acquire/check_up.h"
-#include "kinemark/pipeline/acquire/device_settings.h"
+#include "kinemark/pipeline/acquire/led_names.h"
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/recording_room.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
+#include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/pipeline/files/output_check.h"
 
 namespace kinemark::pipeline {
@@ -45,12 +46,10 @@ Result<std::vector<double>> intensities(const AcquireJob& job, const std::vector
 }
 
 Result<stream::ScanPlan> wanted(const AcquireJob& job, const stream::DeviceCapabilities& device) {
-  stream::ScanPlan out{.leds = job.leds, .rate_hz = job.rate_hz, .timing = stream::usual_timing(device)};
-  if (job.led_count > device.most_leds && device.most_leds > 0)
-    return fail(Code::usage, fmt::format("{}: {} LEDs were asked for; it has {}", job.source, job.led_count,
-                                         device.most_leds));
-  if (out.leds.empty())
-    out.leds = stream::own_names(device.leds, job.led_count > 0 ? job.led_count : device.most_leds, false);
+  auto leds = parse_leds(job.leds, device);
+  if (!leds) return fail_at(job.source, leds.error());
+  stream::ScanPlan out{
+      .leds = std::move(*leds), .rate_hz = job.rate_hz, .timing = stream::usual_timing(device)};
   auto intensity = intensities(job, out.leds);
   if (!intensity) return std::unexpected(intensity.error());
   if (!intensity->empty() && !device.sets_intensity)
@@ -211,7 +210,7 @@ Result<TrialBegin> parse_begin(std::string_view text) {
 Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bool()>& wait_for_key) {
   if (auto s = check_numbers(job); !s) return std::unexpected(s.error());
   if (auto s = check_output(job); !s) return std::unexpected(s.error());
-  if (auto s = check_apart(job, {job.output}, {DeviceSettings(job.source).what()}); !s)
+  if (auto s = check_apart(job, {job.output}, {AddressSettings(job.source).what()}); !s)
     return std::unexpected(s.error());
   auto device = open_device(job.source, job.seed);
   if (!device) return std::unexpected(device.error());

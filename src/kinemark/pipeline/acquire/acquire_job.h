@@ -33,15 +33,14 @@ struct TrialBegin {
 
 /// What `kinemark acquire` is asked to do.
 struct AcquireJob : JobSettings {
-  std::string source;             ///< address of a device, see open_device()
-  std::filesystem::path output;   ///< .mcap
-  bool check_up = false;          ///< look at the device for 10 s, or duration_s, and keep nothing
-  std::vector<std::string> leds;  ///< names; empty: the device's own
-  int led_count = 0;              ///< where no names are given; 0: all that the device has
-  double rate_hz = 0.0;           ///< 0: the highest
-  double duration_s = 0.0;        ///< 0: until stopped, or the device ends
-  std::int64_t frames = 0;        ///< likewise; lost ones count, the shorter length holds
-  TrialBegin begin;               ///< what it begins with
+  std::string source;            ///< address of a device, see open_device()
+  std::filesystem::path output;  ///< .mcap
+  bool check_up = false;         ///< look at the device for 10 s, or duration_s, and keep nothing
+  std::string leds;              ///< as parse_leds() takes them; empty: all that the device has
+  double rate_hz = 0.0;          ///< 0: the highest
+  double duration_s = 0.0;       ///< 0: until stopped, or the device ends
+  std::int64_t frames = 0;       ///< likewise; lost ones count, the shorter length holds
+  TrialBegin begin;              ///< what it begins with
   std::vector<std::pair<std::string, double>> intensity;  ///< by name; an empty name means all
   io::SyncPolicy sync = io::SyncPolicy::background;
   std::string subject, trial;                                ///< kept with the recording

@@ -42,7 +42,7 @@ TEST_F(Acquire, RecordsATrialWithWhatIsKnownOfIt) {
   asked.rate_hz = 200.0;
   asked.subject = "S01";
   asked.trial = "reach";
-  asked.leds = {"hand", "wrist"};
+  asked.leds = "hand,wrist";
   asked.intensity = {{"wrist", 0.5}};
   const auto outcome = run_acquire(asked);
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -110,8 +110,8 @@ TEST_F(Acquire, RefusesWhatCannotBe) {
   asked.rate_hz = 1000.0;
   EXPECT_THAT(said(asked), HasSubstr("frames per second at most"));
   asked = job();
-  asked.led_count = 9;
-  EXPECT_THAT(said(asked), HasSubstr("9 LEDs were asked for; it has 4"));
+  asked.leds = "9";
+  EXPECT_THAT(said(asked), HasSubstr("LEDs: 9 were asked for; the device has 4"));
   asked = job();
   asked.intensity = {{"nose", 0.5}};
   EXPECT_THAT(said(asked), HasSubstr("there is no LED 'nose'; there are rim 1"));

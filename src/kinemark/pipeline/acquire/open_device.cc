@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "kinemark/core/utf8.h"
-#include "kinemark/pipeline/acquire/device_settings.h"
 #include "kinemark/pipeline/acquire/replay_device.h"
 #include "kinemark/pipeline/acquire/sim_rig.h"
+#include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/stream/comedi/comedi_device.h"
 #include "kinemark/stream/serial/serial_device.h"
 
@@ -25,11 +25,11 @@ using Opened = Result<std::unique_ptr<stream::Device>>;
 /// A kind of device: its addresses, how one is opened, and those that are there.
 struct Kind {
   std::string_view scheme, address;
-  Opened (*open)(DeviceSettings& settings, std::uint64_t seed, const Clock& clock);
+  Opened (*open)(AddressSettings& settings, std::uint64_t seed, const Clock& clock);
   std::vector<stream::DeviceInfo> (*enumerate)();
 };
 
-Opened open_sim(DeviceSettings& settings, std::uint64_t seed, const Clock& clock) {
+Opened open_sim(AddressSettings& settings, std::uint64_t seed, const Clock& clock) {
   if (settings.what() == "rig") return open_sim_rig(std::move(settings), seed, clock);
   return fail(Code::usage, fmt::format("{}: is no simulated device that gives counts; there is sim:rig",
                                        printable(settings.uri(), 200)));
@@ -39,7 +39,7 @@ std::vector<stream::DeviceInfo> find_sim() {
   return {{.uri = "sim:rig", .name = "simulated rig of 1986", .state = ""}};
 }
 
-Opened open_replay(DeviceSettings& settings, std::uint64_t /*seed*/, const Clock& clock) {
+Opened open_replay(AddressSettings& settings, std::uint64_t /*seed*/, const Clock& clock) {
   return ReplayDevice::open(std::move(settings), clock);
 }
 
@@ -47,7 +47,7 @@ std::vector<stream::DeviceInfo> find_none() { return {}; }
 
 /// The device behind a path, "/dev/ttyACM0", which takes no settings.
 template <Opened (*open)(const std::string&)>
-Opened open_path(DeviceSettings& settings, std::uint64_t /*seed*/, const Clock& /*clock*/) {
+Opened open_path(AddressSettings& settings, std::uint64_t /*seed*/, const Clock& /*clock*/) {
   if (auto s = settings.check(); !s) return std::unexpected(s.error());
   return open(settings.what());
 }
@@ -64,7 +64,7 @@ constexpr std::array<Kind, 4> kKinds{
 }  // namespace
 
 Opened open_device(std::string_view uri, std::uint64_t seed, Clock clock) {
-  DeviceSettings settings(uri);
+  AddressSettings settings(uri);
   if (clock == nullptr) clock = std::make_shared<stream::SteadyHostClock>();
   std::string addresses;
   for (const auto& kind : kKinds) {

@@ -36,7 +36,7 @@ ReplayDevice::ReplayDevice(std::filesystem::path file, io::CountsReader reader,
       clock_(std::move(clock)),
       layout_(reader_.layout()) {}
 
-Result<std::unique_ptr<stream::Device>> ReplayDevice::open(DeviceSettings settings,
+Result<std::unique_ptr<stream::Device>> ReplayDevice::open(AddressSettings settings,
                                                            std::shared_ptr<stream::HostClock> clock) {
   std::error_code ignored;
   if (std::filesystem::exists(settings.uri().substr(settings.scheme().size() + 1), ignored))
@@ -69,10 +69,8 @@ Result<std::unique_ptr<stream::Device>> ReplayDevice::open(DeviceSettings settin
 
 Result<stream::GrantedPlan> ReplayDevice::configure(const stream::ScanPlan& plan) {
   check(!running_, "a device that runs is not configured");
-  stream::GrantedPlan out{.plan = plan, .layout = layout_, .facts = {}};
+  stream::GrantedPlan out{.plan = stream::with_names(plan, capabilities_), .layout = layout_, .facts = {}};
   auto& granted = out.plan;
-  if (granted.leds.empty()) granted.leds = layout_.leds;
-  if (granted.cameras.empty()) granted.cameras = layout_.cameras;
   if (granted.leds.size() != layout_.leds.size() || granted.cameras.size() != layout_.cameras.size())
     return fail(Code::usage, fmt::format("{}: holds {} LEDs and {} cameras; all of them are replayed",
                                          file_.string(), layout_.leds.size(), layout_.cameras.size()));

@@ -8,7 +8,7 @@
 
 #include "kinemark/core/result.h"
 #include "kinemark/io/recording/counts_reader.h"
-#include "kinemark/pipeline/acquire/device_settings.h"
+#include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/stream/clock.h"
 #include "kinemark/stream/device.h"
 
@@ -22,7 +22,7 @@ class ReplayDevice final : public stream::Device {
   /// "replay:FILE.mcap?rate=HZ&fast". With a rate, frames follow at that one, and all times of the layout are
   /// stretched with it. What follows the last '?' are settings, unless that file is there. Fails as
   /// io::CountsReader::open().
-  [[nodiscard]] static Result<std::unique_ptr<stream::Device>> open(DeviceSettings settings,
+  [[nodiscard]] static Result<std::unique_ptr<stream::Device>> open(AddressSettings settings,
                                                                     std::shared_ptr<stream::HostClock> clock);
   [[nodiscard]] const stream::DeviceCapabilities& capabilities() const override { return capabilities_; }
   /// The plan must be that of the recording; names may be others.

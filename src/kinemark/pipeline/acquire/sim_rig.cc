@@ -18,14 +18,14 @@ constexpr double kYear_s = 3.2e7;
 constexpr double kLargestSeed = 9e15;  ///< whole numbers up to here have no neighbour in a double
 
 /// 0 for "fast".
-double speed_of(DeviceSettings& settings) {
+double speed_of(AddressSettings& settings) {
   const bool fast = settings.flag("fast"), says_fast = settings.text("speed") == "fast";
   if (says_fast) return 0.0;
   const double speed = settings.number("speed", 1.0, 1e-3, 1e4);
   return fast ? 0.0 : speed;
 }
 
-Result<StagedScene> stage(DeviceSettings& settings) {
+Result<StagedScene> stage(AddressSettings& settings) {
   const auto scene = settings.text("scene").value_or("wheel");
   const int leds = settings.whole("leds", 0, 1, simulation::kMostLeds);
   auto out = scene == "wheel"  ? stage_wheel({.leds = leds == 0 ? simulation::kMostLeds : leds})
@@ -45,7 +45,7 @@ Result<StagedScene> stage(DeviceSettings& settings) {
 
 }  // namespace
 
-Result<std::unique_ptr<stream::Device>> open_sim_rig(DeviceSettings settings, std::uint64_t seed,
+Result<std::unique_ptr<stream::Device>> open_sim_rig(AddressSettings settings, std::uint64_t seed,
                                                      std::shared_ptr<stream::HostClock> clock) {
   auto staged = stage(settings);
   if (!staged) return std::unexpected(staged.error());

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "kinemark/core/result.h"
-#include "kinemark/pipeline/acquire/device_settings.h"
+#include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/stream/clock.h"
 #include "kinemark/stream/device.h"
 
@@ -17,7 +17,7 @@ namespace kinemark::pipeline {
 /// comes. The rig and, with `seconds`, the counts are those that `simulate rig` draws with the same seed,
 /// scene, LEDs and rate.
 /// @param seed  where the address has none
-[[nodiscard]] Result<std::unique_ptr<stream::Device>> open_sim_rig(DeviceSettings settings,
+[[nodiscard]] Result<std::unique_ptr<stream::Device>> open_sim_rig(AddressSettings settings,
                                                                    std::uint64_t seed,
                                                                    std::shared_ptr<stream::HostClock> clock);
 

@@ -96,7 +96,7 @@ bool is_dark(const Recorded& recorded, const data::Counts& layout, std::size_t a
   const auto& levels = recorded.lit[at];
   if (levels.frames == 0) return false;
   const double dark = recorded.dark.empty() ? 0.0 : recorded.dark[at % layout.cameras.size()].mean.sum();
-  return levels.mean.sum() - dark < kLeastLightShare * layout.highest_code;
+  return levels.mean.sum() - dark < stream::kLeastLightShare * layout.highest_code;
 }
 
 Lines describe_trial(const Recorded& recorded, const data::Counts& layout) {

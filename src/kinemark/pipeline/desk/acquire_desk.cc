@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 
 #include "kinemark/pipeline/acquire/acquire_job.h"
@@ -219,15 +220,14 @@ Status AcquireDesk::record(const TrialName& name) {
   return {};
 }
 
-Result<std::vector<CheckLine>> AcquireDesk::stop() {
+Result<std::vector<TrialNote>> AcquireDesk::stop() {
   recorder_->stop();
   const Recorded recorded = recorder_->finish();
   recording_ = false;
-  std::vector<CheckLine> lines;
+  std::vector<TrialNote> lines;
   failure_ = recorded.error;
-  if (recorded.error) lines.push_back({false, recorded.error->message});
-  for (const TrialNote& note : describe_trial(recorded, granted_.layout))
-    lines.push_back({note.good, note.text});
+  if (recorded.error) lines.push_back({recorded.error->message, false});
+  std::ranges::move(describe_trial(recorded, granted_.layout), std::back_inserter(lines));
   if (const auto again = start({}); !again) trouble_ = again.error().message;
   return lines;
 }

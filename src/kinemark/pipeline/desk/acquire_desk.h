@@ -41,7 +41,7 @@ class AcquireDesk final : public Desk {
   /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
   /// Recorder::start().
   [[nodiscard]] Status record(const TrialName& name) override;
-  [[nodiscard]] Result<std::vector<CheckLine>> stop() override;
+  [[nodiscard]] Result<std::vector<TrialNote>> stop() override;
   [[nodiscard]] Result<std::string> keep() override;
   [[nodiscard]] Status discard() override;
   void close() override;

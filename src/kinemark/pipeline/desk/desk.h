@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemark/core/result.h"
+#include "kinemark/pipeline/acquire/trial_notes.h"
 #include "kinemark/stream/device.h"
 #include "kinemark/workflow/rig/counts_monitor.h"
 
@@ -34,12 +35,6 @@ struct TrialName {
   double duration_s = 0.0;  ///< 0: until it is stopped
 };
 
-/// One line of the check after a trial.
-struct CheckLine {
-  bool good = true;  ///< else what to do is in the text
-  std::string text;  ///< a sentence
-};
-
 /// See above. All calls from one thread; none waits longer than a device takes to answer.
 class Desk {
  public:
@@ -61,7 +56,7 @@ class Desk {
   /// Begin a trial.
   [[nodiscard]] virtual Status record(const TrialName& name) = 0;
   /// End the trial; what to know of it before it is kept.
-  [[nodiscard]] virtual Result<std::vector<CheckLine>> stop() = 0;
+  [[nodiscard]] virtual Result<std::vector<TrialNote>> stop() = 0;
   /// The file of the trial that was stopped.
   [[nodiscard]] virtual Result<std::string> keep() = 0;
   /// Remove the trial that was stopped.

@@ -91,6 +91,10 @@ void DeskSession::restart_guide() {
   if (state_.step == DeskStep::live) desk_.restart_guide();
 }
 
+void DeskSession::name_trial(std::string name) {
+  if (state_.step == DeskStep::live) state_.wanted.trial = std::move(name);
+}
+
 void DeskSession::record() {
   if (state_.step != DeskStep::live) return;
   const TrialName name{std::string(trim(state_.wanted.subject)), std::string(trim(state_.wanted.trial)),

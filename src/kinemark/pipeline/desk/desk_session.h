@@ -27,7 +27,7 @@ struct DeskState {
   stream::GrantedPlan granted;              ///< from the step `live` on; intensities are always there
   double duration_s = 0.0;                  ///< of a trial; 0: until it is stopped
   LiveView live;                            ///< of the last tick()
-  std::vector<CheckLine> check;             ///< of the last trial
+  std::vector<TrialNote> check;             ///< of the last trial
   std::vector<std::string> kept;            ///< files
 };
 
@@ -45,6 +45,7 @@ class DeskSession {
   void set_up();                                  ///< from `live` back
   void set_intensity(int led, double intensity);  ///< in `live`; brought into its range, 0.1 to 1
   void restart_guide();                           ///< in `live`
+  void name_trial(std::string name);              ///< in `live`: the next one
   void record();                                  ///< from `live`
   void stop();                                    ///< from `recording`
   void keep();                                    ///< from `check`

@@ -4,16 +4,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "kinemark/core/number.h"
+#include "kinemark/pipeline/acquire/led_names.h"
 
 namespace kinemark::pipeline {
 namespace {
-
-constexpr int kMostLedsTyped = 64;
 
 std::string trimmed(const std::string& text) { return std::string(trim(text)); }
 
@@ -37,32 +34,8 @@ std::string next_trial(const std::string& name) {
   return name.substr(0, name.size() - digits) + fmt::format("{:0{}}", std::stol(number) + 1, digits);
 }
 
-Result<std::vector<std::string>> parse_leds(const std::string& text, const std::vector<std::string>& own) {
-  const auto count = parse_number(text);
-  if (count) {
-    if (*count < 1 || *count > kMostLedsTyped || *count != std::floor(*count))
-      return fail(Code::usage, fmt::format("LEDs: '{}' is no count from 1 to {}", text, kMostLedsTyped));
-    return stream::own_names(own, static_cast<int>(*count), false);
-  }
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    names.push_back(trimmed(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].empty()) return fail(Code::usage, fmt::format("LEDs: a name is missing in '{}'", text));
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i))
-      return fail(Code::usage, fmt::format("LEDs: '{}' is named twice", names[i]));
-  }
-  return names;
-}
-
 Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device) {
-  auto leds = trimmed(wanted.leds).empty()
-                  ? stream::own_names(device.leds, std::max(device.most_leds, 1), false)
-                  : parse_leds(wanted.leds, device.leds);
+  auto leds = parse_leds(wanted.leds, device);
   if (!leds) return std::unexpected(leds.error());
   const auto rate = parse_positive(wanted.rate_hz, "Rate");
   if (!rate) return std::unexpected(rate.error());

@@ -27,11 +27,6 @@ struct Plan {
   double duration_s = 0.0;  ///< 0: until it is stopped
 };
 
-/// LEDs as typed: a count from 1, or names with commas. Code::usage for others.
-/// @param own  names that the device has for its LEDs, which a count takes; see stream::own_names()
-[[nodiscard]] Result<std::vector<std::string>> parse_leds(const std::string& text,
-                                                          const std::vector<std::string>& own = {});
-
 /// The set-up of a device. Code::usage for a line that makes no sense, named.
 [[nodiscard]] Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device);
 

@@ -8,13 +8,6 @@
 namespace kinemark::pipeline {
 namespace {
 
-TEST(ParseLeds, TakesACountOrNames) {
-  EXPECT_THAT(*parse_leds("2"), testing::ElementsAre("1", "2"));
-  EXPECT_THAT(*parse_leds(" hand , left elbow"), testing::ElementsAre("hand", "left elbow"));
-  for (const char* wrong : {"", "0", "65", "2.5", "-1", "a,", ",a", "a,b,a"})
-    EXPECT_FALSE(parse_leds(wrong)) << wrong;
-}
-
 TEST(PlanOf, TakesSlotsAndCamerasOfTheDevice) {
   stream::DeviceCapabilities device;
   device.cameras = 3;

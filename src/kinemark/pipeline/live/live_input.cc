@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "kinemark/core/number.h"
 #include "kinemark/core/text.h"
 #include "kinemark/core/utf8.h"
 #include "kinemark/core/version.h"
 #include "kinemark/data/name_index.h"
 #include "kinemark/io/input/recording_input.h"
 #include "kinemark/io/rate.h"
+#include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/pipeline/files/model_input.h"
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/pipeline/simulate/human_model.h"
@@ -37,34 +37,6 @@ constexpr std::string_view kSim = "sim:";
 constexpr std::string_view kReplay = "replay:";
 constexpr std::int64_t kMostSimulatedFrames = 10'000'000;  // what SubjectOptions allow
 
-/// A setting of a source: its name, its value, and the range that the value must lie in.
-struct Setting {
-  std::string_view name;
-  double value, low, high;
-};
-
-/// Put "name=value&name=value" into the settings.
-Status take_settings(std::string_view source, std::string_view text, std::vector<Setting>& settings) {
-  std::vector<std::string> known;
-  for (const auto& s : settings) known.emplace_back(s.name);
-  while (!text.empty()) {
-    const auto end = std::min(text.find('&'), text.size());
-    const auto one = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const auto equals = std::min(one.find('='), one.size());
-    const auto setting = std::ranges::find(settings, one.substr(0, equals), &Setting::name);
-    if (setting == settings.end())
-      return fail(Code::usage, fmt::format("{}: '{}' is no setting of it; those are {}", source,
-                                           one.substr(0, equals), join(known)));
-    const auto value = parse_number(one.substr(std::min(equals + 1, one.size())));
-    if (!value || !(*value >= setting->low && *value <= setting->high))
-      return fail(Code::usage, fmt::format("{}: {} must be a number from {:g} to {:g}", source, setting->name,
-                                           setting->low, setting->high));
-    setting->value = *value;
-  }
-  return {};
-}
-
 Result<std::shared_ptr<const model::Model>> read_model(const fs::path& path) {
   auto input = read_model_input(path);
   if (!input) return std::unexpected(input.error());
@@ -80,23 +52,21 @@ Result<std::shared_ptr<const model::Model>> own_human() {
 }
 
 Result<LiveInput> open_simulation(std::string_view argument, const fs::path& model_file, std::uint64_t seed) {
-  const auto text = argument.substr(kSim.size());
-  const auto question = std::min(text.find('?'), text.size());
-  const auto name = question == 0 ? std::string_view("walk") : text.substr(0, question);
+  AddressSettings settings(argument);
+  const std::string name = settings.what().empty() ? "walk" : settings.what();
   const auto motion = simulation::parse_motion_kind(name);
   if (!motion) return fail_at(std::string(argument), motion.error());
-  std::vector<Setting> settings{{"rate", 240.0, 1.0, 1000.0},
-                                {"seconds", 60.0, 0.1, 36'000.0},
-                                {"noise", 1.0, 0.0, 100.0},
-                                {"missing", 0.0, 0.0, 0.9}};
-  if (auto s = take_settings(argument, text.substr(std::min(question + 1, text.size())), settings); !s)
-    return std::unexpected(s.error());
+  const double rate_hz = settings.number("rate", 240.0, 1.0, 1000.0);
+  const double duration_s = settings.number("seconds", 60.0, 0.1, 36'000.0);
+  const double noise_mm = settings.number("noise", 1.0, 0.0, 100.0);
+  const double missing = settings.number("missing", 0.0, 0.0, 0.9);
+  if (auto s = settings.check(); !s) return std::unexpected(s.error());
   const simulation::SubjectOptions options{.motion = *motion,
-                                           .duration_s = settings[1].value,
-                                           .rate_hz = settings[0].value,
+                                           .duration_s = duration_s,
+                                           .rate_hz = rate_hz,
                                            .seed = seed,
-                                           .noise_sd_m = 1e-3 * settings[2].value,
-                                           .dropout_random = settings[3].value};
+                                           .noise_sd_m = 1e-3 * noise_mm,
+                                           .dropout_random = missing};
   if (options.frames() > kMostSimulatedFrames)
     return fail(Code::usage, fmt::format("{}: would be {} frames; need at most {}", argument,
                                          options.frames(), kMostSimulatedFrames));
@@ -115,18 +85,13 @@ Result<LiveInput> open_simulation(std::string_view argument, const fs::path& mod
 }
 
 Result<LiveInput> open_replay(std::string_view argument, const fs::path& model_file) {
-  auto file = argument.substr(kReplay.size());
-  std::vector<Setting> settings{{"rate", 0.0, 0.001, 10'000.0}};
+  AddressSettings settings(argument);
   std::error_code ignored;
-  if (const auto question = file.rfind('?');
-      question != std::string_view::npos && !fs::exists(file, ignored)) {
-    if (auto s = take_settings(argument, file.substr(question + 1), settings); !s)
-      return std::unexpected(s.error());
-    file = file.substr(0, question);
-  }
-  if (file.empty()) return fail(Code::usage, "replay: names no file; need replay:FILE");
-  const fs::path path(file);
-  const double rate_hz = settings[0].value;
+  if (fs::exists(argument.substr(kReplay.size()), ignored)) settings.take_all_as_name();
+  const double rate_hz = settings.number("rate", 0.0, 0.001, 10'000.0);
+  if (auto s = settings.check(); !s) return std::unexpected(s.error());
+  if (settings.what().empty()) return fail(Code::usage, "replay: names no file; need replay:FILE");
+  const fs::path path(settings.what());
   auto input = io::read_marker_input(
       {.path = path, .rate_hz = rate_hz, .rate = io::RateRule::where_needed, .needs_samples = true});
   if (!input) return std::unexpected(input.error());

@@ -70,8 +70,7 @@ RigDevice::RigDevice(PhysicalRig rig, RigScene scene, const RigDeviceOptions& op
 }
 
 Result<RigRecordingOptions> RigDevice::grant(stream::ScanPlan& plan) const {
-  if (plan.leds.empty()) plan.leds = capabilities_.leds;
-  if (plan.cameras.empty()) plan.cameras = capabilities_.camera_names;
+  plan = stream::with_names(std::move(plan), capabilities_);
   const int leds = static_cast<int>(plan.leds.size());
   if (leds > capabilities_.most_leds)
     return fail(Code::usage, fmt::format("{} LEDs were asked for; the simulated scene has {}", leds,

@@ -25,10 +25,8 @@ struct LedInCamera {
 
 /// Looks at the last frames of a stream of counts. Memory is constant.
 ///
-/// Noise is from third differences of each channel over successive frames, which a path of constant
-/// acceleration leaves nothing in; the variance of a third difference is 20 times that of a sample. An
-/// observation is taken for occluded when it is flagged so, or when its channels add up to less than 3 % of
-/// the codes above the dark slot (above 0 without one).
+/// Noise is stream::DifferenceNoise of the frames in which an LED was seen. An observation is taken for
+/// occluded when it is flagged so, or when its channels give less than stream::kLeastLightShare.
 class CountsMonitor {
  public:
   /// @param layout  names, codes, dark slot; its frames are not looked at  @param frames  that count, >= 4
@@ -40,10 +38,7 @@ class CountsMonitor {
   [[nodiscard]] LedInCamera seen(int led, int camera) const;
   /// The spots of the frames that came last, oldest first; NaN where it was not seen.
   [[nodiscard]] std::vector<Eigen::Vector2d> spots(int led, int camera) const;
-  /// Mean of a channel in the dark slot, counts; NaN without one.
-  [[nodiscard]] double dark_counts(int camera, int channel) const;
   [[nodiscard]] std::int64_t frames() const { return came_; }  ///< that came
-  [[nodiscard]] std::int64_t lost() const { return lost_; }    ///< that are missing between them
 
  private:
   struct Frame {
@@ -61,7 +56,7 @@ class CountsMonitor {
   int cameras_ = 0;
   double highest_code_ = 0.0;
   std::vector<Frame> ring_;
-  std::int64_t came_ = 0, lost_ = 0;
+  std::int64_t came_ = 0;
 };
 
 }  // namespace kinemark::workflow

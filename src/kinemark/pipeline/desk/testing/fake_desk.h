@@ -66,10 +66,10 @@ struct FakeDesk final : Desk {
     calls.push_back("record");
     return {};
   }
-  Result<std::vector<CheckLine>> stop() override {
+  Result<std::vector<TrialNote>> stop() override {
     calls.push_back("stop");
-    return std::vector<CheckLine>{{true, "No frame was lost"},
-                                  {false, "LED 2 is dark in camera B: look at its wire"}};
+    return std::vector<TrialNote>{{"No frame was lost", true},
+                                  {"LED 2 is dark in camera B: look at its wire", false}};
   }
   Result<std::string> keep() override {
     calls.push_back("keep");

@@ -12,12 +12,12 @@
 
 namespace kinemark::pipeline {
 
-/// The address of a device, "sim:rig?leds=8&fast": scheme "sim", what "rig", then settings. Each setting is
-/// asked for once, with its range; unknown() then names one that nobody asked for.
-class DeviceSettings {
+/// The address of a live source or a device, "sim:rig?leds=8&fast": scheme "sim", what "rig", then settings.
+/// Each setting is asked for once, with its range; check() then names one that nobody asked for.
+class AddressSettings {
  public:
   /// Splits at the first ':' and at the last '?'.
-  explicit DeviceSettings(std::string_view uri);
+  explicit AddressSettings(std::string_view uri);
   [[nodiscard]] const std::string& uri() const { return uri_; }        ///< as given
   [[nodiscard]] const std::string& scheme() const { return scheme_; }  ///< empty: there was no ':'
   [[nodiscard]] const std::string& what() const { return what_; }      ///< between ':' and '?'

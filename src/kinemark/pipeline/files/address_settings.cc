@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "kinemark/pipeline/acquire/device_settings.h"
+#include "kinemark/pipeline/files/address_settings.h"
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 
 namespace kinemark::pipeline {
 
-DeviceSettings::DeviceSettings(std::string_view uri) : uri_(uri) {
+AddressSettings::AddressSettings(std::string_view uri) : uri_(uri) {
   const auto colon = uri.find(':');
   if (colon != std::string_view::npos) scheme_ = uri.substr(0, colon);
   auto rest = colon == std::string_view::npos ? uri : uri.substr(colon + 1);
@@ -31,13 +31,13 @@ DeviceSettings::DeviceSettings(std::string_view uri) : uri_(uri) {
   }
 }
 
-void DeviceSettings::take_all_as_name() {
+void AddressSettings::take_all_as_name() {
   if (!query_.empty()) what_ += "?" + query_;
   query_.clear();
   settings_.clear();
 }
 
-DeviceSettings::Setting* DeviceSettings::find(std::string_view name) {
+AddressSettings::Setting* AddressSettings::find(std::string_view name) {
   known_.emplace_back(name);
   Setting* last = nullptr;
   for (auto& setting : settings_)
@@ -48,11 +48,11 @@ DeviceSettings::Setting* DeviceSettings::find(std::string_view name) {
   return last;
 }
 
-void DeviceSettings::wrong(std::string message) {
+void AddressSettings::wrong(std::string message) {
   if (first_wrong_.empty()) first_wrong_ = std::move(message);
 }
 
-double DeviceSettings::number(std::string_view name, double otherwise, double low, double high) {
+double AddressSettings::number(std::string_view name, double otherwise, double low, double high) {
   const auto* setting = find(name);
   if (setting == nullptr) return otherwise;
   const auto value = parse_number(setting->value);
@@ -61,27 +61,27 @@ double DeviceSettings::number(std::string_view name, double otherwise, double lo
   return otherwise;
 }
 
-int DeviceSettings::whole(std::string_view name, int otherwise, int low, int high) {
+int AddressSettings::whole(std::string_view name, int otherwise, int low, int high) {
   const double value = number(name, otherwise, low, high);
   if (value == std::round(value)) return static_cast<int>(value);
   wrong(fmt::format("{}: {} must be a whole number from {} to {}", uri_, name, low, high));
   return otherwise;
 }
 
-std::optional<std::string> DeviceSettings::text(std::string_view name) {
+std::optional<std::string> AddressSettings::text(std::string_view name) {
   const auto* setting = find(name);
   if (setting == nullptr) return std::nullopt;
   return setting->value;
 }
 
-bool DeviceSettings::flag(std::string_view name) {
+bool AddressSettings::flag(std::string_view name) {
   const auto value = text(name);
   if (!value || *value == "0") return false;
   if (!value->empty() && *value != "1") wrong(fmt::format("{}: {} is given, or not", uri_, name));
   return true;
 }
 
-Status DeviceSettings::check() const {
+Status AddressSettings::check() const {
   if (!first_wrong_.empty()) return fail(Code::usage, first_wrong_);
   const auto unknown = std::ranges::find(settings_, false, &Setting::asked);
   if (unknown == settings_.end()) return {};
