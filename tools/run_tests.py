@@ -317,7 +317,18 @@ def count_acceptance(text):
     return Counts(*map(int, found[-1])) if found else Counts(failed=1)
 
 
+def install_viewer(log):
+    """npm ci, unless what is there was installed from the same lock file."""
+    viewer = ROOT / "viewer"
+    wanted = hashlib.sha256((viewer / "package-lock.json").read_bytes()).hexdigest()
+    stamp = viewer / "node_modules" / ".installed-from"
+    if not stamp.is_file() or stamp.read_text() != wanted:
+        log.must("npm", "ci", "--no-audit", "--no-fund", cwd=viewer)
+        stamp.write_text(wanted)
+
+
 def acceptance(log):
+    install_viewer(log)  # rows go through pages by the viewer's scripts
     status = log.run(sys.executable, ROOT / "tests" / "acceptance" / "run.py", "--quick", "--jobs", log.jobs, "--build", ROOT / "build" / "ci")
     counts = count_acceptance(log.text())
     if status != 0:
@@ -345,16 +356,6 @@ def tidy(log):
 
 def files_below(folder):
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
-def install_viewer(log):
-    """npm ci, unless what is there was installed from the same lock file."""
-    viewer = ROOT / "viewer"
-    wanted = hashlib.sha256((viewer / "package-lock.json").read_bytes()).hexdigest()
-    stamp = viewer / "node_modules" / ".installed-from"
-    if not stamp.is_file() or stamp.read_text() != wanted:
-        log.must("npm", "ci", "--no-audit", "--no-fund", cwd=viewer)
-        stamp.write_text(wanted)
 
 
 def viewer_page(log):

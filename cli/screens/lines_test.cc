@@ -99,6 +99,17 @@ TEST(Lines, ASourceThatAnotherHasIsAskedAgain) {
   EXPECT_THAT(other.shown, Not(HasSubstr("another program has it")));
 }
 
+TEST(Lines, NamesAreFreeAndTroubleIsSaidOnce) {
+  FakeDesk desk;
+  desk.taken = {"01", "02"};
+  desk.now.trouble = "the plug is out";
+  const Session session(desk, rig_at(), {"", "", "", "", "", "...", "...", "", "k", "q"});
+  EXPECT_THAT(session.kept, ElementsAre("raw/03.mcap"));
+  const auto first = session.shown.find("the plug is out", session.shown.find("Recording"));
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(session.shown.find("the plug is out", first + 1), std::string::npos);
+}
+
 TEST(Lines, ATrialThatCannotBeginIsSaid) {
   FakeDesk desk;
   desk.disk = fail(Code::io, "the disk is full");

@@ -79,5 +79,29 @@ TEST(CountCheck, HasTheDarkSlotOfEachCamera) {
   EXPECT_TRUE(std::isnan(CountCheck(layout()).lit()[0].mean[0]));
 }
 
+TEST(DifferenceNoise, IsNoneOfAPathOfConstantAcceleration) {
+  DifferenceNoise noise;
+  EXPECT_TRUE(std::isnan(noise.sd()(0)));
+  for (int f = 0; f < 100; ++f) noise.add(f, Eigen::Vector4d::Constant(3.0 + 2.0 * f + 0.5 * f * f));
+  EXPECT_LT(noise.sd().maxCoeff(), 1e-9);
+}
+
+TEST(DifferenceNoise, IsNotTakenAcrossAGap) {
+  DifferenceNoise noise;
+  for (const int f : {0, 1, 2, 10, 11, 12}) noise.add(f, Eigen::Vector4d::Constant(f < 5 ? 0.0 : 1000.0));
+  EXPECT_TRUE(std::isnan(noise.sd()(0)));
+  noise.add(13, Eigen::Vector4d::Constant(1000.0));
+  EXPECT_EQ(noise.sd()(0), 0.0);
+}
+
+TEST(DifferenceNoise, IsTheStandardDeviationOfWhiteNoise) {
+  DifferenceNoise noise;
+  Random random(4, 0);
+  for (int f = 0; f < 20'000; ++f)
+    noise.add(
+        f, 5.0 * Eigen::Vector4d(random.gaussian(), random.gaussian(), random.gaussian(), random.gaussian()));
+  EXPECT_NEAR(noise.sd().mean(), 5.0, 0.1);
+}
+
 }  // namespace
 }  // namespace kinemark::stream

@@ -65,6 +65,7 @@ void DeskSession::start(Wanted lines) {
   state_.duration_s = plan->duration_s;
   state_.wanted.trial = desk_.free_name(std::string(trim(state_.wanted.trial)));
   state_.message.clear();
+  trouble_.clear();
   state_.step = DeskStep::live;
   tick();
 }
@@ -101,6 +102,7 @@ void DeskSession::record() {
                        state_.duration_s};
   if (const auto begun = desk_.record(name); !begun) return fail_with(begun.error());
   state_.message.clear();
+  trouble_.clear();  // what is still so is said again
   state_.step = DeskStep::recording;
   tick();
 }

@@ -124,6 +124,15 @@ TEST(DeskSession, TroubleIsGoneOnceItIsOver) {
   EXPECT_EQ(session.state().message, "");
 }
 
+TEST(DeskSession, TroubleThatGoesOnIsThereInTheTrialToo) {
+  FakeDesk desk;
+  desk.now.trouble = "the plug is out";
+  DeskSession session = running(desk);
+  EXPECT_EQ(session.state().message, "the plug is out");
+  session.record();
+  EXPECT_EQ(session.state().message, "the plug is out");
+}
+
 TEST(DeskSession, NamesOfTrialsAreFree) {
   FakeDesk desk;
   desk.taken = {"01", "02", "04"};
