@@ -31,7 +31,6 @@ struct AcquireArguments {
   pipeline::AcquireJob job;
   std::string begin, sync = "background";
   std::vector<std::string> intensity;
-  std::filesystem::path rig;  ///< that the cameras are aligned with, in the menus
   bool list = false;
 };
 
@@ -50,8 +49,9 @@ Status complete(AcquireArguments& arguments) {
   auto& job = arguments.job;
   if (job.source.empty())
     return fail(Code::usage, "no device is given; 'kinemark acquire --list' shows those that are there");
-  if (job.output.empty() && !job.check_up)
-    return fail(Code::usage, "no recording is given; need --output FILE.mcap, or --check");
+  if (job.output.empty() && job.session.empty() && !job.check_up)
+    return fail(Code::usage, "no recording is given; need --output FILE.mcap, --session FOLDER, or --check");
+  if (!job.session.empty() && job.trial.empty()) job.trial = pipeline::Wanted().trial;
   const auto sync = kSync.parse(arguments.sync, "--sync");
   if (!sync) return std::unexpected(sync.error());
   job.sync = *sync;
@@ -125,21 +125,34 @@ Status check_by_hand(const CommonOptions& common, const AcquireArguments& argume
       fmt::format("--{} is for a recording that --output names; without one the menus are shown", of_files));
 }
 
+/// The rig that the cameras are aligned with, and the session that trials are part of.
+Status open_session(const CommonOptions& common, const pipeline::AcquireJob& job,
+                    pipeline::TrialFiles& files) {
+  if (!job.rig.empty()) {
+    auto rig = io::read_rig(job.rig);
+    if (!rig) return std::unexpected(rig.error());
+    files.wanted_rig = std::move(*rig);
+  }
+  if (job.session.empty()) return {};
+  auto session = pipeline::Session::open(job.session, {.subject = job.subject, .rig = job.rig});
+  if (!session) return std::unexpected(session.error());
+  for (const auto& note : session->notes()) say(common, note);
+  files.session = std::move(*session);
+  return {};
+}
+
 /// The menus: a person chooses what the options say otherwise.
 int acquire_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
   if (const auto s = check_by_hand(common, arguments); !s) return report_error(s.error());
   const auto sync = kSync.parse(arguments.sync, "--sync");
   if (!sync) return report_error(sync.error());
   pipeline::TrialFiles files{.folder = ".", .seed = common.seed, .recording = {.sync = *sync}};
-  if (!arguments.rig.empty()) {
-    auto rig = io::read_rig(arguments.rig);
-    if (!rig) return report_error(rig.error());
-    files.wanted_rig = std::move(*rig);
-  }
-  pipeline::AcquireDesk desk(std::move(files));
   pipeline::Wanted wanted;
   wanted.source = arguments.job.source;
   wanted.subject = arguments.job.subject;
+  if (const auto s = open_session(common, arguments.job, files); !s) return report_error(s.error());
+  if (files.session) wanted.subject = files.session->subject();
+  pipeline::AcquireDesk desk(std::move(files));
   wanted.leds = arguments.job.leds;
   if (!arguments.job.trial.empty()) wanted.trial = arguments.job.trial;
   if (arguments.job.rate_hz > 0.0) wanted.rate_hz = format_number(arguments.job.rate_hz);
@@ -151,16 +164,21 @@ int acquire_by_hand(const CommonOptions& common, const AcquireArguments& argumen
   return desk.failure() ? report_error(*desk.failure()) : 0;
 }
 
+/// No recording is named, and somebody can be asked.
+bool wants_menus(const CommonOptions& common, const pipeline::AcquireJob& job) {
+  if (job.check_up || common.json || !job.output.empty()) return false;
+  const bool names_trial = !job.session.empty() && !job.trial.empty();
+  const bool at_terminal = isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
+  return job.source.empty() || (at_terminal && !names_trial);
+}
+
 int acquire(const CommonOptions& common, AcquireArguments& arguments) {
   if (arguments.list) return list_devices(common);
-  const bool at_terminal = isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
-  if (arguments.job.output.empty() && !arguments.job.check_up && !common.json &&
-      (arguments.job.source.empty() || at_terminal))
-    return acquire_by_hand(common, arguments);
-  if (!arguments.rig.empty())
+  if (wants_menus(common, arguments.job)) return acquire_by_hand(common, arguments);
+  if (!arguments.job.rig.empty() && arguments.job.session.empty())
     return report_error({Code::usage,
-                         "--rig is for the menus, which come without --output; 'kinemark calibrate --align' "
-                         "does the same from a recording"});
+                         "--rig is for the menus, which come without --output, and for --session; 'kinemark "
+                         "calibrate --align' does the same from a recording"});
   if (auto s = complete(arguments); !s) return report_error(s.error());
   auto& job = arguments.job;
   settle(common, "frames", job);
@@ -205,7 +223,9 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
       "Ctrl-C ends the trial and keeps it. Exit status 1 when a frame is missing, 4 when the disk, 5 when "
       "the\n"
       "device failed; what came before is kept. Devices: sim:rig?leds=8&rate=138, replay:FILE.mcap,\n"
-      "serial:/dev/ttyACM0, comedi:/dev/comedi0. Without --output: menus, or questions in lines.");
+      "serial:/dev/ttyACM0, comedi:/dev/comedi0. Without --output, and without --trial of a --session: "
+      "menus,\n"
+      "or questions in lines.");
   const auto arguments = std::make_shared<AcquireArguments>();
   auto& job = arguments->job;
   command->add_option("SOURCE", job.source, "Address of the device, as --list shows it")->type_name("DEVICE");
@@ -219,10 +239,15 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
   command->add_option("--subject", job.subject, "Who was recorded; kept with the recording")
       ->type_name("NAME");
   command->add_option("--trial", job.trial, "What was recorded; kept with the recording")->type_name("NAME");
+  command
+      ->add_option("--session", job.session,
+                   "Folder of trials that belong together, made or continued: the trial is its "
+                   "raw/TRIAL.mcap, a number counted on where that is there")
+      ->type_name("FOLDER");
   command->add_option(
-      "--rig", arguments->rig,
+      "--rig", job.rig,
       "Rig as it is to stand, rig.toml: the menus say how to turn the cameras, by the tree of "
-      "three LEDs held still in four places or more");
+      "three LEDs held still in four places or more; a session keeps a copy");
   command->add_flag(
       "--check", job.check_up,
       "Look at the device for 10 s, or --duration, and keep nothing: rate, losses, dark level, noise and "

@@ -42,9 +42,16 @@ Result<std::unique_ptr<DeskParts>> open_desk(const CommonOptions& common, const 
     if (!wanted_rig) return std::unexpected(wanted_rig.error());
     files.wanted_rig = std::move(*wanted_rig);
   }
-  auto acquire_desk = std::make_unique<pipeline::AcquireDesk>(std::move(files));
   pipeline::Wanted wanted;
   wanted.source = uri;
+  if (pipeline::is_session(trials)) {
+    auto continued = pipeline::Session::open(trials, {});
+    if (!continued) return std::unexpected(continued.error());
+    for (const auto& note : continued->notes()) say(common, note);
+    wanted.subject = continued->subject();
+    files.session = std::move(*continued);
+  }
+  auto acquire_desk = std::make_unique<pipeline::AcquireDesk>(std::move(files));
   session = std::make_unique<pipeline::DeskSession>(*acquire_desk, wanted);
   if (const auto& failure = acquire_desk->failure()) return std::unexpected(*failure);
   desk = std::move(acquire_desk);

@@ -48,6 +48,33 @@ class Acquire(CommandTest):
             self.good("reconstruct", recording, "--rig", "lab/rig_true.toml", "-o", output)
         self.assertEqual((self.folder / "a.csv").read_bytes(), (self.folder / "b.csv").read_bytes())
 
+    def test_trials_of_a_session_are_counted_on(self):
+        words = (FAST, "--session", "day 1", "--frames", 50, "--trial", "walk")
+        self.assertEqual(self.acquire(*words, "--subject", "S1").status, 0)
+        ran = self.acquire(*words, "--json")
+        self.assertEqual(json.loads(ran.out.splitlines()[-1])["written"], ["day 1/raw/walk_02.mcap"])
+        listed = [line for line in (self.folder / "day 1" / "session.toml").read_text().splitlines() if "raw/" in line]
+        self.assertEqual(len(listed), 2)
+        ran = self.acquire(*words, "--subject", "S2")
+        self.assertEqual(ran.status, 2)
+        self.assertIn("of subject 'S1', not 'S2'", ran.err)
+        self.assertEqual(len(list((self.folder / "day 1" / "raw").iterdir())), 2)
+
+    def test_a_session_is_refused_where_it_makes_no_sense(self):
+        (self.folder / "photos").mkdir()
+        (self.folder / "photos" / "a.jpg").write_text("x")
+        for words, part in (
+            (("--session", "photos", "--trial", "a"), "photos: is no session"),
+            (("--session", "new", "--trial", "../a"), "cannot name a file"),
+            (("--session", "new", "--trial", "a", "-o", "b.mcap"), "--session names the recording by itself"),
+            (("--session", "new", "--trial", "a", "--check"), "--session names the recording by itself"),
+            (("--session", "new", "--trial", "a", "--rig", "none.toml"), "none.toml"),
+        ):
+            ran = self.acquire(FAST, "--frames", 10, *words)
+            self.assertIn(ran.status, (2, 4), words)
+            self.assertIn(part, ran.err)
+        self.assertEqual([path.name for path in (self.folder / "photos").iterdir()], ["a.jpg"])
+
     def test_a_recording_is_replayed(self):
         first = self.trial(FAST, "--frames", 300)
         again = self.trial("replay:trial.mcap?fast", name="again.mcap")

@@ -41,6 +41,18 @@ class DeskTest(CommandTest):
 
 
 class Recorded(DeskTest):
+    def test_a_folder_that_is_a_session_is_continued(self):
+        self.good("acquire", "sim:rig?leds=2&fast", "--session", "day1", "--subject", "S1", "--trial", "01", "--frames", 20)
+        server = self.serve("sim:rig?speed=10", "--record", "day1")
+        state = self.ask(server, do="start", leds="2", rate_hz="", subject=self.state(server)["wanted"]["subject"], trial="01")
+        self.assertEqual((state["step"], state["wanted"]["subject"], state["wanted"]["trial"]), ("live", "S1", "02"))
+        self.ask(server, do="record")
+        self.until(server, lambda s: s["live"]["acknowledged"] > 10)
+        self.ask(server, do="stop")
+        self.assertEqual(self.ask(server, do="keep")["kept"], ["day1/raw/02.mcap"])
+        listed = [line for line in (self.folder / "day1" / "MANIFEST").read_text().splitlines() if "raw/" in line]
+        self.assertEqual(len(listed), 2)
+
     def test_from_the_source_to_a_trial_that_is_kept_and_one_that_is_not(self):
         server = self.serve("sim:rig?speed=10", "--record", "day one")
         page = json.loads(report_data(server.request("/")[2]))

@@ -21,6 +21,8 @@
 #include "kinemark/pipeline/acquire/trial_notes.h"
 #include "kinemark/pipeline/files/address_settings.h"
 #include "kinemark/pipeline/files/output_check.h"
+#include "kinemark/pipeline/session/session.h"
+#include "kinemark/pipeline/session/trial_name.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -161,6 +163,62 @@ void conclude(const AcquireJob& job, AcquireOutcome& out) {
                        .sentence = out.notes.front().text});
 }
 
+Result<AcquireOutcome> record_trial(const AcquireJob& job, const std::function<bool()>& wait_for_key) {
+  if (auto s = check_output(job); !s) return std::unexpected(s.error());
+  if (auto s = check_apart(job, {job.output}, {AddressSettings(job.source).what()}); !s)
+    return std::unexpected(s.error());
+  auto device = open_device(job.source, job.seed);
+  if (!device) return std::unexpected(device.error());
+  const auto& capabilities = (*device)->capabilities();
+  const auto plan = wanted(job, capabilities);
+  if (!plan) return std::unexpected(plan.error());
+  auto granted = (*device)->configure(*plan);
+  if (!granted) return std::unexpected(granted.error());
+  const auto begin = brightness(job, granted->plan.leds);
+  if (!begin) return std::unexpected(begin.error());
+  if (auto room = job.check_up ? Status() : check_room(job.output, job.force, *granted, duration_of(job));
+      !room)
+    return std::unexpected(room.error());
+  if (!wait_for_begin(job, wait_for_key)) return fail(Code::cancelled, "stopped before the trial began");
+  auto recorder = Recorder::start(**device, *granted,
+                                  {.file = job.output,
+                                   .recording = {.force = job.force, .sync = job.sync},
+                                   .metadata = acquisition_metadata(job, *granted, capabilities),
+                                   .frames = frames_of(job, granted->plan.rate_hz),
+                                   .begin = *begin});
+  if (!recorder) return std::unexpected(recorder.error());
+  if (job.say)
+    job.say(fmt::format("{} {} LEDs at {} cameras, {:.6g} frames per second",
+                        job.check_up ? "looks at" : "records", granted->layout.led_count(),
+                        granted->layout.camera_count(), granted->plan.rate_hz));
+  watch(job, **recorder);
+  AcquireOutcome out;
+  out.recorded = (*recorder)->finish();
+  out.plan = std::move(*granted);
+  conclude(job, out);
+  return out;
+}
+
+/// The next trial of a session, which it becomes part of once it has ended.
+Result<AcquireOutcome> record_in_session(const AcquireJob& asked, const std::function<bool()>& wait_for_key) {
+  if (asked.check_up || !asked.output.empty())
+    return fail(Code::usage, "--session names the recording by itself; leave --output and --check away");
+  if (auto s = check_trial_name(asked.trial); !s) return std::unexpected(s.error());
+  auto session = Session::open(asked.session, {.subject = asked.subject, .rig = asked.rig});
+  if (!session) return std::unexpected(session.error());
+  if (asked.say) std::ranges::for_each(session->notes(), asked.say);
+  AcquireJob job = asked;
+  job.session.clear();
+  job.subject = session->subject();
+  job.trial = free_trial(session->raw(), asked.trial);
+  job.output = trial_file(session->raw(), job.trial);
+  job.force = false;
+  auto out = record_trial(job, wait_for_key);
+  if (!out || out->written.empty()) return out;
+  if (auto s = session->add(job.output); !s && !out->recorded.error) out->recorded.error = s.error();
+  return out;
+}
+
 }  // namespace
 
 std::vector<io::RecordingMetadata> acquisition_metadata(const AcquireJob& job,
@@ -209,39 +267,7 @@ Result<TrialBegin> parse_begin(std::string_view text) {
 
 Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bool()>& wait_for_key) {
   if (auto s = check_numbers(job); !s) return std::unexpected(s.error());
-  if (auto s = check_output(job); !s) return std::unexpected(s.error());
-  if (auto s = check_apart(job, {job.output}, {AddressSettings(job.source).what()}); !s)
-    return std::unexpected(s.error());
-  auto device = open_device(job.source, job.seed);
-  if (!device) return std::unexpected(device.error());
-  const auto& capabilities = (*device)->capabilities();
-  const auto plan = wanted(job, capabilities);
-  if (!plan) return std::unexpected(plan.error());
-  auto granted = (*device)->configure(*plan);
-  if (!granted) return std::unexpected(granted.error());
-  const auto begin = brightness(job, granted->plan.leds);
-  if (!begin) return std::unexpected(begin.error());
-  if (auto room = job.check_up ? Status() : check_room(job.output, job.force, *granted, duration_of(job));
-      !room)
-    return std::unexpected(room.error());
-  if (!wait_for_begin(job, wait_for_key)) return fail(Code::cancelled, "stopped before the trial began");
-  auto recorder = Recorder::start(**device, *granted,
-                                  {.file = job.output,
-                                   .recording = {.force = job.force, .sync = job.sync},
-                                   .metadata = acquisition_metadata(job, *granted, capabilities),
-                                   .frames = frames_of(job, granted->plan.rate_hz),
-                                   .begin = *begin});
-  if (!recorder) return std::unexpected(recorder.error());
-  if (job.say)
-    job.say(fmt::format("{} {} LEDs at {} cameras, {:.6g} frames per second",
-                        job.check_up ? "looks at" : "records", granted->layout.led_count(),
-                        granted->layout.camera_count(), granted->plan.rate_hz));
-  watch(job, **recorder);
-  AcquireOutcome out;
-  out.recorded = (*recorder)->finish();
-  out.plan = std::move(*granted);
-  conclude(job, out);
-  return out;
+  return job.session.empty() ? record_trial(job, wait_for_key) : record_in_session(job, wait_for_key);
 }
 
 }  // namespace kinemark::pipeline

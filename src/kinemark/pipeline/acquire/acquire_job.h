@@ -33,14 +33,16 @@ struct TrialBegin {
 
 /// What `kinemark acquire` is asked to do.
 struct AcquireJob : JobSettings {
-  std::string source;            ///< address of a device, see open_device()
-  std::filesystem::path output;  ///< .mcap
-  bool check_up = false;         ///< look at the device for 10 s, or duration_s, and keep nothing
-  std::string leds;              ///< as parse_leds() takes them; empty: all that the device has
-  double rate_hz = 0.0;          ///< 0: the highest
-  double duration_s = 0.0;       ///< 0: until stopped, or the device ends
-  std::int64_t frames = 0;       ///< likewise; lost ones count, the shorter length holds
-  TrialBegin begin;              ///< what it begins with
+  std::string source;             ///< address of a device, see open_device()
+  std::filesystem::path output;   ///< .mcap
+  std::filesystem::path session;  ///< folder whose next trial it is, in the place of an output; empty: none
+  std::filesystem::path rig;      ///< of the session, see SessionAbout
+  bool check_up = false;          ///< look at the device for 10 s, or duration_s, and keep nothing
+  std::string leds;               ///< as parse_leds() takes them; empty: all that the device has
+  double rate_hz = 0.0;           ///< 0: the highest
+  double duration_s = 0.0;        ///< 0: until stopped, or the device ends
+  std::int64_t frames = 0;        ///< likewise; lost ones count, the shorter length holds
+  TrialBegin begin;               ///< what it begins with
   std::vector<std::pair<std::string, double>> intensity;  ///< by name; an empty name means all
   io::SyncPolicy sync = io::SyncPolicy::background;
   std::string subject, trial;                                ///< kept with the recording

@@ -13,15 +13,13 @@
 #include "kinemark/pipeline/acquire/open_device.h"
 #include "kinemark/pipeline/acquire/recording_room.h"
 #include "kinemark/pipeline/acquire/trial_notes.h"
-#include "kinemark/pipeline/desk/plan_text.h"
+#include "kinemark/pipeline/session/trial_name.h"
 #include "kinemark/workflow/rig/alignment_guide.h"
 
 namespace kinemark::pipeline {
 namespace {
 
 constexpr int kSeconds = 1;  // of frames that the live view shows
-
-constexpr int kMostNames = 10000;  // that are tried for a free one
 
 std::size_t size_of(std::int64_t n) { return static_cast<std::size_t>(n); }
 
@@ -176,19 +174,11 @@ void AcquireDesk::restart_guide() {
   if (watcher_) watcher_->restart_guide();
 }
 
-std::filesystem::path AcquireDesk::file_of(const std::string& trial) const {
-  return (files_.folder / (trial + ".mcap")).lexically_normal();
+std::filesystem::path AcquireDesk::folder() const {
+  return files_.session ? files_.session->raw() : files_.folder;
 }
 
-std::string AcquireDesk::free_name(const std::string& trial) const {
-  std::string name = trial;
-  std::error_code none;
-  for (int tries = 0;
-       tries < kMostNames && std::filesystem::exists(std::filesystem::symlink_status(file_of(name), none));
-       ++tries)
-    name = next_trial(name);
-  return name;
-}
+std::string AcquireDesk::free_name(const std::string& trial) const { return free_trial(folder(), trial); }
 
 std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) const {
   AcquireJob job;
@@ -200,13 +190,15 @@ std::vector<io::RecordingMetadata> AcquireDesk::about(const TrialName& name) con
 
 Status AcquireDesk::record(const TrialName& name) {
   std::error_code failed;
-  std::filesystem::create_directories(files_.folder, failed);
+  std::filesystem::create_directories(folder(), failed);
   if (failed)
-    return fail(Code::io, fmt::format("{}: cannot be made: {}", files_.folder.string(), failed.message()));
-  if (name.trial.find('/') != std::string::npos)
-    return fail(Code::usage, fmt::format("Trial: '{}' holds a '/', which no name of a file can", name.trial));
-  if (const auto room = check_room(file_of(name.trial), false, granted_, name.duration_s); !room) return room;
-  trial_ = file_of(name.trial);
+    return fail(Code::io, fmt::format("{}: cannot be made: {}", folder().string(), failed.message()));
+  if (const auto named = check_trial_name(name.trial); !named) return named;
+  if (files_.session)
+    if (const auto same = files_.session->set_subject(name.subject); !same) return same;
+  const auto file = trial_file(folder(), name.trial);
+  if (const auto room = check_room(file, false, granted_, name.duration_s); !room) return room;
+  trial_ = file;
   RecorderOptions options;
   options.file = trial_;
   options.recording = files_.recording;
@@ -232,7 +224,12 @@ Result<std::vector<TrialNote>> AcquireDesk::stop() {
   return lines;
 }
 
-Result<std::string> AcquireDesk::keep() { return std::exchange(trial_, {}).string(); }
+Result<std::string> AcquireDesk::keep() {
+  const auto file = std::exchange(trial_, {});
+  if (files_.session && !file.empty())
+    if (const auto added = files_.session->add(file); !added) trouble_ = added.error().message;
+  return file.string();
+}
 
 Status AcquireDesk::discard() {
   std::error_code failed;
@@ -252,6 +249,7 @@ void AcquireDesk::close() {
   watcher_.reset();
   device_.reset();
   recording_ = false;
+  (void)keep();
 }
 
 }  // namespace kinemark::pipeline

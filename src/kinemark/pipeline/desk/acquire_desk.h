@@ -13,12 +13,14 @@
 #include "kinemark/io/recording/writer.h"
 #include "kinemark/pipeline/acquire/recorder.h"
 #include "kinemark/pipeline/desk/desk.h"
+#include "kinemark/pipeline/session/session.h"
 
 namespace kinemark::pipeline {
 
 /// Where trials go, and how.
 struct TrialFiles {
   std::filesystem::path folder = ".";  ///< of the trials, named TRIAL.mcap; made when it is absent
+  std::optional<Session> session;      ///< that trials are part of, in its raw/ then, not in the folder
   std::uint64_t seed = 1;              ///< of simulated sources
   /// That the cameras are to be aligned with, by the tree; nothing: there is no guide.
   std::optional<data::Rig> wanted_rig;
@@ -38,10 +40,11 @@ class AcquireDesk final : public Desk {
   [[nodiscard]] Status set_intensity(int led, double intensity) override;
   void restart_guide() override;
   [[nodiscard]] std::string free_name(const std::string& trial) const override;
-  /// Fails where the file is there, where the disk has room for less than the trial or a minute, and as
-  /// Recorder::start().
+  /// Fails where the file is there, the session is of another subject, where the disk has room for less than
+  /// the trial or a minute, and as Recorder::start().
   [[nodiscard]] Status record(const TrialName& name) override;
   [[nodiscard]] Result<std::vector<TrialNote>> stop() override;
+  /// What a session could not take in is the trouble that is shown: the file stays.
   [[nodiscard]] Result<std::string> keep() override;
   [[nodiscard]] Status discard() override;
   void close() override;
@@ -52,7 +55,7 @@ class AcquireDesk final : public Desk {
  private:
   class Watcher;
   [[nodiscard]] Status start(RecorderOptions options);
-  [[nodiscard]] std::filesystem::path file_of(const std::string& trial) const;
+  [[nodiscard]] std::filesystem::path folder() const;
   [[nodiscard]] Result<stream::GrantedPlan> configure(const stream::ScanPlan& plan);
   [[nodiscard]] std::vector<io::RecordingMetadata> about(const TrialName& name) const;
 

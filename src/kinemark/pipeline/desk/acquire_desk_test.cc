@@ -86,6 +86,45 @@ TEST(AcquireDesk, ATrialThatIsDiscardedIsGone) {
   EXPECT_FALSE(std::filesystem::exists(rig.folder / "trials/01.mcap"));
 }
 
+TEST(AcquireDesk, TrialsOfASessionArePartOfIt) {
+  const testing_support::ScratchFolder folder;
+  AcquireDesk desk(TrialFiles{.session = Session::open(folder / "day1", {}).value()});
+  const auto device = desk.open("sim:rig?leds=3&speed=20").value();
+  ASSERT_TRUE(desk.run(plan_of({}, device)->scan));
+  const auto trial = [&](const std::string& subject, const std::string& name) {
+    const auto begun = desk.record({subject, name, 0.0});
+    return begun ? desk.stop() : Result<std::vector<TrialNote>>(std::unexpected(begun.error()));
+  };
+  ASSERT_TRUE(trial("S1", "01"));
+  EXPECT_EQ(desk.keep(), (folder / "day1/raw/01.mcap").string());
+  EXPECT_EQ(desk.free_name("01"), "02");
+  ASSERT_TRUE(trial("S1", "02"));
+  ASSERT_TRUE(desk.discard());
+  const auto other = trial("S2", "02");
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().message, HasSubstr("of subject 'S1', not 'S2'"));
+  ASSERT_TRUE(trial("S1", "03"));
+  desk.close();  // nobody has judged it: it is kept
+  const auto session = Session::read(folder / "day1").value();
+  ASSERT_EQ(session.trials().size(), 2U);
+  EXPECT_EQ(session.trials()[1].file, "raw/03.mcap");
+  EXPECT_EQ(session.subject(), "S1");
+  EXPECT_TRUE(session.check());
+}
+
+TEST(AcquireDesk, ATrialThatItsSessionCannotTakeInStays) {
+  const testing_support::ScratchFolder folder;
+  AcquireDesk desk(TrialFiles{.session = Session::open(folder / "day1", {}).value()});
+  const auto device = desk.open("sim:rig?leds=3&speed=20").value();
+  ASSERT_TRUE(desk.run(plan_of({}, device)->scan));
+  ASSERT_TRUE(desk.record({"", "01", 0.0}));
+  ASSERT_TRUE(desk.stop());
+  std::ofstream(folder / "day1/MANIFEST") << "rubbish\n";
+  EXPECT_TRUE(desk.keep());
+  EXPECT_TRUE(std::filesystem::exists(folder / "day1/raw/01.mcap"));
+  EXPECT_THAT(desk.live().trouble, HasSubstr("MANIFEST: line 1"));
+}
+
 TEST(AcquireDesk, AFileThatIsThereIsNeverReplaced) {
   Rig rig;
   std::filesystem::create_directories(rig.folder / "trials");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kinemark/core/number.h"
+#include "kinemark/pipeline/session/trial_name.h"
 
 namespace kinemark::pipeline {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <fmt/core.h>
 
-#include <cctype>
-
 #include "kinemark/core/number.h"
 #include "kinemark/pipeline/acquire/led_names.h"
 
@@ -23,16 +21,6 @@ Result<double> parse_positive(const std::string& text, const char* what) {
 }
 
 }  // namespace
-
-std::string next_trial(const std::string& name) {
-  std::size_t digits = 0;
-  while (digits < name.size() && digits < 9 &&
-         std::isdigit(static_cast<unsigned char>(name[name.size() - 1 - digits])) != 0)
-    ++digits;
-  if (digits == 0) return name + "_02";
-  const std::string number = name.substr(name.size() - digits);
-  return name.substr(0, name.size() - digits) + fmt::format("{:0{}}", std::stol(number) + 1, digits);
-}
 
 Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device) {
   auto leds = parse_leds(wanted.leds, device);

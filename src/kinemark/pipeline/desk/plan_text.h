@@ -30,7 +30,4 @@ struct Plan {
 /// The set-up of a device. Code::usage for a line that makes no sense, named.
 [[nodiscard]] Result<Plan> plan_of(const Wanted& wanted, const stream::DeviceCapabilities& device);
 
-/// The name after this one: its number at the end counted up, as wide as before; one without gets "_02".
-[[nodiscard]] std::string next_trial(const std::string& name);
-
 }  // namespace kinemark::pipeline

@@ -26,12 +26,5 @@ TEST(PlanOf, TakesSlotsAndCamerasOfTheDevice) {
   EXPECT_THAT(plan_of(wanted, device)->scan.leds, testing::ElementsAre("1"));
 }
 
-TEST(NextTrial, CountsTheNumberAtTheEnd) {
-  EXPECT_EQ(next_trial("01"), "02");
-  EXPECT_EQ(next_trial("reach_09"), "reach_10");
-  EXPECT_EQ(next_trial("99"), "100");
-  EXPECT_EQ(next_trial("walk"), "walk_02");
-}
-
 }  // namespace
 }  // namespace kinemark::pipeline

@@ -26,11 +26,13 @@ constexpr std::size_t kLargestRunFile = 16UL << 20;  // bytes
 constexpr std::string_view kQuiet = "quiet";
 
 /// Options that the run gives itself, step by step.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kOwn = {{{"joints", "output"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kOwn = {{{"joints", "output"},
                                                                                  {"scale", "output"},
                                                                                  {"scale", "static"},
                                                                                  {"scale", "markers"},
                                                                                  {"scale", "mass"},
+                                                                                 {"reconstruct", "output"},
+                                                                                 {"reconstruct", "report"},
                                                                                  {"ik", "output"},
                                                                                  {"ik", "markers"},
                                                                                  {"ik", "report"},
@@ -126,6 +128,7 @@ class Reader {
     fields.text("name", s.name, io::TomlFields::Need::required)
         .text("static", s.static_trial)
         .text("functional", s.functional)
+        .text("session", s.session)
         .number("mass", s.mass_kg);
     if (fields.failed()) return fields.finish();
     if (!is_folder_name(s.name) || !names_.insert(lower(s.name)).second) {
@@ -161,8 +164,10 @@ class Reader {
     const auto needs = [&](const std::string& what) {
       return fail(Code::bad_input, fmt::format("{}: line {}: subject '{}' {}", name_, s.line, s.name, what));
     };
-    const bool works_on_trials = out_.does("clean") || out_.does("ik") || out_.does("track");
-    if (works_on_trials && s.trials.empty()) return needs("has no trials; need trials = [\"walk*.c3d\"]");
+    const bool works_on_trials =
+        out_.does("reconstruct") || out_.does("clean") || out_.does("ik") || out_.does("track");
+    if (works_on_trials && s.trials.empty() && s.session.empty())
+      return needs("has no trials; need trials = [\"walk*.c3d\"], or session = \"FOLDER\"");
     if (out_.does("joints") && s.functional.empty())
       return needs("has no functional motion for 'joints'; need functional = \"FILE\"");
     if (out_.does("scale") && s.static_trial.empty() && s.functional.empty())

@@ -15,8 +15,8 @@
 namespace kinemark::pipeline {
 
 /// Steps that a run file may name, in the order in which they are done; each is the command of that name.
-inline constexpr std::array<std::string_view, 7> kSteps = {"joints", "scale",   "clean", "ik",
-                                                           "track",  "analyze", "report"};
+inline constexpr std::array<std::string_view, 8> kSteps = {"joints", "scale", "reconstruct", "clean",
+                                                           "ik",     "track", "analyze",     "report"};
 
 /// Options of one step.
 struct StepOptions {
@@ -37,6 +37,7 @@ struct RunSubject {
   std::string static_trial;          ///< for `scale`; may be empty
   std::string functional;            ///< motion for `joints` and `scale`; may be empty
   double mass_kg = 0.0;              ///< for `scale`; 0: the model's
+  std::string session;               ///< folder whose trials are the subject's too; may be empty
   std::vector<RunTrial> trials;      ///< in the order of the file
   std::vector<StepOptions> options;  ///< for its trials
   int line = 0;                      ///< in the file

@@ -16,6 +16,7 @@
 #include "kinemark/core/number.h"
 #include "kinemark/io/input/journal_input.h"
 #include "kinemark/io/keypoints/keypoints_file.h"
+#include "kinemark/pipeline/session/session.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -54,7 +55,8 @@ std::string word_of(const fs::path& file) {
 struct Found {
   fs::path file;
   std::string name;
-  const RunTrial* trial;
+  std::vector<StepOptions> options;  ///< for it alone
+  fs::path rig;                      ///< of its session; empty: none
 };
 
 /// Plans one subject after the other.
@@ -121,17 +123,25 @@ class Planner {
 
   Status plan_trial(const RunSubject& subject, const Found& found, const fs::path& folder,
                     std::size_t scaled) {
-    const Lists lists = {&file_.options, &subject.options, &found.trial->options};
+    const Lists lists = {&file_.options, &subject.options, &found.options};
     const auto options = [&](const std::string& step) { return options_of(step, lists); };
     fs::path markers = found.file;
-    std::size_t cleaned = kNone;
+    std::size_t before = kNone;  // the step that makes the markers
+    if (file_.does("reconstruct")) {
+      auto reconstructed = plan_reconstruct(subject, found, folder, options("reconstruct"));
+      if (!reconstructed) return std::unexpected(reconstructed.error());
+      before = *reconstructed;
+      markers = steps_[before].outputs.front();
+    }
     if (file_.does("clean")) {
       RunStep step = begin(subject, found.name, "clean", folder);
-      markers = folder / "clean.c3d";
-      step.words.insert(step.words.end(), {word_of(found.file), word_of(markers)});
-      step.inputs.push_back(found.file);
-      step.outputs = {markers};
-      cleaned = add(std::move(step), options("clean"), subject.name, found.file.string());
+      const fs::path cleaned = folder / "clean.c3d";
+      step.words.insert(step.words.end(), {word_of(markers), word_of(cleaned)});
+      step.inputs.push_back(markers);
+      step.outputs = {cleaned};
+      if (before != kNone) step.after.push_back(before);
+      before = add(std::move(step), options("clean"), subject.name, found.file.string());
+      markers = cleaned;
     }
     for (const std::string solver : {"ik", "track"}) {
       if (!file_.does(solver)) continue;
@@ -153,7 +163,7 @@ class Planner {
       step.words.push_back("--markers=" + markers.string());
       step.words.push_back("--output=" + out.string());
       step.inputs.push_back(markers);
-      if (cleaned != kNone) step.after.push_back(cleaned);
+      if (before != kNone) step.after.push_back(before);
       step.outputs = {out, folder / (solver + "_report.json")};
       const std::size_t solved = add(std::move(step), settings, subject.name, found.file.string());
       if (file_.does("analyze") && (solver == "ik" || !file_.does("ik")))
@@ -162,6 +172,25 @@ class Planner {
         plan_report(subject, found, folder, solved, options("report"));
     }
     return {};
+  }
+
+  /// Markers of a recording of counts, by the rig that the options name, or else that of the session.
+  Result<std::size_t> plan_reconstruct(const RunSubject& subject, const Found& found, const fs::path& folder,
+                                       const std::vector<Setting>& options) {
+    RunStep step = begin(subject, found.name, "reconstruct", folder);
+    step.words.push_back(word_of(found.file));
+    step.inputs.push_back(found.file);
+    if (std::ranges::find(options, "rig", &Setting::name) == options.end()) {
+      if (found.rig.empty())
+        return fail(Code::bad_input, fmt::format("{}: no rig for reconstruct of subject '{}'; need rig = "
+                                                 "\"rig.toml\" under [reconstruct]",
+                                                 name_, subject.name));
+      step.words.push_back("--rig=" + found.rig.string());
+      step.inputs.push_back(found.rig);
+    }
+    step.outputs = {folder / "markers.c3d"};
+    step.words.push_back("--output=" + step.outputs.front().string());
+    return add(std::move(step), options, subject.name, found.file.string());
   }
 
   /// What follows from the motion of `solved`, with its model unless the options name one.
@@ -286,10 +315,36 @@ class Planner {
               fmt::format("{}: line {}: {} and {} of subject '{}' would both be called '{}'; need "
                           "recordings of different names",
                           name_, trial.line, other->second.string(), file.string(), subject.name, name));
-        out.push_back({.file = std::move(file), .name = name, .trial = &trial});
+        out.push_back({.file = std::move(file), .name = name, .options = trial.options, .rig = {}});
       }
     }
+    if (auto s = add_session(subject, named, taken, out); !s) return std::unexpected(s.error());
     return out;
+  }
+
+  /// The trials of its session that are not named by themselves, once all are as they were recorded.
+  Status add_session(const RunSubject& subject, const std::set<fs::path>& named,
+                     const std::map<std::string, fs::path>& taken, std::vector<Found>& out) const {
+    if (subject.session.empty()) return {};
+    const fs::path folder = fs::path(subject.session).lexically_normal();
+    const auto session = Session::read(base_ / folder);
+    if (!session) return std::unexpected(session.error());
+    if (auto s = session->check(); !s) return s;
+    const fs::path rig = session->rig().empty() ? fs::path() : folder / session->rig().filename();
+    for (auto& each : out)
+      if (each.file.lexically_normal().parent_path() == folder / "raw") each.rig = rig;
+    for (const auto& trial : session->trials()) {
+      const fs::path file = folder / trial.file;
+      if (named.contains(file)) continue;
+      if (taken.contains(file.stem().string()))
+        return fail(Code::bad_input,
+                    fmt::format("{}: line {}: {} and {} of subject '{}' would both be called '{}'; need "
+                                "recordings of different names",
+                                name_, subject.line, taken.at(file.stem().string()).string(), file.string(),
+                                subject.name, file.stem().string()));
+      out.push_back({.file = file, .name = file.stem().string(), .options = {}, .rig = rig});
+    }
+    return {};
   }
 
   /// The files that a name or a pattern stands for, in order.

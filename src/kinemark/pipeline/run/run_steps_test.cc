@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "kinemark/io/file.h"
+#include "kinemark/io/input/file_hash.h"
+#include "kinemark/pipeline/session/session_text.h"
 #include "support/scratch.h"
 
 namespace kinemark::pipeline {
@@ -42,6 +44,71 @@ class PlanSteps : public ::testing::Test {
 
   testing_support::ScratchFolder scratch_;
 };
+
+class PlanSession : public PlanSteps {
+ protected:
+  PlanSession() {
+    fs::create_directories(scratch_ / "day/raw");
+    SessionFile about;
+    std::vector<ManifestEntry> manifest;
+    for (const char* name : {"raw/b.mcap", "raw/a.mcap"}) {
+      (void)io::write_text(scratch_ / "day" / name, name, true);
+      about.trials.push_back({.file = name, .source = "sim:rig", .started = "", .rate_hz = 60.0});
+      manifest.push_back({name, io::hash_file(scratch_ / "day" / name).value().hex});
+    }
+    (void)io::write_text(scratch_ / "day/session.toml", session_text(about), true);
+    (void)io::write_text(scratch_ / "day/MANIFEST", manifest_text(manifest), true);
+  }
+  void give_rig() const {
+    const auto text = io::read_text(scratch_ / "day/session.toml").value();
+    (void)io::write_text(scratch_ / "day/session.toml", "rig = \"rig.toml\"\n" + text, true);
+  }
+  static constexpr const char* kStudy =
+      "steps = [\"reconstruct\", \"clean\"]\n[[subject]]\nname = \"A\"\nsession = \"day\"\n";
+};
+
+TEST_F(PlanSession, ItsTrialsAreReconstructedInTheirOrder) {
+  EXPECT_THAT(plan(kStudy).error().message, HasSubstr("no rig for reconstruct of subject 'A'"));
+  give_rig();
+  const auto steps = plan(kStudy).value();
+  ASSERT_THAT(names(steps), ElementsAre("b/reconstruct", "b/clean", "a/reconstruct", "a/clean"));
+  EXPECT_THAT(steps[0].words, ElementsAre("reconstruct", "day/raw/b.mcap", "--rig=day/rig.toml",
+                                          "--output=results/A/b/markers.c3d"));
+  EXPECT_THAT(steps[0].inputs, ElementsAre("day/raw/b.mcap", "day/rig.toml"));
+  EXPECT_THAT(steps[1].words, ElementsAre("clean", "results/A/b/markers.c3d", "results/A/b/clean.c3d"));
+  EXPECT_THAT(steps[1].after, ElementsAre(0U));
+}
+
+TEST_F(PlanSession, ARigOfTheOptionsGoesBeforeThatOfTheSession) {
+  give_rig();
+  const auto steps = plan(std::string(kStudy) + "[subject.reconstruct]\nrig = \"lab.toml\"\n").value();
+  EXPECT_THAT(steps[0].words, Contains("--rig=lab.toml"));
+  EXPECT_THAT(steps[0].words, Not(Contains("--rig=day/rig.toml")));
+}
+
+TEST_F(PlanSession, ATrialThatIsNamedHasOptionsOfItsOwn) {
+  give_rig();
+  const auto steps = plan(std::string(kStudy) +
+                          "[[subject.trial]]\nfile = \"day/raw/a.mcap\"\n[subject.trial.clean]\ngaps = "
+                          "\"auto\"\n")
+                         .value();
+  ASSERT_THAT(names(steps), ElementsAre("a/reconstruct", "a/clean", "b/reconstruct", "b/clean"));
+  EXPECT_THAT(steps[0].words, Contains("--rig=day/rig.toml"));
+  EXPECT_THAT(steps[1].words, Contains("--gaps=auto"));
+  EXPECT_THAT(steps[3].words, Not(Contains("--gaps=auto")));
+}
+
+TEST_F(PlanSession, AChangedRecordingIsNamed) {
+  give_rig();
+  (void)io::write_text(scratch_ / "day/raw/a.mcap", "changed", true);
+  EXPECT_THAT(plan(kStudy).error().message, HasSubstr("a.mcap: was changed since it was recorded"));
+  (void)io::write_text(scratch_ / "S/a.mcap", "x", true);
+  (void)io::write_text(scratch_ / "day/raw/a.mcap", "raw/a.mcap", true);
+  EXPECT_THAT(plan(std::string(kStudy) + "trials = [\"S/a.mcap\"]\n").error().message,
+              HasSubstr("would both be called 'a'"));
+  EXPECT_THAT(plan("steps = [\"clean\"]\n[[subject]]\nname = \"A\"\nsession = \"S\"\n").error().message,
+              HasSubstr("session.toml"));
+}
 
 TEST_F(PlanSteps, WhatIsAnalysedIsTheMotionOfTheSolverWithItsModel) {
   const auto of = [&](const std::string& steps, const std::string& tables) {

@@ -10,6 +10,7 @@
 
 #include "kinemark/pipeline/desk/desk.h"
 #include "kinemark/pipeline/desk/plan_text.h"
+#include "kinemark/pipeline/session/trial_name.h"
 
 namespace kinemark::pipeline {
 
