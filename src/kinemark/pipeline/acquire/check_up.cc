@@ -21,7 +21,10 @@ constexpr double kSd = 4.0;             // of a rate, within which it is the gra
 constexpr double kLeastDark = 1.0;      // counts: below, the noise is cut off at code 0
 constexpr double kMostDarkShare = 0.1;  // of the codes, that steady light may take
 constexpr double kNoiseFactor = 3.0, kNoiseCounts = 0.5;
-constexpr double kFollows_counts = 1.0;  // by which a channel differs between LEDs at least
+// Of a slot's counts, in the next: it moves a spot by so much of the distance of the two LEDs' spots.
+constexpr double kMostCrosstalk = 1e-3;
+constexpr double kKnownCrosstalk_sd = 5e-4;  // beyond, it is not known
+constexpr double kFollows_counts = 1.0;      // by which a channel differs between LEDs at least
 
 constexpr std::array<std::string_view, 4> kElectrodes = {"+x", "-x", "+y", "-y"};
 
@@ -130,6 +133,39 @@ void add_channels(const Levels& levels, std::vector<TrialNote>& out) {
                                *std::ranges::min_element(all), *std::ranges::max_element(all))});
 }
 
+/// What is left of the light of the LED before the dark slot, at one camera.
+TrialNote crosstalk_of(const stream::SlotShare& found, const std::string& led, const std::string& camera) {
+  const bool none_known = found.sd.hasNaN();
+  Eigen::Index worst = 0;
+  const double surely = none_known ? 0.0 : (found.share - kSd * found.sd).maxCoeff(&worst);
+  if (none_known || (surely <= 0.0 && found.sd.maxCoeff() > kKnownCrosstalk_sd))
+    return {fmt::format(
+        "crosstalk into the slot after LED '{}' is not known at camera {}: move that LED across its "
+        "view",
+        led, camera)};
+  const double share = found.share(worst), sd = found.sd(worst);
+  if (surely > 0.0 && share > kMostCrosstalk)
+    return {fmt::format(
+                "{:.2f} +- {:.2f} % of the light of LED '{}' is still there in the slot after it, channel "
+                "{} of camera {}: an amplifier has not settled, or the LED goes out slowly",
+                100.0 * share, 100.0 * sd, led, kElectrodes[static_cast<std::size_t>(worst)], camera),
+            false};
+  return {fmt::format("crosstalk into the slot after LED '{}': {:.2f} % or less at camera {}", led,
+                      100.0 * (found.share.cwiseAbs() + 2.0 * found.sd).maxCoeff(), camera)};
+}
+
+void add_crosstalk(const Levels& levels, std::vector<TrialNote>& out) {
+  const auto& recorded = levels.recorded;
+  if (recorded.crosstalk_led < 0 || recorded.crosstalk.empty()) {
+    out.push_back({"crosstalk from slot to slot is not known: there is no dark slot"});
+    return;
+  }
+  for (std::size_t c = 0; c < levels.cameras(); ++c)
+    out.push_back(crosstalk_of(recorded.crosstalk[c],
+                               levels.layout.leds[static_cast<std::size_t>(recorded.crosstalk_led)],
+                               levels.layout.cameras[c]));
+}
+
 /// What one camera says of an LED; empty: all is well.
 std::string trouble_of(const Levels& levels, std::size_t led, std::size_t camera) {
   const std::string& name = levels.layout.cameras[camera];
@@ -174,6 +210,7 @@ std::vector<TrialNote> check_up(const Recorded& recorded, const stream::GrantedP
   add_losses(recorded.progress, out);
   add_dark(levels, out);
   add_channels(levels, out);
+  add_crosstalk(levels, out);
   add_leds(levels, out);
   return out;
 }

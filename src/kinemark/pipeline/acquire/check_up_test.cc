@@ -46,6 +46,8 @@ struct Healthy {
                               .noise = {1.0, 1.1, 0.9, 1.0}});
     recorded.lit[0].mean(1) = 520;
     recorded.lit[1].mean(1) = recorded.lit[1].mean(2) = 700;
+    recorded.crosstalk.assign(2, {.share = {1e-4, -1e-4, 0, 0}, .sd = {1e-4, 1e-4, 1e-4, 1e-4}});
+    recorded.crosstalk_led = 1;
     recorded.dark.assign(2, {.frames = 1380, .mean = {16, 17, 15, 16}, .noise = {0.9, 1.0, 0.9, 1.0}});
   }
   [[nodiscard]] std::vector<TrialNote> lines() const { return check_up(recorded, plan); }
@@ -72,7 +74,33 @@ TEST(CheckUp, OfAHealthyDeviceHasNothingToDo) {
   EXPECT_THAT(lines, Not(Contains(text(HasSubstr("the rate was not measured: two seconds")))));
   EXPECT_THAT(lines, Not(Contains(text(HasSubstr("the dark level is not known: there is no dark slot")))));
   EXPECT_THAT(lines, Not(Contains(text(HasSubstr("no frame came: is it running")))));
+  EXPECT_THAT(lines, Contains(text("crosstalk into the slot after LED 'wrist': 0.03 % or less at camera A")));
+  EXPECT_THAT(lines, Not(Contains(text(HasSubstr("is still there in the slot after it, channel")))));
+  EXPECT_THAT(lines,
+              Not(Contains(text(HasSubstr("crosstalk into the slot after LED 'wrist' is not known")))));
+  EXPECT_THAT(lines, Not(Contains(text(HasSubstr("crosstalk from slot to slot is not known: there")))));
   EXPECT_TRUE(check_up_gate(lines).passed);
+}
+
+TEST(CheckUp, SaysWhatIsLeftOfTheSlotBefore) {
+  Healthy device;
+  device.recorded.crosstalk[1].share(2) = 0.02;
+  device.recorded.crosstalk[1].sd(2) = 0.001;
+  EXPECT_THAT(device.lines(),
+              warns("2.00 +- 0.10 % of the light of LED 'wrist' is still there in the slot after "
+                    "it, channel +y of camera B: an amplifier has not settled"));
+  device.recorded.crosstalk[1].sd(2) = 0.006;  // it may be none
+  EXPECT_THAT(device.lines(), Not(Contains(text(HasSubstr("is still there in the slot after it, channel")))));
+  EXPECT_THAT(
+      device.lines(),
+      Contains(text(HasSubstr("crosstalk into the slot after LED 'wrist' is not known at camera B"))));
+  device.recorded.crosstalk[1].share(2) = device.recorded.crosstalk[1].sd(2) = kNaN;  // too few frames
+  EXPECT_THAT(
+      device.lines(),
+      Contains(text(HasSubstr("crosstalk into the slot after LED 'wrist' is not known at camera B"))));
+  device.recorded.crosstalk.clear();
+  device.recorded.crosstalk_led = -1;
+  EXPECT_THAT(device.lines(), Contains(text(HasSubstr("crosstalk from slot to slot is not known: there"))));
 }
 
 TEST(CheckUp, SaysWhenTheRateIsNotKept) {
@@ -173,6 +201,18 @@ TEST(CheckUp, FindsTheFaultsOfTheSimulatedRigAndNoOthers) {
                 testing::ElementsAre(HasSubstr("channel -x of camera B has a noise of")))
         << seed;
   }
+}
+
+TEST(CheckUp, FindsAnAfterglowOfTheSimulatedRig) {
+  const auto of_sign = [](const std::string& fault) {
+    AcquireJob job;
+    job.source = "sim:rig?scene=sign&dark&fast&rate=100&seed=7" + fault;
+    job.check_up = true;
+    return run_acquire(job).value().notes;
+  };
+  EXPECT_THAT(of_sign("&afterglow=0.01"), warns("% of the light of LED"));
+  EXPECT_THAT(of_sign(""), Not(Contains(text(HasSubstr("is still there in the slot after it, channel")))));
+  EXPECT_THAT(of_sign(""), Contains(text(HasSubstr("% or less at camera A")))) << "the LED moves";
 }
 
 TEST(CheckUp, KeepsNothing) {

@@ -66,7 +66,8 @@ struct Recorder::State {
                        : std::llround(1e9 * std::max(kSilence_s, kSilence_frames / (rate_hz * speed)))),
         ring(most_waiting),
         clock_fit(rate_hz * (speed > 0.0 ? speed : 1.0)),
-        levels(granted.layout) {}
+        levels(granted.layout),
+        crosstalk(granted.layout) {}
 
   ~State() {
     stopping = true;
@@ -94,6 +95,7 @@ struct Recorder::State {
 
   // Of the thread that writes.
   stream::CountCheck levels;
+  stream::SlotCrosstalk crosstalk;
   int gaps_noted = 0;
 
   std::atomic<std::int64_t> frames = 0, received = 0, acknowledged = 0, by_device = 0, here = 0, missed = 0;
@@ -268,7 +270,10 @@ struct Recorder::State {
         }
       }
       here += block.block.frames - (acknowledged - before);  // none, but for a disk that failed
-      if (!disk_failed) levels.add(block.block);
+      if (!disk_failed) {
+        levels.add(block.block);
+        crosstalk.add(block.block);
+      }
     }
   }
 
@@ -364,7 +369,9 @@ Recorded Recorder::finish() {
                .end = s.end,
                .error = s.error,
                .lit = s.levels.lit(),
-               .dark = s.levels.dark()};
+               .dark = s.levels.dark(),
+               .crosstalk = s.crosstalk.found(),
+               .crosstalk_led = s.crosstalk.led()};
   if (s.speed > 0.0) out.clock = s.clock_fit.rate();
   if (!s.writer) return out;
   auto closed = s.disk_failed ? Status() : s.writer->add_metadata(end_note(out, s.not_stopped));

@@ -18,6 +18,7 @@
 #include "kinemark/stream/clock_fit.h"
 #include "kinemark/stream/count_check.h"
 #include "kinemark/stream/device.h"
+#include "kinemark/stream/slot_crosstalk.h"
 
 namespace kinemark::pipeline {
 
@@ -81,10 +82,12 @@ enum class RecorderEnd : std::uint8_t {
 struct Recorded {
   RecorderProgress progress;
   RecorderEnd end = RecorderEnd::complete;
-  std::optional<Error> error;              ///< why it failed; what was acknowledged is kept
-  std::optional<stream::ClockRate> clock;  ///< of the device; nothing: too short, or it has no clock
-  std::vector<stream::CountLevels> lit;    ///< L x C, of the blocks that were kept whole
-  std::vector<stream::CountLevels> dark;   ///< C; empty without a dark slot
+  std::optional<Error> error;                ///< why it failed; what was acknowledged is kept
+  std::optional<stream::ClockRate> clock;    ///< of the device; nothing: too short, or it has no clock
+  std::vector<stream::CountLevels> lit;      ///< L x C, of the blocks that were kept whole
+  std::vector<stream::CountLevels> dark;     ///< C; empty without a dark slot
+  std::vector<stream::SlotShare> crosstalk;  ///< C, into the dark slot; empty without one
+  int crosstalk_led = -1;                    ///< whose light it is
 };
 
 /// Reads a device on one thread and writes on another; between them frames wait in a ring. Where it is full

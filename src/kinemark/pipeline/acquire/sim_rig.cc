@@ -64,7 +64,8 @@ Result<std::unique_ptr<stream::Device>> open_sim_rig(AddressSettings settings, s
       .unplug_for_s = settings.number("unplug_for", 1.0, 0.0, kYear_s),
       .dark_led = settings.whole("dark_led", 0, 1, simulation::kMostLeds),
       .bright_led = settings.whole("bright_led", 0, 1, simulation::kMostLeds),
-      .noisy_channel = settings.whole("noisy_channel", 0, 1, 4 * cameras)};
+      .noisy_channel = settings.whole("noisy_channel", 0, 1, 4 * cameras),
+      .afterglow = settings.number("afterglow", 0.0, 0.0, 0.5)};
   if (auto s = settings.check(); !s) return std::unexpected(s.error());
   auto rig = simulation::draw_rig({.seed = seed, .dark_slot = dark_slot});
   if (!rig) return std::unexpected(rig.error());

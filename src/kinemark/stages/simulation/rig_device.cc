@@ -137,6 +137,16 @@ void RigDevice::disturb(std::int64_t frame, std::int16_t* counts, std::int16_t* 
   if (layout_.has_dark_slot()) add(dark[which]);
 }
 
+// The last LED's slot comes before the dark one.
+void RigDevice::glow_on(const std::int16_t* counts, std::int16_t* dark) const {
+  const auto channels = 4 * layout_.cameras.size();
+  const std::int16_t* last = counts + (layout_.leds.size() - 1) * channels;
+  for (std::size_t k = 0; k < channels; ++k) {
+    const long glowing = std::lround(dark[k] + options_.afterglow * last[k]);
+    dark[k] = static_cast<std::int16_t>(std::min(glowing, static_cast<long>(layout_.highest_code)));
+  }
+}
+
 Status RigDevice::start() {
   kinemark::check(configured_ && !running_, "a device is started once it is configured");
   running_ = true;
@@ -192,6 +202,7 @@ void RigDevice::fill(std::int64_t frames, stream::Block& block) {
     converter.convert(next_,
                       {.counts = counts, .dark = dark, .flags = block.flags.data() + i * observations});
     if (options_.noisy_channel > 0) disturb(next_, counts, dark);
+    if (options_.afterglow > 0.0 && layout_.has_dark_slot()) glow_on(counts, dark);
     ++next_;
   }
   block.saturated = std::ranges::any_of(block.flags, [](std::uint8_t f) { return f != 0; });

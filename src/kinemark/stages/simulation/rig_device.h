@@ -32,6 +32,8 @@ struct RigDeviceOptions {
   int bright_led = 0;     ///< with 30 times its light
   int noisy_channel = 0;  ///< with 20 counts of noise; channels of camera after camera, +x -x +y -y
 
+  double afterglow = 0.0;  ///< 0 to 0.5: share of the last LED's counts that is still there in the dark slot
+
   /// Ranges hold.
   [[nodiscard]] Status check() const;
 };
@@ -64,6 +66,7 @@ class RigDevice final : public stream::Device {
   [[nodiscard]] Result<RigRecordingOptions> grant(stream::ScanPlan& plan) const;
   void plant_faults(std::size_t leds);
   void disturb(std::int64_t frame, std::int16_t* counts, std::int16_t* dark) const;
+  void glow_on(const std::int16_t* counts, std::int16_t* dark) const;
   [[nodiscard]] std::int64_t due_ns(std::int64_t frame) const;
   [[nodiscard]] std::int64_t ended_frames(std::int64_t now_ns) const;
   [[nodiscard]] bool is_unplugged(std::int64_t now_ns) const;
