@@ -19,6 +19,7 @@
 #include "kinemark/io/rig/rig_file.h"
 #include "kinemark/pipeline/acquire/acquire_job.h"
 #include "kinemark/pipeline/acquire/open_device.h"
+#include "kinemark/pipeline/acquire/plan_figure.h"
 #include "kinemark/pipeline/desk/acquire_desk.h"
 #include "kinemark/pipeline/files/json_text.h"
 
@@ -31,6 +32,7 @@ struct AcquireArguments {
   pipeline::AcquireJob job;
   std::string begin, sync = "background";
   std::vector<std::string> intensity;
+  std::filesystem::path plan;  ///< figure of what the device grants; empty: none
   bool list = false;
 };
 
@@ -112,6 +114,23 @@ int finish(const CommonOptions& common, const pipeline::AcquireOutcome& outcome)
   return outcome.exit_status();
 }
 
+/// What the device grants, drawn.
+int draw_plan(const CommonOptions& common, AcquireArguments& arguments) {
+  auto& job = arguments.job;
+  if (!job.output.empty() || !job.session.empty() || job.check_up)
+    return report_error(
+        {Code::usage, "--plan draws and records nothing; leave --output, --session and --check away"});
+  if (job.source.empty()) return report_error({Code::usage, "--plan: no device is given"});
+  if (auto s = take_intensity(arguments.intensity, job); !s) return report_error(s.error());
+  settle(common, "frames", job);
+  const auto outcome = pipeline::run_plan(job, arguments.plan);
+  if (!outcome) return report_error(outcome.error());
+  say(common, pipeline::plan_sentence(outcome->granted));
+  say_written(common, *outcome);
+  if (common.json) print_result(pipeline::plan_json(*outcome).dump() + "\n");
+  return 0;
+}
+
 /// An option that the menus have no use for.
 Status check_by_hand(const CommonOptions& common, const AcquireArguments& arguments) {
   const char* of_files = !arguments.begin.empty()       ? "trigger"
@@ -174,6 +193,7 @@ bool wants_menus(const CommonOptions& common, const pipeline::AcquireJob& job) {
 
 int acquire(const CommonOptions& common, AcquireArguments& arguments) {
   if (arguments.list) return list_devices(common);
+  if (!arguments.plan.empty()) return draw_plan(common, arguments);
   if (wants_menus(common, arguments.job)) return acquire_by_hand(common, arguments);
   if (!arguments.job.rig.empty() && arguments.job.session.empty())
     return report_error({Code::usage,
@@ -252,6 +272,8 @@ void add_acquire(CLI::App& app, const CommonOptions& common, Run& run) {
       "--check", job.check_up,
       "Look at the device for 10 s, or --duration, and keep nothing: rate, losses, dark level, noise and "
       "each LED, a line each with what to do; exit status 1 where something is wrong");
+  command->add_option("--plan", arguments->plan,
+                      "Draw when LEDs are lit and channels converted, .svg or .png, and record nothing");
   command->add_flag("--list", arguments->list, "Show the devices that are there, and record nothing");
   command->callback(
       [&common, arguments, &run] { run = [&common, arguments] { return acquire(common, *arguments); }; });

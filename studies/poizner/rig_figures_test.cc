@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "kinemark/stages/report/figures/rig_timing.h"
 #include "kinemark/stages/simulation/rig_recording.h"
 #include "kinemark/stages/simulation/rig_scene.h"
-#include "studies/poizner/rig_schedule.h"
 
 namespace kinemark::studies {
 namespace {
@@ -22,37 +22,12 @@ data::Counts recorded(const simulation::PhysicalRig& rig) {
   return simulation::record(rig, simulation::signing_arm(), how).value().counts;
 }
 
-TEST(RigSchedule, IsThatOfTheRecorder) {
-  const auto rig = simulation::draw_rig({.seed = 3}).value();
-  const auto& timing = rig.rig.timing;
-  const auto slots = schedule_of(recorded(rig), timing);
-  ASSERT_EQ(slots.size(), 4U);
-  for (int led = 0; led < 4; ++led) {
-    const auto& slot = slots[static_cast<std::size_t>(led)];
-    EXPECT_NEAR(slot.on_s, led * timing.slot_s(2), 1e-12);
-    EXPECT_NEAR(slot.off_s, (led + 1) * timing.slot_s(2) - timing.off_s, 1e-12);
-    ASSERT_EQ(slot.conversion_s.size(), 8U);
-    for (int k = 0; k < 8; ++k)
-      EXPECT_NEAR(slot.conversion_s[static_cast<std::size_t>(k)],
-                  timing.conversion_offset_s(led, k / 4, k % 4, 2), 1e-12);
-  }
-  EXPECT_EQ(slots.back().led, "hand");
-}
-
-TEST(PulseTrain, RisesAndFallsWhereThePulsesDo) {
-  const auto train = pulse_train({{0.1, 0.3}, {0.5, 0.9}, {1.2, 1.4}}, 0.0, 0.8);
-  const Eigen::VectorXd time = (Eigen::VectorXd(8) << 0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8).finished(),
-                        level = (Eigen::VectorXd(8) << 0, 0, 1, 1, 0, 0, 1, 1).finished();
-  EXPECT_EQ(train.time, time);
-  EXPECT_EQ(train.level, level);
-}
-
 TEST(RigFigures, DrawTheScheduleInMilliseconds) {
   const auto figures = rig_figures(3);
   ASSERT_TRUE(figures) << figures.error().message;
   ASSERT_EQ(figures->size(), 3U);
   const auto rig = simulation::draw_rig({.seed = 3}).value();
-  const auto slots = schedule_of(recorded(rig), rig.rig.timing);
+  const auto slots = report::schedule_of(recorded(rig), rig.rig.timing);
   const auto& control = (*figures)[1];
   ASSERT_EQ(control.curves.size(), 6U) << "clock, four LEDs, conversions";
   for (std::size_t led = 0; led < 4; ++led) {

@@ -93,7 +93,7 @@ TRIED = {
                            "--scan": None}),
     "acquire": (["sim:rig?fast", "--output", "o.mcap", "--frames", 60],
                 {"--output": "other.mcap", "--leds": 3, "--rate": 50, "--intensity": 0.5, "--duration": 0.1, "--frames": 30, "--trigger": "digital",
-                 "--sync": "often", "--subject": "who", "--trial": "what", "--list": None, "--rig": "absent.toml", "--session": "day", "--check": None}),
+                 "--sync": "often", "--subject": "who", "--trial": "what", "--list": None, "--rig": "absent.toml", "--session": "day", "--plan": "plan.svg", "--check": None}),
     "recover": (["cut.mcap", "o.mcap"], {}),
     "run": (["study.toml", "--dry-run"], {"--subject": "absent", "--jobs": 2, "--keep-going": None, "--dry-run": None}),
     "help": (["gait"], {"--man": None, "--man-pages": "absent", "--formats": None}),

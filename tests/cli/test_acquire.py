@@ -75,6 +75,18 @@ class Acquire(CommandTest):
             self.assertIn(part, ran.err)
         self.assertEqual([path.name for path in (self.folder / "photos").iterdir()], ["a.jpg"])
 
+    def test_a_plan_is_drawn_and_nothing_recorded(self):
+        ran = self.acquire("sim:rig?leds=4", "--rate", 100, "--intensity", 0.5, "--plan", "plan.svg", "--json")
+        self.assertEqual(ran.status, 0, ran.err)
+        said = json.loads(ran.out)
+        self.assertEqual((said["written"], said["rate_hz"], said["intensity"]), (["plan.svg"], 100.0, [0.5] * 4))
+        self.assertIn("4 LEDs at 2 cameras, 100 frames per second", ran.err)
+        self.assertTrue((self.folder / "plan.svg").read_text().lstrip().startswith("<"))
+        self.assertEqual(self.acquire("sim:rig?leds=4", "--plan", "plan.svg").status, 4)
+        for words, status in ((("sim:rig", "--rate", 9999), 2), (("sim:rig", "-o", "a.mcap"), 2), ((), 2), (("serial:/nowhere",), 5)):
+            self.assertEqual(self.acquire(*words, "--plan", "other.svg").status, status, words)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["plan.svg"])
+
     def test_a_recording_is_replayed(self):
         first = self.trial(FAST, "--frames", 300)
         again = self.trial("replay:trial.mcap?fast", name="again.mcap")

@@ -265,6 +265,14 @@ Result<TrialBegin> parse_begin(std::string_view text) {
   return out;
 }
 
+Result<stream::GrantedPlan> granted_plan(const AcquireJob& job) {
+  if (auto s = check_numbers(job); !s) return std::unexpected(s.error());
+  auto device = open_device(job.source, job.seed);
+  if (!device) return std::unexpected(device.error());
+  const auto plan = wanted(job, (*device)->capabilities());
+  return plan ? (*device)->configure(*plan) : std::unexpected(plan.error());
+}
+
 Result<AcquireOutcome> run_acquire(const AcquireJob& job, const std::function<bool()>& wait_for_key) {
   if (auto s = check_numbers(job); !s) return std::unexpected(s.error());
   return job.session.empty() ? record_trial(job, wait_for_key) : record_in_session(job, wait_for_key);

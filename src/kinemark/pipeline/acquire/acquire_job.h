@@ -70,6 +70,9 @@ struct AcquireOutcome : JobOutcome {
 [[nodiscard]] Result<AcquireOutcome> run_acquire(const AcquireJob& job,
                                                  const std::function<bool()>& wait_for_key = {});
 
+/// What the device would record by that job; it is not started. Fails as run_acquire().
+[[nodiscard]] Result<stream::GrantedPlan> granted_plan(const AcquireJob& job);
+
 /// "frames", "acknowledged", "dropped_by_device", "dropped_here": a line of progress.
 [[nodiscard]] nlohmann::ordered_json progress_json(const RecorderProgress& progress);
 /// "written", "ended", the progress, "rate_hz", "clock" (null where it is not known), "leds" (levels of each

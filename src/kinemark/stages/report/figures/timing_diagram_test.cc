@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "studies/poizner/timing_diagram.h"
+#include "kinemark/stages/report/figures/timing_diagram.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace kinemark::studies {
+namespace kinemark::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -18,7 +18,7 @@ TimingDiagram diagram() {
 }
 
 std::string svg_of(const TimingDiagram& d) {
-  const auto canvas = report::make_svg_canvas(640.0, 300.0, "");
+  const auto canvas = make_svg_canvas(640.0, 300.0, "");
   draw(d, *canvas, {.left = 0.0, .right = 640.0, .top = 0.0, .bottom = height_of(d)});
   return canvas->finish().value();
 }
@@ -41,4 +41,4 @@ TEST(TimingDiagram, SpansThatTouchGoBelowEachOther) {
 }
 
 }  // namespace
-}  // namespace kinemark::studies
+}  // namespace kinemark::report

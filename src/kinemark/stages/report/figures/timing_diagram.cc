@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The kinemark authors
 // SPDX-License-Identifier: Apache-2.0
-#include "studies/poizner/timing_diagram.h"
+#include "kinemark/stages/report/figures/timing_diagram.h"
 
 #include <fmt/core.h>
 
@@ -8,11 +8,10 @@
 
 #include "kinemark/stages/report/figures/plot_axis.h"
 
-namespace kinemark::studies {
+namespace kinemark::report {
 namespace {
 
 using Eigen::Vector2d;
-using report::Anchor;
 using Points = std::vector<Vector2d>;
 
 constexpr double kNames = 136.0, kRow = 40.0, kHigh = 24.0, kSpanRow = 22.0, kAxis = 46.0, kRight = 14.0;
@@ -21,7 +20,7 @@ const std::string kInk = "#1a1a1a", kThin = "#9a9a9a", kGuide = "#d4d4d4";
 double width_of(const std::string& text) { return 6.2 * static_cast<double>(text.size()); }
 
 /// Row of each span: the first in which it touches no other, its words included.
-std::vector<int> rows_of(const TimingDiagram& diagram, const report::PlotAxis& time) {
+std::vector<int> rows_of(const TimingDiagram& diagram, const PlotAxis& time) {
   std::vector<int> out;
   std::vector<double> filled;  // of each row, pixels
   for (const auto& span : diagram.spans) {
@@ -37,7 +36,7 @@ std::vector<int> rows_of(const TimingDiagram& diagram, const report::PlotAxis& t
   return out;
 }
 
-void draw_span(const TimingSpan& span, const report::PlotAxis& time, double y, report::Canvas& canvas) {
+void draw_span(const TimingSpan& span, const PlotAxis& time, double y, Canvas& canvas) {
   constexpr double kHead = 5.0;
   const double a = time.at(span.from), b = time.at(span.to);
   canvas.line(Points{{a, y}, {b, y}}, {.colour = kInk, .width = 1.0});
@@ -48,7 +47,7 @@ void draw_span(const TimingSpan& span, const report::PlotAxis& time, double y, r
               {.size = 11.0, .anchor = Anchor::middle, .colour = kInk, .halo = true});
 }
 
-report::PlotAxis axis_of(const TimingDiagram& diagram, double left, double right) {
+PlotAxis axis_of(const TimingDiagram& diagram, double left, double right) {
   return {.low = diagram.begin, .high = diagram.end, .from = left + kNames, .to = right - kRight};
 }
 
@@ -62,7 +61,7 @@ double height_of(const TimingDiagram& diagram) {
          kAxis;
 }
 
-void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::CanvasRoom& room) {
+void draw(const TimingDiagram& diagram, Canvas& canvas, const CanvasRoom& room) {
   const auto time = axis_of(diagram, room.left, room.right);
   const auto rows = rows_of(diagram, time);
   const double below = room.top + kRow * static_cast<double>(diagram.traces.size());
@@ -94,4 +93,4 @@ void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::Ca
               {.size = 12.0, .anchor = Anchor::middle, .colour = kInk});
 }
 
-}  // namespace kinemark::studies
+}  // namespace kinemark::report

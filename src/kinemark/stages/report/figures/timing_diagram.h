@@ -9,7 +9,7 @@
 
 #include "kinemark/stages/report/figures/canvas.h"
 
-namespace kinemark::studies {
+namespace kinemark::report {
 
 /// A signal; levels 0 to 1. Sizes agree.
 struct TimingTrace {
@@ -33,6 +33,6 @@ struct TimingDiagram {
 
 /// Pixels that a diagram needs from top to bottom.
 [[nodiscard]] double height_of(const TimingDiagram& diagram);
-void draw(const TimingDiagram& diagram, report::Canvas& canvas, const report::CanvasRoom& room);
+void draw(const TimingDiagram& diagram, Canvas& canvas, const CanvasRoom& room);
 
-}  // namespace kinemark::studies
+}  // namespace kinemark::report
