@@ -24,12 +24,11 @@ report::Figure plan_figure(const stream::GrantedPlan& granted) {
   report::Figure out;
   out.panels.push_back(
       report::timing_panel(report::frame_timing(granted.layout, timing, granted.plan.intensity)));
-  out.panels.back().title = "One frame";
   const auto slots = report::schedule_of(granted.layout, timing);
   out.panels.push_back(
       report::timing_panel(report::slot_timing(slots.front(), timing, 0.0, granted.layout.cameras)));
-  out.panels.back().title = fmt::format("The slot of LED 1, {}", slots.front().led);
   out.caption = plan_sentence(granted);
+  out.notes = {fmt::format("Above one frame, below the slot of LED 1, {}.", slots.front().led)};
   return out;
 }
 

@@ -29,8 +29,8 @@ TEST(PlanFigure, DrawsWhatTheDeviceGrants) {
   const auto drawn = run_plan(job, scratch / "plan.svg");
   ASSERT_TRUE(drawn) << drawn.error().message;
   const auto svg = io::read_text(scratch / "plan.svg").value();
-  for (const char* part : {"One frame", "The slot of LED 1, back left", "LED 3, front", "dark", "slot 904 µs",
-                           "frame 10 ms", "settle 320 µs", "A/D, camera B"})
+  for (const char* part : {"Above one frame, below the slot of LED 1, back left.", "LED 3, front", "dark",
+                           "slot 904 µs", "frame 10 ms", "settle 320 µs", "A/D, camera B"})
     EXPECT_THAT(svg, HasSubstr(part));
   const auto json = plan_json(*drawn);
   EXPECT_EQ(json["rate_hz"], 100.0);
