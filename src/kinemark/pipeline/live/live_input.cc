@@ -24,6 +24,7 @@
 #include "kinemark/pipeline/motion/markers_page.h"
 #include "kinemark/pipeline/simulate/human_model.h"
 #include "kinemark/stages/report/live_report.h"
+#include "kinemark/stages/simulation/sleeve_source.h"
 #include "kinemark/stages/simulation/subject_source.h"
 #include "kinemark/stream/recorded_source.h"
 #include "kinemark/workflow/prepare/vertical.h"
@@ -35,6 +36,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSim = "sim:";
 constexpr std::string_view kReplay = "replay:";
+constexpr std::string_view kArm = "arm";
 constexpr std::int64_t kMostSimulatedFrames = 10'000'000;  // what SubjectOptions allow
 
 Result<std::shared_ptr<const model::Model>> read_model(const fs::path& path) {
@@ -51,9 +53,30 @@ Result<std::shared_ptr<const model::Model>> own_human() {
   return std::make_shared<const model::Model>(std::move(*model));
 }
 
+/// A macaque's arm in a sleeve of LEDs; its angles only with a model of it.
+Result<LiveInput> open_arm(std::string_view argument, AddressSettings& settings, const fs::path& model_file,
+                           std::uint64_t seed) {
+  const double rate_hz = settings.number("rate", 60.0, 1.0, 1000.0);
+  const simulation::SleeveOptions options{.duration_s = settings.number("seconds", 60.0, 0.1, 36'000.0),
+                                          .rate_hz = rate_hz,
+                                          .noise_sd_m = 1e-3 * settings.number("noise", 1.0, 0.0, 100.0),
+                                          .missing = settings.number("missing", 0.0, 0.0, 0.9),
+                                          .seed = seed};
+  if (auto s = settings.check(); !s) return std::unexpected(s.error());
+  auto source = simulation::SleeveSource::create(options, {.name = std::string(argument)});
+  if (!source) return fail_at(std::string(argument), source.error());
+  LiveInput out{.source = std::move(*source), .title = "Simulated arm of a macaque"};
+  if (model_file.empty()) return out;
+  auto model = read_model(model_file);
+  if (!model) return std::unexpected(model.error());
+  out.model = std::move(*model);
+  return out;
+}
+
 Result<LiveInput> open_simulation(std::string_view argument, const fs::path& model_file, std::uint64_t seed) {
   AddressSettings settings(argument);
   const std::string name = settings.what().empty() ? "walk" : settings.what();
+  if (name == kArm) return open_arm(argument, settings, model_file, seed);
   const auto motion = simulation::parse_motion_kind(name);
   if (!motion) return fail_at(std::string(argument), motion.error());
   const double rate_hz = settings.number("rate", 240.0, 1.0, 1000.0);

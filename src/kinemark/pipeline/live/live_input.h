@@ -29,8 +29,10 @@ struct LiveInput {
 ///
 /// "sim:MOTION?rate=HZ&seconds=S&noise=MM&missing=SHARE": a simulated subject, MOTION as parse_motion_kind(),
 /// "walk" when empty; 240 Hz, 60 s, 1 mm and 0 unless told. Its model is kinemark's human, or the one given.
-/// Frames are made as they come: memory does not grow with the time.
-/// "replay:FILE?rate=HZ": a marker file; it comes at its own rate, or at the one told. What follows the last
+/// "arm": the arm of a macaque that reaches for food, in a sleeve of 16 LEDs, at 60 Hz, LEDs hidden as the
+/// arm turns; without a model unless one is given. Frames are made as they come: memory does not grow with
+/// the time. "replay:FILE?rate=HZ": a marker file; it comes at its own rate, or at the one told. What follows
+/// the last
 /// '?' are settings, unless that file is there. Memory: that of the file's samples.
 ///
 /// @param model  .osim whose angles are wanted; empty: that of the simulation, none of a replay

@@ -8,6 +8,7 @@
 
 #include "kinemark/io/file.h"
 #include "support/scratch.h"
+#include "support/test_data.h"
 
 namespace kinemark::pipeline {
 namespace {
@@ -74,11 +75,23 @@ TEST(LiveInput, ASeedGivesTheSameFrames) {
   EXPECT_NE(one, samples_of("sim:?seconds=0.1", 4));
 }
 
+TEST(LiveInput, TheArmHasAModelWhereOneIsGiven) {
+  const auto arm = open_live_input("sim:arm?rate=120&seconds=1&noise=0").value();
+  EXPECT_EQ(arm.title, "Simulated arm of a macaque");
+  EXPECT_EQ(arm.source->facts().rate_hz, 120.0);
+  EXPECT_EQ(arm.source->facts().markers.size(), 16U);
+  EXPECT_EQ(arm.model, nullptr);
+  const auto model = testing_support::project_folder() / "models/macaque_arm.osim";
+  EXPECT_NE(open_live_input("sim:arm", model).value().model, nullptr);
+}
+
 TEST(LiveInput, HoursAreOpenedAtOnce) {
+  EXPECT_EQ(open_live_input("sim:arm?seconds=36000").value().source->facts().frames, 2'160'000);
   EXPECT_EQ(open_live_input("sim:walk?seconds=36000").value().source->facts().frames, 8'640'000);
 }
 
 TEST(LiveInput, WhatIsNoSourceIsASentence) {
+  EXPECT_THAT(refused("sim:arm?speed=2"), HasSubstr("'speed' is no setting of it; those are rate, seconds"));
   EXPECT_THAT(refused("vicon:1"), HasSubstr("need sim:MOTION or replay:FILE"));
   EXPECT_THAT(refused("sim:run"), HasSubstr("walk"));
   EXPECT_THAT(refused("sim:walk?speed=2"), HasSubstr("'speed' is no setting of it; those are rate, seconds"));

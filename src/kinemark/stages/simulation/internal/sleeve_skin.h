@@ -7,15 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "kinemark/stages/simulation/internal/sleeve_arm.h"
 #include "kinemark/stages/simulation/limb.h"
 
 namespace kinemark::simulation::internal {
-
-/// Pose of the arm in one frame: segment axes have z along the bone, x along the elbow's hinge.
-struct ArmPose {
-  Eigen::Vector3d elbow, wrist;
-  Eigen::Matrix3d world_from_upper_arm, world_from_forearm;
-};
 
 /// Slides of the sleeve's LEDs on their bones.
 class SleeveSkin {
