@@ -247,7 +247,8 @@ void add_serve(CLI::App& app, const CommonOptions& common, Run& run) {
       ->add_option(
           "FILE", arguments->given,
           ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .mcap, or a folder of them, which is looked "
-          "at again when the page is reloaded; or a live source: sim:walk, sim:arm, replay:FILE; or a device: "
+          "at again when the page is reloaded; or a live source: sim:walk, sim:arm, replay:FILE; or a "
+          "device: "
           "sim:rig, serial:/dev/ttyACM0, comedi:/dev/comedi0")
       ->required();
   command->add_option(

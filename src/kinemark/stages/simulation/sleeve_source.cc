@@ -15,7 +15,7 @@
 namespace kinemark::simulation {
 namespace {
 
-constexpr double kLookAt_s = 60.0;  // of the beginning, whose markers give the extent
+constexpr double kExtent_s = 60.0;  // of the beginning, whose markers give the extent
 
 int led_count(const SleeveOptions& options) { return 2 * options.leds_per_segment + (options.tip ? 1 : 0); }
 
@@ -23,7 +23,7 @@ std::array<Eigen::Vector3d, 2> extent_of(const SleeveOptions& options) {
   internal::ArmMotion motion(options);
   const auto leds = internal::sleeve_leds(options);
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;  // the shoulder
-  const auto frames = std::min(options.frames(), static_cast<std::int64_t>(kLookAt_s * options.rate_hz) + 1);
+  const auto frames = std::min(options.frames(), static_cast<std::int64_t>(kExtent_s * options.rate_hz) + 1);
   for (std::int64_t f = 0; f < frames; ++f) {
     const auto pose = motion.next();
     for (int led = 0; led < led_count(options); ++led) {
