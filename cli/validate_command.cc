@@ -8,6 +8,7 @@
 #include "kinemark/pipeline/files/input_list.h"
 #include "kinemark/pipeline/files/json_text.h"
 #include "kinemark/pipeline/files/validate_job.h"
+#include "kinemark/pipeline/session/session.h"
 
 namespace kinemark::cli {
 namespace {
@@ -23,7 +24,27 @@ void print_validate_outcome(const CommonOptions& common, const pipeline::Validat
   if (common.json) print_result(pipeline::json_text(pipeline::validate_json(outcome)) + "\n");
 }
 
+/// Trials of sessions in the place of their folders, once each is as it was recorded.
+Status take_sessions(const CommonOptions& common, std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> out;
+  for (const auto& file : files) {
+    if (!pipeline::is_session(file)) {
+      out.push_back(file);
+      continue;
+    }
+    const auto session = pipeline::Session::read(file);
+    if (!session) return std::unexpected(session.error());
+    if (auto s = session->check(); !s) return s;
+    for (const auto& trial : session->trials()) out.push_back(file / trial.file);
+    say(common, fmt::format("{}: the checksums of {} recordings are those of MANIFEST", file.string(),
+                            session->trials().size()));
+  }
+  files = std::move(out);
+  return {};
+}
+
 int run_command(const CommonOptions& common, pipeline::ValidateJob& job) {
+  if (auto s = take_sessions(common, job.files); !s) return report_error(s.error());
   auto list = pipeline::list_inputs(job.files, pipeline::known_endings());
   if (!list) return report_error(list.error());
   job.files = std::move(list->files);
@@ -39,7 +60,8 @@ void add_validate(CLI::App& app, const CommonOptions& common, Run& run) {
   const auto job = std::make_shared<pipeline::ValidateJob>();
   job->recording.edits = io::kEditsNone;  // it is the file that is checked
   command->footer(
-      "Of a folder: the files in it that can be read. The exit status is the worst of all files.");
+      "Of a folder: the files in it that can be read; of a session: its recordings, against their\n"
+      "checksums. The exit status is the worst of all files.");
   command
       ->add_option("FILE", job->files,
                    ".c3d, .trc, .nwb, .csv, .tsv, .v3d, .mot, .sto, .osim, .mcap, or a folder of them")

@@ -55,10 +55,20 @@ class Acquire(CommandTest):
         self.assertEqual(json.loads(ran.out.splitlines()[-1])["written"], ["day 1/raw/walk_02.mcap"])
         listed = [line for line in (self.folder / "day 1" / "session.toml").read_text().splitlines() if "raw/" in line]
         self.assertEqual(len(listed), 2)
+        ran = run("validate", "day 1", cwd=self.folder)
+        self.assertEqual(ran.status, 0, ran.err)
+        self.assertIn("the checksums of 2 recordings are those of MANIFEST", ran.err)
         ran = self.acquire(*words, "--subject", "S2")
         self.assertEqual(ran.status, 2)
         self.assertIn("of subject 'S1', not 'S2'", ran.err)
-        self.assertEqual(len(list((self.folder / "day 1" / "raw").iterdir())), 2)
+        recordings = sorted((self.folder / "day 1" / "raw").iterdir())
+        self.assertEqual(len(recordings), 2)
+        recordings[0].chmod(0o644)
+        recordings[0].write_bytes(recordings[0].read_bytes() + b"x")
+        ran = run("validate", "day 1", cwd=self.folder)
+        self.assertEqual(ran.status, 3)
+        self.assertIn("was changed since it was recorded", ran.err)
+        self.assertNotIn("recordings are those of MANIFEST", ran.err)
 
     def test_a_session_is_refused_where_it_makes_no_sense(self):
         (self.folder / "photos").mkdir()
