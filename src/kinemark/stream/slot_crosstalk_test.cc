@@ -12,7 +12,7 @@ namespace kinemark::stream {
 namespace {
 
 // Two LEDs at two cameras; the dark slot after the second, or before the first.
-data::Counts layout(bool dark_first) {
+data::Counts two_leds(bool dark_first) {
   auto out = data::Counts::zeros({"a", "b"}, {"A", "B"}, {.rate_hz = 100.0}, true);
   for (std::size_t i = 0; i < out.conversion_time_s.size(); ++i)
     out.conversion_time_s[i] = (i < 8 ? 1e-3 : 2e-3) + 1e-5 * static_cast<double>(i % 8);
@@ -30,7 +30,7 @@ struct Made {
 };
 
 SlotCrosstalk of(const Made& made) {
-  SlotCrosstalk out(layout(made.dark_first));
+  SlotCrosstalk out(two_leds(made.dark_first));
   Random random(made.seed, 0);
   Block block;
   block.frames = 1;
@@ -98,7 +98,7 @@ TEST(SlotCrosstalk, NeedsADarkSlotAndFrames) {
 }
 
 TEST(SlotCrosstalk, FramesThatAreLostAreLeftOut) {
-  SlotCrosstalk crosstalk(layout(false));
+  SlotCrosstalk crosstalk(two_leds(false));
   Block block{.frames = 1};
   block.counts.assign(16, 0);
   block.dark.assign(8, 0);
