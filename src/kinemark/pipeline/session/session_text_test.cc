@@ -61,10 +61,12 @@ TEST(SessionText, WhatMakesNoSenseIsNamed) {
   EXPECT_THAT(refused("format = 1\nrig = \"../rig.toml\"\n"), HasSubstr("rig.toml"));
   EXPECT_THAT(refused("format ="), HasSubstr("s.toml"));
   ASSERT_TRUE(parse_session(kTrial, "s.toml"));
-  EXPECT_THAT(refused(replaced(kTrial, "raw/a.mcap", "../a.mcap")), HasSubstr("need a recording in raw/"));
+  EXPECT_THAT(refused(replaced(kTrial, "raw/a.mcap", "../a.mcap")),
+              HasSubstr("file must be a recording in raw/"));
   EXPECT_THAT(refused(replaced(kTrial, "raw/a.mcap", "raw/../a.mcap")),
-              HasSubstr("need a recording in raw/"));
-  EXPECT_THAT(refused(replaced(kTrial, "raw/a.mcap", "raw/.a.mcap")), HasSubstr("need a recording in raw/"));
+              HasSubstr("file must be a recording in raw/"));
+  EXPECT_THAT(refused(replaced(kTrial, "raw/a.mcap", "raw/.a.mcap")),
+              HasSubstr("file must be a recording in raw/"));
   EXPECT_THAT(refused(replaced(kTrial, "frames = 10", "frames = 1.5")),
               HasSubstr("a whole number from 0 on"));
   EXPECT_THAT(refused(replaced(kTrial, "frames = 10", "frames = -1")), HasSubstr("a whole number from 0 on"));
