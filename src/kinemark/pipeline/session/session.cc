@@ -107,12 +107,20 @@ Status make_folder(const fs::path& folder) {
   return {};
 }
 
+/// Whether nothing is in a folder but what is hidden, as a program that was killed leaves.
+bool shows_nothing(const fs::path& folder) {
+  std::error_code failed;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+    if (!at->path().filename().native().starts_with('.')) return false;
+  return !failed;
+}
+
 /// Absent or empty.
 Status check_new(const fs::path& folder) {
   std::error_code failed;
   const auto status = fs::status(folder, failed);
   if (!fs::exists(status)) return {};
-  if (!fs::is_directory(status) || !fs::is_empty(folder, failed) || failed)
+  if (!fs::is_directory(status) || !shows_nothing(folder))
     return fail(Code::usage,
                 fmt::format("{}: is no session; need one, an empty folder, or a new name", folder.string()));
   return {};
@@ -138,14 +146,15 @@ bool is_session(const fs::path& folder) {
 fs::path Session::rig() const { return has_rig_ ? rig_of(folder_) : fs::path(); }
 
 Result<Session> Session::open(const fs::path& folder, const SessionAbout& about) {
-  const bool is_new = !is_session(folder);
-  if (is_new)
+  if (!is_session(folder))
     if (auto s = check_new(folder); !s) return std::unexpected(s.error());
-  if (auto s = make_folder(folder / "raw"); !s) return std::unexpected(s.error());
+  if (auto s = make_folder(folder); !s) return std::unexpected(s.error());
   Session out(folder);
   const FolderLock lock(folder);
-  if (!is_new)
-    if (auto s = out.load(true); !s) return std::unexpected(s.error());
+  // A new one is a session before anything else is in its folder, and another program may have made it
+  // meanwhile.
+  if (auto s = is_session(folder) ? out.load(true) : out.save(); !s) return std::unexpected(s.error());
+  if (auto s = make_folder(out.raw()); !s) return std::unexpected(s.error());
   if (auto s = out.take_about(about); !s) return std::unexpected(s.error());
   if (auto s = out.take_strays(); !s) return std::unexpected(s.error());
   if (auto s = out.save(); !s) return std::unexpected(s.error());

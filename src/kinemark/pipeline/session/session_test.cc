@@ -118,6 +118,10 @@ TEST_F(SessionFolder, AProgramThatIsKilledWhileItMakesOneLeavesNoHarm) {
   EXPECT_FALSE(Session::read(folder_)) << "nobody reads it without its checksums";
   ASSERT_TRUE(Session::open(folder_, {}));
   EXPECT_TRUE(Session::read(folder_));
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+  ASSERT_TRUE(io::write_text(folder_ / ".kinemark-1-2", "half", false));
+  EXPECT_TRUE(Session::open(folder_, {})) << "what is hidden does not count";
 }
 
 TEST_F(SessionFolder, ARecordingThatIsNotClosedIsNoTrialYet) {
