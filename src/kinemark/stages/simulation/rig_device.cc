@@ -20,6 +20,7 @@ constexpr std::int64_t kEndless = std::int64_t{1} << 32;  ///< frames that a rec
 constexpr std::int64_t kMostInBlock = 256;
 constexpr double kBright = 30.0, kNoisy_counts = 20.0;
 constexpr std::uint64_t kNoisyStream = std::uint64_t{1} << 40;  ///< of the fault's noise, far from all others
+constexpr std::uint64_t kGlowStream = kNoisyStream + (std::uint64_t{1} << 40);  // likewise, of an afterglow
 
 Status check_intensities(const std::vector<double>& intensity) {
   for (const double i : intensity)
@@ -137,12 +138,14 @@ void RigDevice::disturb(std::int64_t frame, std::int16_t* counts, std::int16_t* 
   if (layout_.has_dark_slot()) add(dark[which]);
 }
 
-// The last LED's slot comes before the dark one.
-void RigDevice::glow_on(const std::int16_t* counts, std::int16_t* dark) const {
+// The last LED's slot comes before the dark one. Counts are whole already, so that what is added is rounded
+// at random: its mean is right.
+void RigDevice::glow_on(std::int64_t frame, const std::int16_t* counts, std::int16_t* dark) const {
+  Random random(options_.seed, kGlowStream + static_cast<std::uint64_t>(frame));
   const auto channels = 4 * layout_.cameras.size();
   const std::int16_t* last = counts + (layout_.leds.size() - 1) * channels;
   for (std::size_t k = 0; k < channels; ++k) {
-    const long glowing = std::lround(dark[k] + options_.afterglow * last[k]);
+    const auto glowing = static_cast<long>(dark[k] + options_.afterglow * last[k] + random.uniform());
     dark[k] = static_cast<std::int16_t>(std::min(glowing, static_cast<long>(layout_.highest_code)));
   }
 }
@@ -202,7 +205,7 @@ void RigDevice::fill(std::int64_t frames, stream::Block& block) {
     converter.convert(next_,
                       {.counts = counts, .dark = dark, .flags = block.flags.data() + i * observations});
     if (options_.noisy_channel > 0) disturb(next_, counts, dark);
-    if (options_.afterglow > 0.0 && layout_.has_dark_slot()) glow_on(counts, dark);
+    if (options_.afterglow > 0.0 && layout_.has_dark_slot()) glow_on(next_, counts, dark);
     ++next_;
   }
   block.saturated = std::ranges::any_of(block.flags, [](std::uint8_t f) { return f != 0; });

@@ -66,7 +66,7 @@ class RigDevice final : public stream::Device {
   [[nodiscard]] Result<RigRecordingOptions> grant(stream::ScanPlan& plan) const;
   void plant_faults(std::size_t leds);
   void disturb(std::int64_t frame, std::int16_t* counts, std::int16_t* dark) const;
-  void glow_on(const std::int16_t* counts, std::int16_t* dark) const;
+  void glow_on(std::int64_t frame, const std::int16_t* counts, std::int16_t* dark) const;
   [[nodiscard]] std::int64_t due_ns(std::int64_t frame) const;
   [[nodiscard]] std::int64_t ended_frames(std::int64_t now_ns) const;
   [[nodiscard]] bool is_unplugged(std::int64_t now_ns) const;
