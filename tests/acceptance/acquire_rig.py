@@ -11,6 +11,7 @@ Without `all` the same in short. Prints rows "PASS|FAIL | check | asked | measur
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -275,6 +276,24 @@ def downstream(folder):
     row(located > 0.95 * asked, "reconstruct of an acquired wheel: LEDs located", f"95 % of {asked}", f"{located}, exit status {done.returncode}")
 
 
+def crosstalk(seeds):
+    """The check-up of rigs with and without an LED that glows on: % of its light in the slot after it, and SD."""
+    percent = 1.0
+    accused = off = found = 0
+    for seed in seeds:
+        for planted in (0.0, percent):
+            checked = run("acquire", f"sim:rig?scene=sign&dark&fast&seed={seed}&afterglow={planted / 100}", "--check", "--rate", 100, "--json", "--quiet")
+            for text in json.loads(checked.stdout.splitlines()[-1])["notes"]:
+                named = re.match(r"([\d.]+) \+- ([\d.]+) % of the light of LED 'hand'", text)
+                if named is None:
+                    continue
+                accused += planted == 0.0
+                found += planted > 0.0
+                off += planted > 0.0 and abs(float(named[1]) - planted) > 4 * float(named[2]) + 0.01  # of two digits
+    row(accused == 0, f"crosstalk of {len(seeds)} rigs without any: cameras accused", "0", accused)
+    row(found == 2 * len(seeds) and off == 0, f"crosstalk of {percent:g} %: found within 4 SD", f"{2 * len(seeds)} cameras", f"{found} found, {off} beyond")
+
+
 def main():
     with tempfile.TemporaryDirectory(dir=os.environ.get("KINEMARK_SCRATCH")) as scratch:
         folder = Path(scratch)
@@ -285,6 +304,7 @@ def main():
         kills(folder, 200 if ALL else 6)
         memory(folder)
         downstream(folder)
+        crosstalk(range(33601, 33661) if ALL else (1, 2))
         if ALL and shutil.which("cc"):
             clock_set_back(folder)
     return exit_status()
