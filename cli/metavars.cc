@@ -21,7 +21,7 @@ struct Values {
 constexpr std::array kValues = {
     Values{"FILE IN MOTION INPUT OUT output model markers static setup tasks forces rig nominal data report "
            "figures "
-           "segments skeleton edits joints record certificate key orientations calibration",
+           "segments skeleton edits joints record certificate key orientations calibration plan",
            "FILE"},
     Values{"out man-pages geometry", "FOLDER"},
     Values{"rate cutoff half-gain resample", "HZ"},

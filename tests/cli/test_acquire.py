@@ -70,6 +70,13 @@ class Acquire(CommandTest):
         self.assertIn("was changed since it was recorded", ran.err)
         self.assertNotIn("recordings are those of MANIFEST", ran.err)
 
+    def test_a_trial_of_a_session_is_replayed_into_it(self):
+        self.assertEqual(self.acquire(FAST, "--session", "day1", "--frames", 50, "--trial", "a").status, 0)
+        before = (self.folder / "day1" / "raw" / "a.mcap").read_bytes()
+        self.assertEqual(self.acquire("replay:day1/raw/a.mcap?fast", "--session", "day1", "--trial", "a", "--force").status, 0)
+        self.assertEqual((self.folder / "day1" / "raw" / "a.mcap").read_bytes(), before)
+        self.assertEqual(run("validate", "day1", cwd=self.folder).status, 0)
+
     def test_a_session_is_refused_where_it_makes_no_sense(self):
         (self.folder / "photos").mkdir()
         (self.folder / "photos" / "a.jpg").write_text("x")

@@ -20,6 +20,8 @@ ELSEWHERE = {
     "--images": "tried with track",
     "--vsk": "a subject, which cannot be simulated; joints takes one",
     "--edits": "one for all commands that read a recording; tried with convert, joints and edit",
+    "--session": "names what it writes by itself; tried in test_acquire",
+    "--plan": "a figure, in formats that are not read",
     "--config": "of every command",
     "--save-config": "of every command",
     "--tasks": "with serve not of a live source, which alone writes; tried with ik",
