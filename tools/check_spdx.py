@@ -16,7 +16,7 @@ import sys
 import tomllib
 from pathlib import Path, PurePosixPath
 
-SOURCE_ENDINGS = {".h", ".c", ".cc", ".in", ".py", ".ts", ".js", ".css", ".sh", ".cmake", ".map", ".dox"}
+SOURCE_ENDINGS = {".h", ".m", ".c", ".cc", ".in", ".py", ".ts", ".js", ".css", ".sh", ".cmake", ".map", ".dox"}
 SOURCE_NAMES = {"CMakeLists.txt", "Makefile", ".clang-tidy"}
 COPYRIGHT = "SPDX-FileCopyrightText: 2026 The kinemark authors"
 LICENCE = re.compile(r"SPDX-License-Identifier: (\S.*?)(?: \*/| -->)?$")

@@ -90,9 +90,10 @@ TEST(RunFile, IsReadFromTheDiskAsFromText) {
 TEST(RunFile, StepsThatAreNone) {
   EXPECT_THAT(error_of(kSubject), HasSubstr("s.toml: steps is missing"));
   EXPECT_THAT(error_of("steps = []\n" + std::string(kSubject)), HasSubstr("steps is empty"));
-  EXPECT_THAT(error_of("steps = [\"cleen\"]\n" + std::string(kSubject)),
-              HasSubstr("'cleen' is none; need some of joints, scale, reconstruct, clean, ik, track, analyze, "
-                        "report; did you mean clean"));
+  EXPECT_THAT(
+      error_of("steps = [\"cleen\"]\n" + std::string(kSubject)),
+      HasSubstr("'cleen' is none; need some of joints, scale, reconstruct, clean, ik, track, analyze, "
+                "report; did you mean clean"));
   EXPECT_THAT(error_of("steps = \"clean\"\n" + std::string(kSubject)), HasSubstr("a list of texts"));
 }
 
