@@ -13,9 +13,6 @@ namespace {
 
 using Lines = std::vector<TrialNote>;
 
-constexpr double kLeastLightShare =
-    0.03;  // of the codes, all channels together: an LED that shines gives more
-
 void add_stillness(const Recorded& recorded, const data::Counts& layout, Lines& out) {
   std::vector<double> sd;
   std::size_t still = 0, seen = 0;

@@ -86,8 +86,8 @@ Result<ManifestEntry> parse_entry(std::string_view line, const std::string& name
   const auto behind = line.rfind(kBehind);
   if (!line.starts_with(kSum) || behind == std::string_view::npos || behind < kSum.size())
     return bad_line(name, number, line);
-  const ManifestEntry out{std::string(line.substr(kSum.size(), behind - kSum.size())),
-                          std::string(line.substr(behind + kBehind.size()))};
+  ManifestEntry out{std::string(line.substr(kSum.size(), behind - kSum.size())),
+                    std::string(line.substr(behind + kBehind.size()))};
   const bool digits =
       out.hex.size() == kDigits && out.hex.find_first_not_of("0123456789abcdef") == std::string::npos;
   if (!digits || !is_trial_file(out.file)) return bad_line(name, number, line);
